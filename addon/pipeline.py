@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From surfaces to UV coordinates of their corners: the one function behind operator and batch. No bpy."""
+
+import dataclasses
+
+import numpy as np
+
+from .layout import Placement, fit_placement, pack_disks
+from .surface import Island, Surface, cut_into_islands
+
+
+@dataclasses.dataclass(frozen=True)
+class Task:
+    """A surface to map.
+
+    `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `old_uv` (C, 2) are
+    the UVs of its corners that the placement "keep" goes by.
+    """
+
+    name: str
+    surface: Surface
+    outer: object = "auto"
+    old_uv: np.ndarray = None
+
+
+@dataclasses.dataclass
+class IslandOutcome:
+    """What became of one island: a result of `koebe.uniformize` and its place, or an error."""
+
+    island: Island
+    result: object = None
+    error: Exception = None
+    placement: Placement = None
+
+    def uv(self):
+        """UV coordinates (n, 2) of the island's vertices."""
+        return self.placement.apply(self.result.uv)
+
+
+@dataclasses.dataclass
+class SurfaceOutcome:
+    """What became of one surface."""
+
+    task: Task
+    islands: list
+
+    @property
+    def name(self):
+        """Name of the surface's object."""
+        return self.task.name
+
+    @property
+    def mapped(self):
+        """The islands that have a result."""
+        return [outcome for outcome in self.islands if outcome.error is None]
+
+    @property
+    def failed(self):
+        """The islands that have an error."""
+        return [outcome for outcome in self.islands if outcome.error is not None]
+
+    @property
+    def converged(self):
+        """Whether every mapped island reached the tolerance."""
+        return all(outcome.result.converged for outcome in self.mapped)
+
+    def corner_uv(self):
+        """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
+        corners = [outcome.island.corners for outcome in self.mapped]
+        uv = [outcome.uv()[outcome.island.corner_vertex] for outcome in self.mapped]
+        return np.concatenate(corners), np.concatenate(uv).astype(np.float32)
+
+
+def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
+    """Map every island of every task's surface to its circle domain and lay the islands out.
+
+    `koebe` is the native package; `progress(fraction,
+    stage)` is called on this thread; `cancel` is a `koebe.CancelToken`, and `koebe.Cancelled` ends
+    everything. Other `koebe.KoebeError`s are kept as the outcome of their island.
+    """
+    cut = [cut_into_islands(task.surface) for task in tasks]
+    total = sum(len(island.triangles) for islands in cut for island in islands)
+    done = 0
+    outcomes = []
+    for task, islands in zip(tasks, cut, strict=True):
+        outcome = SurfaceOutcome(task, [])
+        for island in islands:
+            share = _share_of(progress, done, len(island.triangles), total)
+            outer = _outer_loop(island, task.outer)
+            outcome.islands.append(_map_island(koebe, island, outer, options, share, cancel))
+            done += len(island.triangles)
+        outcomes.append(outcome)
+    _lay_out(outcomes, options)
+    return outcomes
+
+
+def _share_of(progress, done, part, total):
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress((done + fraction * part) / total, stage)
+
+
+def _map_island(koebe, island, outer, options, progress, cancel):
+    try:
+        result = koebe.uniformize(
+            island.vertices,
+            island.triangles,
+            outer=outer,
+            progress=progress,
+            cancel=cancel,
+            **options.solver_arguments(),
+        )
+    except koebe.Cancelled:
+        raise
+    except koebe.KoebeError as error:
+        return IslandOutcome(island, error=error)
+    return IslandOutcome(island, result=result)
+
+
+def _outer_loop(island, outer):
+    """The solver's `outer` for this island: a vertex counts only for the island that has it."""
+    if isinstance(outer, str):
+        return outer
+    here = np.flatnonzero(island.source_vertex == outer)
+    return int(here[0]) if len(here) else "auto"
+
+
+def _lay_out(outcomes, options):
+    """Give every mapped island its placement."""
+    if options.placement == "together":
+        _pack([one for outcome in outcomes for one in outcome.mapped], options.margin)
+        return
+    for outcome in outcomes:
+        if not (options.placement == "keep" and _keep_places(outcome)):
+            _pack(outcome.mapped, options.margin)
+
+
+def _pack(group, margin):
+    if len(group) == 1:
+        group[0].placement = Placement()
+    elif group:
+        sizes = [_natural_radius(one.island, one.result.uv) for one in group]
+        for one, placement in zip(group, pack_disks(sizes, margin), strict=True):
+            one.placement = placement
+
+
+def _keep_places(outcome):
+    """Place every island where it was, or none: whether all of them had a place."""
+    if outcome.task.old_uv is None:
+        return False
+    placements = [
+        fit_placement(one.result.uv[one.island.corner_vertex], outcome.task.old_uv[one.island.corners])
+        for one in outcome.mapped
+    ]
+    if any(placement is None for placement in placements):
+        return False
+    for one, placement in zip(outcome.mapped, placements, strict=True):
+        one.placement = placement
+    return True
+
+
+def _natural_radius(island, uv):
+    """Radius of the disk at which the island's mean texel density is one."""
+    space = island.vertices[island.triangles].astype(np.float64)
+    cross = np.cross(space[:, 1] - space[:, 0], space[:, 2] - space[:, 0])
+    plane = uv[island.triangles]
+    one, two = plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0]
+    in_space = np.linalg.norm(cross, axis=1).sum()
+    in_disk = np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()
+    return float(np.sqrt(in_space / in_disk))

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets of the panel's options, and back to the defaults."""
+
+import bpy
+from bl_operators.presets import AddPresetBase
+from bl_ui.utils import PresetPanel
+
+from .properties import OPTION_NAMES
+
+FOLDER = "koebe_uv"
+
+
+class KOEBE_PT_presets(PresetPanel, bpy.types.Panel):
+    """The list behind the button in the panel's header."""
+
+    bl_label = "Koebe UV Presets"
+    preset_subdir = FOLDER
+    preset_operator = "script.execute_preset"
+    preset_add_operator = "uv.koebe_preset_add"
+
+
+class KOEBE_MT_presets(bpy.types.Menu):
+    """What `AddPresetBase` names the active preset by."""
+
+    bl_label = "Koebe UV Presets"
+    preset_subdir = FOLDER
+    preset_operator = "script.execute_preset"
+    draw = bpy.types.Menu.draw_preset
+
+
+class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
+    """Keep the options of the panel under a name, or remove a preset"""
+
+    bl_idname = "uv.koebe_preset_add"
+    bl_label = "Add Koebe UV Preset"
+    preset_menu = "KOEBE_MT_presets"
+    preset_subdir = FOLDER
+    preset_defines = ["settings = bpy.context.scene.koebe_uv"]
+    preset_values = [f"settings.{name}" for name in OPTION_NAMES]
+
+
+class UV_OT_koebe_reset(bpy.types.Operator):
+    """Give all options of the panel their default values"""
+
+    bl_idname = "uv.koebe_reset"
+    bl_label = "Reset to Defaults"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        for name in OPTION_NAMES:
+            context.scene.koebe_uv.property_unset(name)
+        return {"FINISHED"}
+
+
+CLASSES = (KOEBE_PT_presets, KOEBE_MT_presets, UV_OT_koebe_preset_add, UV_OT_koebe_reset)
+
+
+def register():
+    """Register the presets."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    """Undo `register`."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Outcomes in words and as JSON. No bpy."""
+
+import numpy as np
+
+# What an artist can do about each kind of `koebe.TopologyError`.
+ADVICE = {
+    "closed": "mark a seam or delete a face, so that it has a boundary",
+    "genus": "mark a seam along each handle, so that it opens",
+    "nonmanifold_edge": "delete the surplus faces or mark those edges as seams",
+    "nonmanifold_vertex": "split those vertices",
+    "nonorientable": "one-sided, like a Möbius strip: mark a seam across it",
+}
+
+
+def result_line(outcome):
+    """One line on a surface: loops, sweeps, roundness, angle error, flips, seconds."""
+    results = [one.result for one in outcome.mapped]
+    triangles = np.array([len(one.island.triangles) for one in outcome.mapped], dtype=float)
+    angle = sum(r.angle_error_deg["mean"] * t for r, t in zip(results, triangles)) / triangles.sum()
+    words = [
+        _counted(sum(len(r.loops) for r in results), "loop"),
+        _counted(max(r.sweeps for r in results), "sweep"),
+        f"roundness {max(float(np.max(r.roundness)) for r in results):.1e}",
+        f"angle error {angle:.2f}°",
+        _counted(sum(r.flipped for r in results), "flip"),
+        f"{sum(r.seconds['total'] for r in results):.2f} s",
+    ]
+    if len(results) > 1:
+        words.insert(0, _counted(len(results), "island"))
+    if not outcome.converged:
+        words.append("NOT CONVERGED")
+    return f"{outcome.name}: {', '.join(words)}"
+
+
+def failure_line(outcome):
+    """One line on the islands of a surface that could not be mapped: how many and why."""
+    failed = outcome.failed
+    reasons = {}
+    for one in failed:
+        reasons.setdefault(explain(one.error), []).append(one)
+    text = "; ".join(
+        reason if len(ones) == 1 else f"{len(ones)} times: {reason}"
+        for reason, ones in reasons.items()
+    )
+    count = "" if len(outcome.islands) == 1 else f"{len(failed)} of {len(outcome.islands)} islands: "
+    return f"{outcome.name}: {count}{text}"
+
+
+def explain(error):
+    """Why the solver refused, and what to do about it."""
+    advice = ADVICE.get(getattr(error, "kind", None))
+    return str(error) if advice is None else f"{error} ({advice})"
+
+
+def entries(outcome):
+    """One dict per island: `result.to_dict()` in the mesh's vertex numbers, or the error."""
+    return [_entry(outcome.name, index, one) for index, one in enumerate(outcome.islands)]
+
+
+def _entry(name, index, one):
+    entry = {"object": name, "island": index, "island_faces": len(one.island.faces)}
+    if one.error is not None:
+        error = {"name": type(one.error).__name__, "reason": str(one.error)}
+        kind = getattr(one.error, "kind", None)
+        if kind is not None:
+            error["kind"] = kind
+            error["count"] = len(one.error.elements)
+        return {**entry, "error": error}
+    result = one.result.to_dict()
+    source = one.island.source_vertex
+    for loop in result["loops"]:
+        for key in ("vertices", "off_circle"):
+            loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()
+    return {**result, **entry, "placement": one.placement.to_dict()}
+
+
+def _counted(count, noun):
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The last run's report, island by island, kept with the window manager for the panel to show."""
+
+import json
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from .offenders import flipped_faces, offending_elements
+from .report import explain
+
+
+class KoebeLoopReport(bpy.types.PropertyGroup):
+    """A boundary loop of an island."""
+
+    vertices: StringProperty(description="Vertices of the mesh along the loop, as JSON")
+    radius: FloatProperty(description="Radius of its circle in the unit disk")
+    roundness: FloatProperty(description="Deviation from a circle before the last step, as in the paper")
+
+
+class KoebeIslandReport(bpy.types.PropertyGroup):
+    """An island of the last run."""
+
+    object_name: StringProperty(description="Name of the object whose island this is")
+    island: IntProperty(description="Number of the island among those of its object")
+    mapped: BoolProperty(description="Whether the island has UVs now")
+    converged: BoolProperty(description="Whether the tolerance was reached")
+    message: StringProperty(description="Why the island could not be mapped, or what to watch out for")
+    offenders: StringProperty(description="Kind and numbers of the elements at fault, as JSON")
+    layer: StringProperty(description="UV layer that was written")
+    sweeps: IntProperty(description="Sweeps over all holes")
+    angle_error: FloatProperty(description="Mean difference of the angles on the surface and in the UVs, degrees")
+    roundness: FloatProperty(description="Largest deviation from a circle before the last step")
+    flipped: IntProperty(description="Triangles that are turned over in the UVs")
+    flipped_faces: StringProperty(description="Their faces, as JSON")
+    seconds: FloatProperty(description="Time of the computation")
+    loops: CollectionProperty(type=KoebeLoopReport, description="Boundary loops, the outer one first")
+
+
+class KoebeReport(bpy.types.PropertyGroup):
+    """The last run."""
+
+    islands: CollectionProperty(type=KoebeIslandReport, description="Islands of the last run")
+    active: IntProperty(name="Island", description="Island whose details are shown")
+
+
+def record(context, job):
+    """Replace the report by that of a job that has run."""
+    report = context.window_manager.koebe_uv
+    report.islands.clear()
+    report.active = 0
+    for obj, task, outcome in zip(job.objects, job.tasks, job.outcomes, strict=True):
+        for index, one in enumerate(outcome.islands):
+            entry = report.islands.add()
+            entry.object_name, entry.island, entry.layer = obj.name, index, job.options.layer
+            if one.error is None:
+                _record_result(entry, one)
+            else:
+                entry.message = explain(one.error)
+                kind, elements = offending_elements(task.surface, one)
+                entry.offenders = json.dumps([kind, elements.tolist()])
+
+
+def _record_result(entry, one):
+    result = one.result
+    entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
+    entry.angle_error = result.angle_error_deg["mean"]
+    entry.roundness = float(result.roundness.max())
+    entry.flipped, entry.seconds = result.flipped, result.seconds["total"]
+    entry.flipped_faces = json.dumps(flipped_faces(one.island, one.uv()).tolist())
+    entry.message = "; ".join(result.warnings)
+    for vertices, radius, roundness in zip(result.loops, result.radii, result.roundness, strict=True):
+        loop = entry.loops.add()
+        loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
+        loop.radius, loop.roundness = float(radius), float(roundness)
+
+
+CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)
+
+
+def register():
+    """Register the report and hang it on the window manager, which no file keeps and no undo changes."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.WindowManager.koebe_uv = PointerProperty(type=KoebeReport)
+
+
+def unregister():
+    """Undo `register`."""
+    del bpy.types.WindowManager.koebe_uv
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygon surfaces as arrays, and their islands once the seams are cut. No bpy.
+
+Words: a *corner* is one vertex of one face (Blender calls it a loop; here a loop is a boundary loop).
+"""
+
+import dataclasses
+
+import numpy as np
+
+from .components import connected_components
+
+
+@dataclasses.dataclass(frozen=True)
+class Surface:
+    """A polygon mesh: V vertices, E edges, P faces, C corners, T triangles.
+
+    positions        (V, 3) float, world space without translation
+    corner_vertex    (C,) vertex of each corner, the corners of a face in a row and in its order
+    corner_edge      (C,) edge from each corner to the next one of its face
+    face_start       (P,) first corner of each face
+    face_size        (P,) number of corners of each face
+    seam             (E,) bool, edges to cut along
+    selected         (P,) bool, faces to map
+    triangle_corners (T, 3) corners of each triangle of the triangulated faces
+    triangle_face    (T,) face of each triangle
+    """
+
+    positions: np.ndarray
+    corner_vertex: np.ndarray
+    corner_edge: np.ndarray
+    face_start: np.ndarray
+    face_size: np.ndarray
+    seam: np.ndarray
+    selected: np.ndarray
+    triangle_corners: np.ndarray
+    triangle_face: np.ndarray
+
+
+@dataclasses.dataclass(frozen=True)
+class Island:
+    """A piece of a surface that no seam divides: n vertices, t triangles, c corners.
+
+    A vertex that the cut passes through is here once for every side of the cut. Vertices keep the
+    order of the surface, so that an uncut surface is its own island, array for array.
+
+    vertices      (n, 3) positions
+    triangles     (t, 3) int32, indices into `vertices`
+    triangle_face (t,) face of the surface
+    source_vertex (n,) vertex of the surface
+    corners       (c,) corners of the surface
+    corner_vertex (c,) vertex of the island at each of `corners`
+    faces         faces of the surface
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    triangle_face: np.ndarray
+    source_vertex: np.ndarray
+    corners: np.ndarray
+    corner_vertex: np.ndarray
+    faces: np.ndarray
+
+
+def cut_into_islands(surface):
+    """Islands of the selected faces, cut along seams, in the order of their first faces.
+
+    Faces are neighbours if they share an edge that is no seam; corners are one vertex if they meet
+    at the end of such an edge. So surfaces that touch in a vertex only come apart there. Edges with
+    three or more faces stay as they are, unless they are seams: the solver names them.
+    """
+    corner_face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
+    corners = np.flatnonzero(surface.selected[corner_face]).astype(np.int32)
+    here, there = _neighbours(surface, corners)
+    next_corner = _next_corners(surface)
+    joined = _same_vertex(surface.corner_vertex, next_corner, here, there)
+    corner_root = connected_components(len(surface.corner_vertex), *joined)
+    face_root = connected_components(len(surface.face_size), corner_face[here], corner_face[there])
+    return _split(surface, corners, corner_face, corner_root, face_root)
+
+
+def _next_corners(surface):
+    following = np.arange(1, len(surface.corner_vertex) + 1, dtype=np.int32)
+    following[surface.face_start + surface.face_size - 1] = surface.face_start
+    return following
+
+
+def _neighbours(surface, corners):
+    """Pairs of corners whose edges are the same edge of two faces, and no seam."""
+    corners = corners[~surface.seam[surface.corner_edge[corners]]]
+    edges = surface.corner_edge[corners]
+    uses = np.bincount(edges, minlength=len(surface.seam))
+    # Of several writes to one place the last stays.
+    last = np.zeros(len(surface.seam), dtype=np.int32)
+    last[edges] = corners
+    first = np.zeros(len(surface.seam), dtype=np.int32)
+    first[edges[::-1]] = corners[::-1]
+    shared = np.flatnonzero(uses == 2)
+    here, there = first[shared], last[shared]
+    crowded = uses[edges] > 2
+    if crowded.any():
+        of_crowded = corners[crowded]
+        anchor = first[surface.corner_edge[of_crowded]]
+        here, there = np.append(here, anchor), np.append(there, of_crowded)
+    return here, there
+
+
+def _same_vertex(corner_vertex, next_corner, here, there):
+    """Pairs of corners at the two ends of the edges here—there that are one vertex."""
+    opposed = corner_vertex[here] != corner_vertex[there]
+    start = np.where(opposed, next_corner[there], there)
+    end = np.where(opposed, there, next_corner[there])
+    return np.append(here, next_corner[here]), np.append(start, end)
+
+
+def _split(surface, corners, corner_face, corner_root, face_root):
+    roots = np.flatnonzero(np.bincount(corner_root[corners], minlength=len(corner_root)))
+    islands, face_island = np.unique(face_root[surface.selected], return_inverse=True)
+    island_of_face = np.full(len(face_root), -1)
+    island_of_face[surface.selected] = face_island
+
+    root_island = island_of_face[corner_face[roots]]
+    root_vertex = surface.corner_vertex[roots]
+    order = np.lexsort((roots, root_vertex, root_island))
+    roots, root_island, root_vertex = roots[order], root_island[order], root_vertex[order]
+    rank = np.zeros(len(corner_root), dtype=np.int32)
+    rank[roots] = np.arange(len(roots), dtype=np.int32)
+    vertex_of_corner = rank[corner_root]
+
+    count = len(islands)
+    triangles = np.flatnonzero(surface.selected[surface.triangle_face])
+    triangle_groups = _groups(island_of_face[surface.triangle_face[triangles]], triangles, count)
+    corner_groups = _groups(island_of_face[corner_face[corners]], corners, count)
+    faces = np.flatnonzero(surface.selected)
+    face_groups = _groups(island_of_face[faces], faces, count)
+    first_vertex = np.searchsorted(root_island, np.arange(count + 1))
+
+    result = []
+    for i in range(count):
+        begin, end = first_vertex[i], first_vertex[i + 1]
+        corner_ids = surface.triangle_corners[triangle_groups[i]]
+        result.append(
+            Island(
+                vertices=surface.positions[root_vertex[begin:end]],
+                triangles=(vertex_of_corner[corner_ids] - begin).astype(np.int32),
+                triangle_face=surface.triangle_face[triangle_groups[i]],
+                source_vertex=root_vertex[begin:end],
+                corners=corner_groups[i],
+                corner_vertex=vertex_of_corner[corner_groups[i]] - begin,
+                faces=face_groups[i],
+            )
+        )
+    return result
+
+
+def _groups(keys, values, count):
+    """`values` with key 0, those with key 1, …, each in their order."""
+    if count == 1:
+        return [values]
+    order = np.argsort(keys, kind="stable")
+    ends = np.cumsum(np.bincount(keys, minlength=count))
+    return np.split(values[order], ends[:-1])

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender mesh -> arrays -> UV layer. Reads everything, writes nothing but one UV layer's coordinates."""
+
+import bmesh
+import numpy as np
+
+from . import compat
+from .surface import Surface
+
+MAX_UV_LAYERS = 8  # Blender's limit
+
+
+class TransferError(Exception):
+    """A mesh that cannot be read or a UV layer that cannot be written."""
+
+
+def read_surface(obj, selected_only):
+    """The object's mesh as a `Surface`, in world space but for the translation.
+
+    In Edit Mode the mesh's arrays are brought up to date first. With `selected_only` the surface is
+    that of the selected faces. A mirrored object keeps its face order: lengths and angles are those
+    of the world, and the UVs stay counter-clockwise in the mesh's own order.
+    """
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+    mesh = obj.data
+    mesh.calc_loop_triangles()
+    triangles = mesh.loop_triangles
+    return Surface(
+        positions=_world_positions(obj),
+        corner_vertex=_read(mesh.loops, "vertex_index", np.int32),
+        corner_edge=_read(mesh.loops, "edge_index", np.int32),
+        face_start=_read(mesh.polygons, "loop_start", np.int32),
+        face_size=_read(mesh.polygons, "loop_total", np.int32),
+        seam=_read(mesh.edges, "use_seam", bool),
+        selected=_selected_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
+        triangle_corners=_read(triangles, "loops", np.int32, 3),
+        triangle_face=_read(triangles, "polygon_index", np.int32),
+    )
+
+
+def _selected_faces(mesh):
+    return _read(mesh.polygons, "select", bool) & ~_read(mesh.polygons, "hide", bool)
+
+
+def _world_positions(obj):
+    positions = _read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
+    to_world = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
+    if np.array_equal(to_world, np.eye(3)):
+        return positions
+    return positions @ to_world.T
+
+
+def _read(collection, name, dtype, width=1):
+    values = np.empty(len(collection) * width, dtype=dtype)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def read_uv(obj, layer_name):
+    """UVs (C, 2) of the layer of that name, or else of the active one, or None. Not in Edit Mode."""
+    layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
+    return None if layer is None else compat.corner_uv(layer)
+
+
+def active_vertex(obj):
+    """Index of the active vertex of an object in Edit Mode, or None."""
+    if obj.mode != "EDIT":
+        return None
+    active = bmesh.from_edit_mesh(obj.data).select_history.active
+    return active.index if isinstance(active, bmesh.types.BMVert) else None
+
+
+def check_writable(obj, surface, layer_name):
+    """Raise TransferError unless the UV layer can be written, or made, for the surface that was read.
+
+    Call it for all objects before the first `write_uv`, so that all are written or none.
+    """
+    mesh = obj.data
+    if mesh.library is not None:
+        raise TransferError(f"{obj.name}: its mesh is linked from another file: make it local first")
+    if len(mesh.loops) != len(surface.corner_vertex):
+        raise TransferError(f"{obj.name}: its mesh has changed in the meantime")
+    if layer_name in mesh.uv_layers:
+        return
+    if len(mesh.uv_layers) >= MAX_UV_LAYERS:
+        raise TransferError(
+            f"{obj.name}: it has {MAX_UV_LAYERS} UV layers, which is all that Blender allows: delete one"
+        )
+    if layer_name in mesh.attributes:
+        raise TransferError(
+            f"{obj.name}: the attribute {layer_name!r} is no UV layer: choose another layer name"
+        )
+
+
+def write_uv(obj, layer_name, corners, uv):
+    """Set the UVs (m, 2) of `corners` (m,) in the layer of that name, make it if missing, make it active.
+
+    All other corners keep their UVs; in a new layer they are zero. Not in Edit Mode.
+    """
+    layers = obj.data.uv_layers
+    layer = layers.get(layer_name)
+    if layer is None:
+        layer = layers.new(name=layer_name, do_init=False)
+        values = np.zeros((len(obj.data.loops), 2), dtype=np.float32)
+    else:
+        values = compat.corner_uv(layer)
+    values[corners] = uv
+    compat.set_corner_uv(layer, values)
+    layers.active = layer
+    obj.data.update()

@@ -1,0 +1,115 @@
+// Times uniformize against one Laplacian solve of the same mesh, turn by turn in one process, and prints JSON.
+//
+//   koebe_bench MESH RUNS ENGINE METHOD
+//
+// MESH is a file, or enneper:FACES for five known circles on Enneper's surface (tests/native/circle_domain.h): then
+// "circle_error", the relative error of the inversive distances, is printed too.
+//
+// The unit of time is what any linear conformal map costs at least: assemble the cotan Laplacian, order it by AMD,
+// factor it (supernodal) and solve for two columns.
+#include "circle_domain.h"
+#include "conformal/uniformize.h"
+#include "core/topology.h"
+#include "geometry/dense_spd.h"
+#include "geometry/laplacian.h"
+#include "geometry/sparse_cholesky.h"
+#include "io/mesh_reader.h"
+#include "io/polygon_triangulation.h"
+#include "report/json.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+using namespace koebe;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// One assemble + AMD + supernodal factor + two-column solve; the boundary is given, as in a harmonic map.
+double time_laplacian(const Vertices& vertices, const Triangles& triangles, const std::vector<char>& fixed)
+{
+    const DenseThreads all_cores(0);
+    const auto start = std::chrono::steady_clock::now();
+    const SparseMatrix laplacian = cotan_laplacian(
+        triangles, half_cotangents(edge_lengths(vertices, triangles)), static_cast<Index>(vertices.rows()));
+    const DirichletSolver solver(laplacian, fixed);
+    const MatrixXd solution = solver.solve(vertices.leftCols<2>());
+    const double seconds = seconds_since(start);
+    if (!solution.allFinite()) throw SolverError("the reference solve failed");
+    return seconds;
+}
+
+struct Input {
+    Vertices vertices;
+    Triangles triangles;
+    std::vector<Circle> known_circles;  // in the order of known_loops; empty for a file
+    std::vector<VertexLoop> known_loops;
+};
+
+Input read_input(const std::string& name)
+{
+    const std::string prefix = "enneper:";
+    if (name.rfind(prefix, 0) == 0) {
+        const test::CircleDomain domain = test::make_circle_domain(
+            test::five_circles(), static_cast<Index>(std::stol(name.substr(prefix.size()))));
+        return {test::lift(domain.points, test::Lift::enneper), domain.triangles, domain.circles, domain.loops};
+    }
+    PolygonMesh file = read_mesh(name);
+    Triangles triangles = triangulate(file).triangles;
+    return {std::move(file.vertices), std::move(triangles), {}, {}};
+}
+
+double circle_error(const Input& input, const UniformizeResult& result)
+{
+    std::vector<Circle> found;
+    for (const VertexLoop& loop : input.known_loops)
+        for (const LoopReport& report : result.loops)
+            if (std::find(report.vertices.begin(), report.vertices.end(), loop.front()) != report.vertices.end())
+                found.push_back(report.circle);
+    return test::inversive_distance_error(found, input.known_circles);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc != 5) {
+        std::cerr << "usage: koebe_bench MESH RUNS condensed|mesh gk|ck\n";
+        return 2;
+    }
+    try {
+        const Input input = read_input(argv[1]);
+        const Surface surface =
+            require_bordered_genus_zero(input.triangles, static_cast<Index>(input.vertices.rows()));
+        const std::vector<char> fixed = boundary_mask(surface);
+        UniformizeOptions options;
+        options.engine = std::string(argv[3]) == "mesh" ? Engine::mesh : Engine::condensed;
+        options.method = std::string(argv[4]) == "ck" ? Method::ck : Method::gk;
+
+        nlohmann::ordered_json runs = nlohmann::json::array();
+        for (int run = 0; run <= std::atoi(argv[2]); ++run) {
+            const double reference = time_laplacian(input.vertices, surface.triangles, fixed);
+            ExecutionContext context;
+            const auto start = std::chrono::steady_clock::now();
+            const UniformizeResult result = uniformize(input.vertices, input.triangles, options, context);
+            const double seconds = seconds_since(start);
+            if (run == 0) continue;  // warms up
+            auto report = to_json(result);
+            for (auto& loop : report["loops"]) loop["vertices"] = loop["vertices"].size();
+            runs.push_back({{"laplacian_seconds", reference}, {"seconds", seconds}, {"report", report}});
+            if (!input.known_circles.empty()) runs.back()["circle_error"] = circle_error(input, result);
+        }
+        std::cout << runs.dump() << '\n';
+    } catch (const KoebeError& error) {
+        std::cerr << error.name() << ": " << error.what() << '\n';
+        return 3;
+    }
+    return 0;
+}

@@ -1,0 +1,29 @@
+#include "cli/interrupt.h"
+
+#include <csignal>
+
+namespace koebe::cli {
+namespace {
+
+CancelToken* signalled = nullptr;  // what a signal handler can reach; its flag is lock-free
+
+void raise_token(int) { signalled->cancel(); }
+
+}  // namespace
+
+CancelToken cancel_on_signal()
+{
+    static CancelToken token;
+    signalled = &token;
+    struct sigaction action{};
+    action.sa_handler = raise_token;
+    action.sa_flags = SA_RESETHAND | SA_RESTART;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction old{};
+        sigaction(signal, nullptr, &old);
+        if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
+    }
+    return token;
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,11 @@
+// Ctrl-C and a polite kill stop the computation at its next checkpoint.
+#pragma once
+
+#include "core/execution.h"
+
+namespace koebe::cli {
+
+/// A token that SIGINT, SIGTERM and SIGHUP raise. A second signal ends the process at once.
+CancelToken cancel_on_signal();
+
+}  // namespace koebe::cli

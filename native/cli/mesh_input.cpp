@@ -1,0 +1,38 @@
+#include "cli/mesh_input.h"
+
+#include "core/errors.h"
+#include "io/mesh_reader.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace koebe::cli {
+
+MeshInput read_mesh_input(const std::filesystem::path& path)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    MeshInput input;
+    input.polygons = read_mesh(path);
+    input.triangulation = triangulate(input.polygons);
+    const std::vector<Index>& collapsed = input.triangulation.collapsed;
+    if (!collapsed.empty())
+        input.warnings.push_back("faces of fewer than three different vertices, passed over: " +
+                                 std::to_string(collapsed.size()) + "; the first is " +
+                                 std::to_string(collapsed.front()));
+    if (input.triangulation.triangles.rows() == 0)
+        throw InputError("no face has three different vertices", collapsed);
+    input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return input;
+}
+
+std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles)
+{
+    std::vector<Index> faces;
+    faces.reserve(triangles.size());
+    for (const Index t : triangles) faces.push_back(triangulation.face[static_cast<std::size_t>(t)]);
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,39 @@
+// The input file of every sub-command: as filed, and as triangles.
+#pragma once
+
+#include "core/errors.h"
+#include "io/polygon_mesh.h"
+#include "io/polygon_triangulation.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace koebe::cli {
+
+struct MeshInput {
+    PolygonMesh polygons;
+    Triangulation triangulation;
+    std::vector<std::string> warnings;
+    double seconds = 0.0;  ///< to read and triangulate
+};
+
+/// @throws FileError, InputError
+MeshInput read_mesh_input(const std::filesystem::path& path);
+
+/// Faces of the triangulation to faces of the file, each once.
+std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
+
+/// Calls compute(), and makes an error's faces those of the file.
+template <typename Compute>
+auto with_filed_faces(const MeshInput& input, Compute&& compute)
+{
+    try {
+        return compute();
+    } catch (const TopologyError& error) {
+        if (error.kind() != TopologyKind::disconnected) throw;
+        throw TopologyError(error.kind(), error.what(), filed_faces(input.triangulation, error.elements()));
+    }
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,18 @@
+// A sub-command: its options and what runs after they are parsed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+namespace koebe::cli {
+
+struct Subcommand {
+    CLI::App* options;
+    std::function<int()> run;  ///< returns an ExitCode; errors are thrown
+};
+
+Subcommand add_fill(CLI::App& app);
+Subcommand add_uniformize(CLI::App& app);
+
+}  // namespace koebe::cli

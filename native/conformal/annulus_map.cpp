@@ -1,0 +1,157 @@
+#include "conformal/annulus_map.h"
+
+#include "core/connectivity.h"
+#include "core/errors.h"
+#include "geometry/sparse_cholesky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+/// Half-edges by origin, in one array.
+struct OutgoingHalfedges {
+    OutgoingHalfedges(const Triangles& triangles, Index vertex_count)
+        : begin(vertex_count + 1, 0), halfedges(triangles.size())
+    {
+        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) ++begin[origin(triangles, h) + 1];
+        for (Index v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
+        std::vector<Index> cursor(begin.begin(), begin.end() - 1);
+        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) halfedges[cursor[origin(triangles, h)]++] = h;
+    }
+    std::vector<Index> begin, halfedges;
+};
+
+/// Dijkstra (1959) from all of the outer loop to the nearest vertex of the inner one.
+std::vector<Index> shortest_cut(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                                const VertexLoop& outer, const VertexLoop& inner)
+{
+    const OutgoingHalfedges outgoing(triangles, vertex_count);
+    std::vector<char> goal(vertex_count, 0);
+    for (const Index v : inner) goal[v] = 1;
+    std::vector<double> distance(vertex_count, std::numeric_limits<double>::infinity());
+    std::vector<Index> arrival(vertex_count, -1);
+    using Entry = std::pair<double, Index>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const Index v : outer) {
+        distance[v] = 0.0;
+        queue.emplace(0.0, v);
+    }
+    while (!queue.empty()) {
+        const auto [reached, v] = queue.top();
+        queue.pop();
+        if (reached > distance[v]) continue;
+        if (goal[v]) {
+            std::vector<Index> cut;
+            for (Index u = v; arrival[u] >= 0; u = origin(triangles, arrival[u])) cut.push_back(arrival[u]);
+            std::reverse(cut.begin(), cut.end());
+            return cut;
+        }
+        for (Index i = outgoing.begin[v]; i < outgoing.begin[v + 1]; ++i) {
+            const Index h = outgoing.halfedges[i];
+            const Index w = target(triangles, h);
+            const double length = reached + lengths.data()[h];
+            if (length < distance[w]) {
+                distance[w] = length;
+                arrival[w] = h;
+                queue.emplace(length, w);
+            }
+        }
+    }
+    throw TopologyError(TopologyKind::disconnected, "no path joins the two loops (vertices of the inner one listed)",
+                        inner);
+}
+
+/// g0: 1 at the corners of the path's vertices to the right of the path.
+VectorXd jump_across(const Triangles& triangles, const std::vector<Index>& twin, const std::vector<Index>& cut)
+{
+    VectorXd g0 = VectorXd::Zero(triangles.size());
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        // Clockwise round the path's vertex, from the edge that leaves it to the one it came by, or to the boundary.
+        const Index stop = i > 0 ? twin[cut[i - 1]] : no_twin;
+        for (Index h = cut[i]; h != stop && twin[h] != no_twin;) {
+            h = next_halfedge(twin[h]);
+            g0[h] = 1.0;
+        }
+    }
+    // Round the last vertex the other way: counter-clockwise from the edge it came by to the boundary.
+    for (Index h = twin[cut.back()]; h != no_twin; h = twin[previous_halfedge(h)]) g0[h] = 1.0;
+    return g0;
+}
+
+std::vector<char> unused_vertices(const Triangles& triangles, Index vertex_count)
+{
+    std::vector<char> unused(vertex_count, 1);
+    for (Eigen::Index i = 0; i < triangles.size(); ++i) unused[triangles.data()[i]] = 0;
+    return unused;
+}
+
+VectorXd harmonic_between(const SparseMatrix& laplacian, std::vector<char> fixed, const VertexLoop& outer,
+                          const VertexLoop& inner)
+{
+    MatrixXd values = MatrixXd::Zero(laplacian.rows(), 1);
+    for (const Index v : outer) fixed[v] = 1;
+    for (const Index v : inner) {
+        fixed[v] = 1;
+        values(v, 0) = 1.0;
+    }
+    return DirichletSolver(laplacian, fixed).solve(values).col(0);
+}
+
+/// g1 with div (dg0 + dg1) = 0 at every vertex, the boundary's too: K g1 = div dg0, and g1 = 0 at one vertex.
+VectorXd harmonic_correction(const SparseMatrix& laplacian, const std::vector<char>& unused, const VectorXd& load,
+                             Index pinned)
+{
+    // The load sums to 0, so a diagonal added at one vertex changes nothing but the constant.
+    std::vector<Eigen::Triplet<double, Index>> diagonal{{pinned, pinned, laplacian.coeff(pinned, pinned)}};
+    for (Index v = 0; v < static_cast<Index>(unused.size()); ++v)
+        if (unused[v]) diagonal.emplace_back(v, v, 1.0);
+    SparseMatrix added(laplacian.rows(), laplacian.cols());
+    added.setFromTriplets(diagonal.begin(), diagonal.end());
+    const SparseMatrix matrix = laplacian + added;
+    return SparseCholesky(matrix).solve(load).col(0);
+}
+
+/// z = exp(2 pi / k (f + i lambda (g0 + g1))), k = -lambda.
+VectorXcd exponential(const Triangles& triangles, const AnnulusMap& map)
+{
+    constexpr double two_pi = 2.0 * std::numbers::pi;
+    VectorXcd positions = VectorXcd::Zero(map.f.size());
+    for (Index corner = 0; corner < static_cast<Index>(triangles.size()); ++corner) {
+        const Index v = triangles.data()[corner];
+        // Any corner will do: g0 differs by whole turns.
+        positions[v] = std::polar(std::exp(-two_pi / map.lambda * map.f[v]), -two_pi * (map.g0[corner] + map.g1[v]));
+    }
+    return positions;
+}
+
+}  // namespace
+
+AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                       const VertexLoop& outer, const VertexLoop& inner)
+{
+    const EdgeLengths weights = half_cotangents(lengths);
+    const SparseMatrix laplacian = cotan_laplacian(triangles, weights, vertex_count);
+    const std::vector<char> unused = unused_vertices(triangles, vertex_count);
+
+    AnnulusMap map;
+    map.cut = shortest_cut(triangles, lengths, vertex_count, outer, inner);
+    map.f = harmonic_between(laplacian, unused, outer, inner);
+    map.g0 = jump_across(triangles, pair_halfedges(triangles, vertex_count), map.cut);
+    const OneForm dg0 = exterior_derivative_of_corners(map.g0);
+    map.g1 = harmonic_correction(laplacian, unused, divergence(triangles, weights, dg0, vertex_count),
+                                 origin(triangles, map.cut.front()));
+    const OneForm dg = dg0 + exterior_derivative(triangles, map.g1);
+    const OneForm df = exterior_derivative(triangles, map.f);
+    map.lambda = std::sqrt(squared_norm(weights, df) / squared_norm(weights, dg));
+    map.inner_radius = std::exp(-2.0 * std::numbers::pi / map.lambda);
+    map.positions = exponential(triangles, map);
+    return map;
+}
+
+}  // namespace koebe

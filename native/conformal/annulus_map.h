@@ -1,0 +1,40 @@
+// The conformal map of a topological annulus to a round one (paper, section 4.2).
+#pragma once
+
+#include "core/types.h"
+#include "geometry/laplacian.h"
+#include "geometry/one_form.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// The map, and every step of its construction.
+struct AnnulusMap {
+    VectorXcd positions;        ///< (V) |z| = 1 on the outer loop, |z| = inner_radius on the inner one; 0 if unused
+    double inner_radius = 0.0;  ///< exp(-2 pi / lambda)
+
+    std::vector<Index> cut;  ///< half-edges of the shortest edge path from the outer to the inner loop, in order
+    VectorXd f;              ///< (V) harmonic, 0 on the outer loop, 1 on the inner
+    VectorXd g0;             ///< (3F) per corner: 1 at the path's vertices seen from its right side, else 0
+    VectorXd g1;             ///< (V) makes dg0 + dg1 harmonic, nothing flowing through the loops
+    double lambda = 0.0;     ///< omega = df + i lambda (dg0 + dg1) is holomorphic
+};
+
+/// Maps a topological annulus conformally onto r < |z| < 1 by the holomorphic 1-form omega = df + i lambda (dg0 + dg1).
+///
+/// f is harmonic between the loops; g0 lives on the mesh sliced along the cut path and jumps by 1 across it, so
+/// dg0 is closed with period 1; dg1 makes it harmonic. The Hodge star turns df into lambda (dg0 + dg1), where
+/// |dg|^-2 <= lambda <= |df|^2 (the two are the conjugate extremal estimates of 2 pi / log(1/r)); lambda = |df| / |dg|
+/// minimizes energy over area of f + i lambda g. The integral of omega on the sliced mesh is f + i lambda (g0 + g1),
+/// with period k = -lambda around the outer loop, and z = exp(2 pi / k (f + i lambda g)).
+///
+/// @param triangles (F, 3) oriented, exactly two boundary loops
+/// @param lengths (F, 3) edge lengths, in any unit, which may even differ between parts that are conformally flat
+/// @param outer, inner the boundary loops, surface on the left
+/// @return orientation kept: the outer loop runs counter-clockwise. Where the first vertex of the cut is: 1.
+/// @throws TopologyError the loops are not connected; SolverError
+AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                       const VertexLoop& outer, const VertexLoop& inner);
+
+}  // namespace koebe

@@ -1,0 +1,257 @@
+#include "conformal/uniformize.h"
+
+#include "conformal/circle_fit.h"
+#include "conformal/distortion.h"
+#include "conformal/koebe_condensed.h"
+#include "conformal/koebe_mesh.h"
+#include "conformal/moebius.h"
+#include "core/topology.h"
+#include "geometry/dense_spd.h"
+#include "geometry/intrinsic_metric.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace koebe {
+namespace {
+
+class Stopwatch {
+public:
+    /// Seconds since the last lap.
+    double lap()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double peak_memory_mb()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// The surface on its used vertices alone, with the loops in the order of the iteration.
+struct Domain {
+    Surface surface;
+    Vertices vertices;
+    std::vector<Index> original;       // vertex of the input for each vertex
+    std::vector<VertexLoop> loops;     // outer first, then by falling length on the surface
+    std::vector<VectorXd> edges;       // length of the edge from each loop vertex to the next
+    int outer_rank = 0;                // of the outer loop in the surface's own order
+};
+
+/// Length of the edge from each vertex of a loop to the next. Vertices that coincide in space still need an angle of
+/// their own, so no edge counts for less than 1e-9 of the mean.
+VectorXd loop_edges(const Vertices& vertices, const VertexLoop& loop)
+{
+    VectorXd edges(loop.size());
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        edges[i] = (vertices.row(loop[(i + 1) % loop.size()]) - vertices.row(loop[i])).stableNorm();
+    return edges.cwiseMax(1e-9 * edges.mean());
+}
+
+int choose_outer_loop(const Domain& domain, const UniformizeOptions& options)
+{
+    const auto& loops = domain.surface.loops;
+    if (options.outer == OuterLoop::vertex) {
+        const auto compact = std::find(domain.original.begin(), domain.original.end(), options.outer_vertex);
+        const Index vertex = static_cast<Index>(compact - domain.original.begin());
+        for (std::size_t k = 0; k < loops.size(); ++k)
+            if (std::find(loops[k].begin(), loops[k].end(), vertex) != loops[k].end()) return static_cast<int>(k);
+        throw InputError("vertex " + std::to_string(options.outer_vertex) + " lies on no boundary loop",
+                         {options.outer_vertex});
+    }
+    int longest = 0;
+    double length = 0.0;
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        if (const double l = loop_edges(domain.vertices, loops[k]).sum(); l > length) {
+            length = l;
+            longest = static_cast<int>(k);
+        }
+    return longest;
+}
+
+Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
+{
+    validate_arrays(vertices, triangles);
+    Domain domain;
+    domain.surface = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
+
+    std::vector<Index> rank(vertices.rows(), 0);
+    for (const Index v : domain.surface.unused) rank[v] = -1;
+    for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v)
+        if (rank[v] == 0) {
+            rank[v] = static_cast<Index>(domain.original.size());
+            domain.original.push_back(v);
+        }
+    // Centred and scaled, so that no length overflows and the result does not depend on the unit.
+    domain.vertices = vertices(domain.original, Eigen::all);
+    domain.vertices.rowwise() -= domain.vertices.colwise().mean().eval();
+    const double scale = domain.vertices.cwiseAbs().maxCoeff();
+    if (!(scale > 0.0)) throw InputError("all vertices lie on one point");
+    domain.vertices /= scale;
+    if (!domain.surface.unused.empty()) {
+        for (Index* i = domain.surface.triangles.data(); i != domain.surface.triangles.data() + 3 * triangles.rows();
+             ++i)
+            *i = rank[*i];
+        for (VertexLoop& loop : domain.surface.loops)
+            for (Index& v : loop) v = rank[v];
+        domain.surface.vertex_count = static_cast<Index>(domain.original.size());
+    }
+
+    domain.outer_rank = choose_outer_loop(domain, options);
+    std::vector<int> order(domain.surface.loops.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<double> length;
+    for (const VertexLoop& loop : domain.surface.loops) length.push_back(loop_edges(domain.vertices, loop).sum());
+    length[domain.outer_rank] = std::numeric_limits<double>::infinity();
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[a] > length[b]; });
+    for (const int k : order) {
+        domain.loops.push_back(domain.surface.loops[k]);
+        domain.edges.push_back(loop_edges(domain.vertices, domain.loops.back()));
+    }
+    return domain;
+}
+
+/// The automorphism that puts the map into normal position: two loops concentric, else nothing.
+Moebius normal_position(const std::vector<Circle>& circles)
+{
+    return circles.size() == 2 ? center_circle(circles[1]) : Moebius{};
+}
+
+/// Radially onto the circle.
+VectorXcd project_onto(const Circle& circle, const VectorXcd& points)
+{
+    VectorXcd result(points.size());
+    for (Eigen::Index b = 0; b < points.size(); ++b) {
+        const Complex arm = points[b] - circle.center;
+        const double distance = std::abs(arm);
+        result[b] = circle.center + (distance > 0.0 ? circle.radius / distance * arm : Complex(circle.radius, 0.0));
+    }
+    return result;
+}
+
+/// Circles fitted, boundary put on them, interior harmonic: fills uv (of the domain's vertices) and the loop reports.
+PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domain, const KoebeOutcome& outcome,
+                        UniformizeResult& result)
+{
+    std::vector<Circle> circles{Circle{}};
+    for (std::size_t k = 1; k < outcome.loops.size(); ++k)
+        circles.push_back(fit_circle_least_squares(outcome.loops[k]));
+    const Moebius moebius = normal_position(circles);
+
+    std::size_t boundary_count = 0;
+    for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
+    MatrixXd boundary(boundary_count, 2);
+    Eigen::Index row = 0;
+    for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
+        LoopReport report;
+        report.circle = moebius(circles[k]);
+        if (k == 0) report.circle = Circle{};
+        const VectorXcd image = moebius(outcome.loops[k]);
+        report.roundness = roundness(image, report.circle);
+        const VectorXcd projected = project_onto(report.circle, image);
+        report.roundness_projected = roundness(projected, report.circle);
+        for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
+        boundary.col(0).segment(row, projected.size()) = projected.real();
+        boundary.col(1).segment(row, projected.size()) = projected.imag();
+        row += projected.size();
+        result.loops.push_back(std::move(report));
+    }
+    return condensed.extend(boundary);
+}
+
+void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeResult& result)
+{
+    auto& warnings = result.warnings;
+    const auto plural = [](std::size_t n, const std::string& noun) {
+        return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+    };
+    if (!domain.surface.unused.empty())
+        warnings.push_back("vertices of no face, put at the centre: " +
+                           std::to_string(domain.surface.unused.size()) + "; the first is " +
+                           std::to_string(domain.surface.unused.front()));
+    if (!domain.surface.reoriented.empty())
+        warnings.push_back(plural(domain.surface.reoriented.size(), "face") +
+                           " turned to the orientation of the others; the first is " +
+                           std::to_string(domain.surface.reoriented.front()));
+    if (outcome.raised_angles > 0)
+        warnings.push_back(plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
+                           " without flux: parts that hang on a loop by an edge");
+    if (!outcome.converged)
+        warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
+    if (!result.distortion.flipped.empty())
+        warnings.push_back(plural(result.distortion.flipped.size(), "face") + " flipped; the first is " +
+                           std::to_string(result.distortion.flipped.front()));
+}
+
+}  // namespace
+
+UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
+                            ExecutionContext& context)
+{
+    UniformizeResult result;
+    result.method = options.method;
+    result.engine = options.engine;
+    result.vertex_count = static_cast<Index>(vertices.rows());
+    result.face_count = static_cast<Index>(triangles.rows());
+    const DenseThreads threads(options.threads);
+    Stopwatch total, stage;
+
+    context.begin_stage("topology", 0.0, 0.05);
+    const Domain domain = prepare_domain(vertices, triangles, options);
+    result.outer_loop = domain.outer_rank;
+    result.seconds.topology = stage.lap();
+
+    context.begin_stage("metric", 0.05, 0.15);
+    const IntrinsicMetric metric = intrinsic_metric(domain.vertices, domain.surface);
+    const Index vertex_count = domain.surface.vertex_count;
+    const SparseMatrix laplacian =
+        cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), vertex_count);
+    result.seconds.metric = stage.lap();
+
+    context.begin_stage("factor", 0.15, 0.5);
+    std::vector<Index> boundary;
+    for (const VertexLoop& loop : domain.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd);
+    result.seconds.factor = stage.lap();
+
+    context.begin_stage("iterate", 0.5, 0.9);
+    const KoebeOutcome outcome =
+        options.engine == Engine::mesh
+            ? koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context).outcome
+            : koebe_condensed(condensed, domain.loops, domain.edges,
+                              vertex_areas(metric.triangles, metric.lengths, vertex_count), options, context);
+    result.converged = outcome.converged;
+    result.sweeps = outcome.sweeps;
+    result.steps = outcome.steps;
+    result.history = outcome.history;
+    result.seconds.iterate = stage.lap();
+
+    context.begin_stage("finish", 0.9, 1.0);
+    const PlanarPoints uv = finish_map(condensed, domain, outcome, result);
+    context.advance(0.5);
+    result.distortion = measure_distortion(domain.vertices, domain.surface.triangles, uv);
+    result.uv = PlanarPoints::Zero(vertices.rows(), 2);
+    result.uv(domain.original, Eigen::all) = uv;
+    add_warnings(domain, outcome, result);
+    result.seconds.finish = stage.lap();
+    result.seconds.total = total.lap();
+    result.peak_memory_mb = peak_memory_mb();
+    context.advance(1.0);
+    return result;
+}
+
+}  // namespace koebe

@@ -1,0 +1,21 @@
+// The main entry: a surface with holes to a circle domain.
+#pragma once
+
+#include "conformal/result.h"
+#include "core/execution.h"
+
+namespace koebe {
+
+/// Maps a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
+///
+/// One loop gives the Riemann map (paper, section 4.3), two the annulus centred at 0 (section 4.2), three and more
+/// the Koebe iteration (section 4.4). The input is not changed. Faces keep their orientation: the signed UV area of
+/// each is positive where the map is not flipped, counter-clockwise faces being seen from outside.
+///
+/// @param vertices (V, 3) positions, any unit
+/// @param triangles (F, 3) vertex indices
+/// @throws InputError, TopologyError, SolverError, Cancelled; non-convergence is reported, not thrown
+UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
+                            ExecutionContext& context);
+
+}  // namespace koebe

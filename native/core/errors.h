@@ -1,0 +1,71 @@
+// Typed errors. Each carries the offending elements, so that a caller can show or select them.
+#pragma once
+
+#include "core/types.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace koebe {
+
+/// Base of everything the library throws on purpose.
+class KoebeError : public std::runtime_error {
+public:
+    explicit KoebeError(const std::string& message, std::vector<Index> elements = {})
+        : std::runtime_error(message), elements_(std::move(elements)) {}
+    virtual ~KoebeError() = default;
+    /// The error's public name, as printed by the command and used in Python.
+    virtual const char* name() const noexcept { return "KoebeError"; }
+    /// Offending vertices or faces; the message says which of the two.
+    const std::vector<Index>& elements() const noexcept { return elements_; }
+
+private:
+    std::vector<Index> elements_;
+};
+
+/// Arrays that are no mesh: wrong shape, index out of range, NaN or infinite coordinate.
+class InputError : public KoebeError {
+public:
+    using KoebeError::KoebeError;
+    const char* name() const noexcept override { return "InputError"; }
+};
+
+enum class TopologyKind {
+    closed,              ///< no boundary loop
+    genus,               ///< a handle; elements: vertices of a handle loop
+    nonmanifold_edge,    ///< an edge with three or more faces; elements: its vertices
+    nonmanifold_vertex,  ///< faces around a vertex form more than one fan; elements: such vertices
+    nonorientable,       ///< elements: the two vertices of an edge that cannot be made consistent
+    disconnected,        ///< elements: faces outside the largest component
+};
+
+const char* to_string(TopologyKind kind) noexcept;
+
+/// A mesh that is no connected, orientable surface of genus 0 with boundary.
+class TopologyError : public KoebeError {
+public:
+    TopologyError(TopologyKind kind, const std::string& message, std::vector<Index> elements = {})
+        : KoebeError(message, std::move(elements)), kind_(kind) {}
+    const char* name() const noexcept override { return "TopologyError"; }
+    TopologyKind kind() const noexcept { return kind_; }
+
+private:
+    TopologyKind kind_;
+};
+
+/// A linear system that could not be solved.
+class SolverError : public KoebeError {
+public:
+    using KoebeError::KoebeError;
+    const char* name() const noexcept override { return "SolverError"; }
+};
+
+/// The caller asked to stop.
+class Cancelled : public KoebeError {
+public:
+    Cancelled() : KoebeError("cancelled by the caller") {}
+    const char* name() const noexcept override { return "Cancelled"; }
+};
+
+}  // namespace koebe

@@ -1,0 +1,70 @@
+// Progress and cancellation: the one object that goes through every long computation.
+#pragma once
+
+#include "core/errors.h"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace koebe {
+
+/// A flag that any thread may raise; the computation polls it at every checkpoint.
+class CancelToken {
+public:
+    void cancel() noexcept { flag_->store(true, std::memory_order_relaxed); }
+    bool cancelled() const noexcept { return flag_->load(std::memory_order_relaxed); }
+
+private:
+    std::shared_ptr<std::atomic<bool>> flag_ = std::make_shared<std::atomic<bool>>(false);
+};
+
+/// Called on the calling thread with a fraction in [0, 1] that never goes back, and the stage's name.
+using ProgressCallback = std::function<void(double fraction, const std::string& stage)>;
+
+class ExecutionContext {
+public:
+    ExecutionContext() = default;
+    ExecutionContext(ProgressCallback progress, CancelToken token)
+        : progress_(std::move(progress)), token_(std::move(token)) {}
+
+    /// Throws Cancelled if the token was raised.
+    void checkpoint() const
+    {
+        if (token_.cancelled()) throw Cancelled();
+    }
+
+    /// Reports progress within the current stage and then checks for cancellation.
+    /// @param fraction in [0, 1] of the stage that begin_stage opened
+    void advance(double fraction)
+    {
+        if (progress_) {
+            const double overall = begin_ + (end_ - begin_) * std::clamp(fraction, 0.0, 1.0);
+            reported_ = std::max(reported_, overall);
+            progress_(reported_, stage_);
+        }
+        checkpoint();
+    }
+
+    /// Opens a stage that covers [begin, end] of the whole.
+    void begin_stage(std::string stage, double begin, double end)
+    {
+        stage_ = std::move(stage);
+        begin_ = begin;
+        end_ = end;
+        advance(0.0);
+    }
+
+private:
+    ProgressCallback progress_;
+    CancelToken token_;
+    std::string stage_;
+    double begin_ = 0.0;
+    double end_ = 1.0;
+    double reported_ = 0.0;
+};
+
+}  // namespace koebe

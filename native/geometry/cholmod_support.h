@@ -1,0 +1,93 @@
+// CHOLMOD's C structures under C++ ownership. For the .cpp files of this folder only.
+#pragma once
+
+#include "core/errors.h"
+#include "core/types.h"
+
+#include <cholmod.h>
+
+#include <functional>
+#include <memory>
+#include <new>
+#include <string>
+
+namespace koebe::detail {
+
+/// A started workspace; settings are CHOLMOD's own but for supernodal L L' and silence.
+class CholmodCommon {
+public:
+    CholmodCommon()
+    {
+        cholmod_start(&common_);
+        common_.supernodal = CHOLMOD_SUPERNODAL;
+        common_.final_ll = 1;
+        common_.print = 0;
+        common_.error_handler = nullptr;
+    }
+    ~CholmodCommon() { cholmod_finish(&common_); }
+    CholmodCommon(const CholmodCommon&) = delete;
+    CholmodCommon& operator=(const CholmodCommon&) = delete;
+    cholmod_common* get() { return &common_; }
+    cholmod_common* operator->() { return &common_; }
+
+    void require(bool success, const char* step)
+    {
+        if (success && common_.status == CHOLMOD_OK) return;
+        if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+        throw SolverError(std::string("sparse factorization: ") + step + " failed, status " +
+                          std::to_string(common_.status));
+    }
+
+private:
+    cholmod_common common_{};
+};
+
+using Factor = std::unique_ptr<cholmod_factor, std::function<void(cholmod_factor*)>>;
+using Dense = std::unique_ptr<cholmod_dense, std::function<void(cholmod_dense*)>>;
+
+inline Factor own(cholmod_factor* factor, CholmodCommon& common)
+{
+    return {factor, [&common](cholmod_factor* f) { cholmod_free_factor(&f, common.get()); }};
+}
+inline Dense own(cholmod_dense* dense, CholmodCommon& common)
+{
+    return {dense, [&common](cholmod_dense* d) { cholmod_free_dense(&d, common.get()); }};
+}
+
+/// Views without copying; CHOLMOD takes them as const in all but type.
+inline cholmod_sparse view(const SparseMatrix& matrix, int symmetry)
+{
+    cholmod_sparse result{};
+    result.nrow = matrix.rows();
+    result.ncol = matrix.cols();
+    result.nzmax = matrix.nonZeros();
+    result.p = const_cast<Index*>(matrix.outerIndexPtr());
+    result.i = const_cast<Index*>(matrix.innerIndexPtr());
+    result.x = const_cast<double*>(matrix.valuePtr());
+    result.stype = symmetry;
+    result.itype = CHOLMOD_INT;
+    result.xtype = CHOLMOD_REAL;
+    result.dtype = CHOLMOD_DOUBLE;
+    result.sorted = 1;
+    result.packed = 1;
+    return result;
+}
+inline cholmod_dense view(const MatrixXd& matrix)
+{
+    cholmod_dense result{};
+    result.nrow = matrix.rows();
+    result.ncol = matrix.cols();
+    result.nzmax = matrix.size();
+    result.d = matrix.rows();
+    result.x = const_cast<double*>(matrix.data());
+    result.xtype = CHOLMOD_REAL;
+    result.dtype = CHOLMOD_DOUBLE;
+    return result;
+}
+
+inline MatrixXd to_eigen(const cholmod_dense& dense)
+{
+    return Eigen::Map<const MatrixXd>(static_cast<const double*>(dense.x), dense.nrow, dense.ncol);
+}
+
+}  // namespace koebe::detail

@@ -1,0 +1,49 @@
+// One factorization that gives both the Dirichlet-to-Neumann matrix of a surface and its Dirichlet solver.
+#pragma once
+
+#include "core/types.h"
+#include "geometry/sparse_cholesky.h"
+
+#include <memory>
+#include <vector>
+
+namespace koebe {
+
+/// u with K u = f inside and u = 0 on the boundary, and the flux of f that arrives at each boundary vertex.
+struct InteriorSolution {
+    VectorXd values;         ///< (V)
+    VectorXd boundary_flux;  ///< (m), of the same sum as f
+};
+
+/// K + diag(0 on I, 1 on B) = L L' with the boundary B ordered last. The trailing block L_BB gives
+/// Sigma = K_BB - K_BI K_II^-1 K_IB = L_BB L_BB' - 1, the leading part is the factor of K_II
+/// (docs/method.md, "One factorization").
+class CondensedLaplacian {
+public:
+    /// @param laplacian (V, V) cotan Laplacian, both triangles stored
+    /// @param boundary the vertices to keep, in the order of the rows of sigma(); unused vertices must have been
+    ///        given a positive diagonal or be left out of the matrix
+    /// @throws SolverError if K_II is not positive definite
+    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering);
+    ~CondensedLaplacian();
+    CondensedLaplacian(CondensedLaplacian&&) noexcept;
+    CondensedLaplacian& operator=(CondensedLaplacian&&) noexcept;
+
+    /// The Dirichlet-to-Neumann matrix (m, m), symmetric positive semidefinite, Sigma 1 = 0.
+    MatrixXd sigma() const;
+
+    /// Harmonic extension: (m, C) boundary values in the boundary's order -> (V, C) values at all vertices.
+    MatrixXd extend(const MatrixXd& boundary_values) const;
+
+    /// Solves K u = f with u = 0 on the boundary. @param load (V) f; values on the boundary are ignored
+    InteriorSolution solve_interior(const VectorXd& load) const;
+
+    /// Entries of the factor, a measure of memory and work.
+    double factor_entries() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace koebe

@@ -1,0 +1,92 @@
+#include "geometry/hole_filling.h"
+
+#include "core/errors.h"
+#include "core/halfedge_mesh.h"
+#include "core/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace koebe {
+namespace {
+
+VectorXd edge_lengths_of(const Vertices& loop)
+{
+    VectorXd lengths(loop.rows());
+    for (Eigen::Index i = 0; i < loop.rows(); ++i)
+        lengths[i] = (loop.row((i + 1) % loop.rows()) - loop.row(i)).stableNorm();
+    return lengths;
+}
+
+Eigen::RowVector3d mass_center(const Vertices& loop)
+{
+    const VectorXd lengths = edge_lengths_of(loop);
+    const double total = lengths.sum();
+    if (!(total > 0.0)) return loop.colwise().mean();
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+    for (Eigen::Index i = 0; i < loop.rows(); ++i)
+        center += lengths[i] / total * 0.5 * (loop.row(i) + loop.row((i + 1) % loop.rows()));
+    return center;
+}
+
+}  // namespace
+
+SurfacePatch fill_on_surface(const Vertices& loop)
+{
+    const Index m = static_cast<Index>(loop.rows());
+    SurfacePatch patch{Vertices(m + 1, 3), Triangles(m, 3)};
+    patch.vertices << loop, mass_center(loop);
+    for (Index i = 0; i < m; ++i) patch.triangles.row(i) << (i + 1) % m, i, m;
+    return patch;
+}
+
+PlanarMesh planar_patch(const VectorXcd& polygon)
+{
+    double length = 0.0;
+    for (Eigen::Index i = 0; i < polygon.size(); ++i)
+        length += std::abs(polygon[(i + 1) % polygon.size()] - polygon[i]);
+    return planar_patch(polygon, {.longest = length / static_cast<double>(polygon.size())});
+}
+
+PlanarMesh planar_patch(const VectorXcd& polygon, const PlanarMeshOptions& options)
+{
+    return planar_mesh({polygon}, options);
+}
+
+FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
+                         const std::optional<std::vector<Index>>& loops)
+{
+    validate_arrays(vertices, triangles);
+    const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
+    std::vector<Index> ranks(surface.loops.size());
+    std::iota(ranks.begin(), ranks.end(), 0);
+    if (loops) {
+        for (const Index k : *loops)
+            if (k < 0 || k >= static_cast<Index>(surface.loops.size()))
+                throw InputError("there is no boundary loop " + std::to_string(k) + " among " +
+                                 std::to_string(surface.loops.size()));
+        ranks = *loops;
+        std::sort(ranks.begin(), ranks.end());
+        ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    }
+
+    HalfedgeMesh mesh = to_halfedge_mesh(vertices, surface.triangles);
+    std::vector<Index> label(surface.triangles.rows(), -1);
+    for (const Index k : ranks) {
+        const VertexLoop& loop = surface.loops[k];
+        const SurfacePatch patch = fill_on_surface(vertices(loop, Eigen::all));
+        const auto center = patch.vertices.row(patch.vertices.rows() - 1);
+        const Index added = mesh.add_vertex(OpenMesh::Vec3d(center[0], center[1], center[2])).idx();
+        const auto global = [&](Index i) { return i < static_cast<Index>(loop.size()) ? loop[i] : added; };
+        for (Eigen::Index f = 0; f < patch.triangles.rows(); ++f)
+            add_triangle(mesh, global(patch.triangles(f, 0)), global(patch.triangles(f, 1)),
+                         global(patch.triangles(f, 2)));
+        label.insert(label.end(), patch.triangles.rows(), k);
+    }
+    MeshArrays arrays = to_arrays(mesh);
+    return {std::move(arrays.vertices), std::move(arrays.triangles), std::move(label)};
+}
+
+}  // namespace koebe

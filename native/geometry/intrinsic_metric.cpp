@@ -1,0 +1,161 @@
+#include "geometry/intrinsic_metric.h"
+
+#include "core/connectivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+double mollify(EdgeLengths& lengths, double margin)
+{
+    const double least = margin * lengths.mean();
+    double added = 0.0;
+    for (Eigen::Index f = 0; f < lengths.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const double excess = lengths(f, (k + 1) % 3) + lengths(f, (k + 2) % 3) - lengths(f, k);
+            added = std::max(added, least - excess);
+        }
+    if (added > 0.0) lengths.array() += added;
+    return added;
+}
+
+/// The state of Lawson's algorithm: half-edge 3 f + k is edge k of face f.
+class DelaunayFlipper {
+public:
+    DelaunayFlipper(IntrinsicMetric& metric, const Surface& surface)
+        : triangles_(metric.triangles), lengths_(metric.lengths), twin_(surface.twin),
+          loop_of_(surface.vertex_count, -1)
+    {
+        for (std::size_t k = 0; k < surface.loops.size(); ++k)
+            for (const Index v : surface.loops[k]) loop_of_[v] = static_cast<Index>(k);
+    }
+
+    int run()
+    {
+        const Index halfedge_count = static_cast<Index>(twin_.size());
+        std::vector<Index> stack;
+        for (Index h = 0; h < halfedge_count; ++h)
+            if (twin_[h] > h && excess(h) > tolerance) stack.push_back(h);
+        int flips = 0;
+        // Lawson's algorithm ends; the bound only guards against round-off on cocircular quadrilaterals.
+        const long most = 20L * halfedge_count + 1000;
+        while (!stack.empty() && flips < most) {
+            const Index h = stack.back();
+            stack.pop_back();
+            if (twin_[h] == no_twin || excess(h) <= tolerance || !may_flip(h)) continue;
+            const Index f = face_of(h), g = face_of(twin_[h]);
+            flip(h);
+            ++flips;
+            for (const Index face : {f, g})
+                for (Index e = 3 * face; e < 3 * face + 3; ++e)
+                    if (twin_[e] != no_twin) stack.push_back(e);
+        }
+        return flips;
+    }
+
+private:
+    static constexpr double tolerance = 1e-9;  // on the sum of cotangents, dimensionless
+
+    double length(Index h) const { return lengths_.data()[h]; }
+
+    double cotangent(Index h) const
+    {
+        const double a = length(h), b = length(next_halfedge(h)), c = length(previous_halfedge(h));
+        const double area = triangle_area(a, b, c);
+        return (b * b + c * c - a * a) / (4.0 * std::max(area, 1e-300));
+    }
+
+    /// -(cot alpha + cot beta): positive where the edge is not Delaunay.
+    double excess(Index h) const { return -(cotangent(h) + cotangent(twin_[h])); }
+
+    bool may_flip(Index h) const
+    {
+        const Index c = origin(triangles_, previous_halfedge(h));
+        const Index d = origin(triangles_, previous_halfedge(twin_[h]));
+        return c != d && face_of(h) != face_of(twin_[h]) && (loop_of_[c] < 0 || loop_of_[c] != loop_of_[d]);
+    }
+
+    /// Replaces the edge a-b of the quadrilateral a d b c by c-d.
+    void flip(Index h)
+    {
+        const Index t = twin_[h];
+        const Index bc = next_halfedge(h), ca = previous_halfedge(h);
+        const Index ad = next_halfedge(t), db = previous_halfedge(t);
+        const Index a = origin(triangles_, h), b = origin(triangles_, t);
+        const Index c = origin(triangles_, ca), d = origin(triangles_, db);
+        const double diagonal = opposite_diagonal(h, t);
+
+        struct Side {
+            double length;
+            Index twin;
+        };
+        const Side side_bc{length(bc), twin_[bc]}, side_ca{length(ca), twin_[ca]};
+        const Side side_ad{length(ad), twin_[ad]}, side_db{length(db), twin_[db]};
+
+        const Index f = 3 * face_of(h), g = 3 * face_of(t);
+        const auto write = [&](Index base, Index p, Index q, Index r, double diagonal_length, const Side& qr,
+                               const Side& rp) {
+            triangles_.data()[base] = p;
+            triangles_.data()[base + 1] = q;
+            triangles_.data()[base + 2] = r;
+            lengths_.data()[base] = diagonal_length;
+            lengths_.data()[base + 1] = qr.length;
+            lengths_.data()[base + 2] = rp.length;
+        };
+        write(f, d, c, a, diagonal, side_ca, side_ad);
+        write(g, c, d, b, diagonal, side_db, side_bc);
+        const auto link = [&](Index slot, Index other) {
+            twin_[slot] = other;
+            if (other != no_twin) twin_[other] = slot;
+        };
+        // A side may be glued to another side of the same quadrilateral: translate such twins first.
+        const auto moved = [&](Index twin) {
+            if (twin == bc) return g + 2;
+            if (twin == ca) return f + 1;
+            if (twin == ad) return f + 2;
+            if (twin == db) return g + 1;
+            return twin;
+        };
+        link(f, g);
+        link(f + 1, moved(side_ca.twin));
+        link(f + 2, moved(side_ad.twin));
+        link(g + 1, moved(side_db.twin));
+        link(g + 2, moved(side_bc.twin));
+    }
+
+    /// Length of c-d, the two triangles unfolded into the plane.
+    double opposite_diagonal(Index h, Index t) const
+    {
+        const double l = length(h);
+        const auto apex = [&](double from_start, double from_end) {
+            const double x = (l * l + from_start * from_start - from_end * from_end) / (2.0 * l);
+            return Complex(x, 2.0 * triangle_area(l, from_start, from_end) / l);
+        };
+        const Complex c = apex(length(previous_halfedge(h)), length(next_halfedge(h)));
+        const Complex d = apex(length(next_halfedge(t)), length(previous_halfedge(t)));
+        return std::abs(c - std::conj(d));
+    }
+
+    Triangles& triangles_;
+    EdgeLengths& lengths_;
+    std::vector<Index> twin_;
+    std::vector<Index> loop_of_;
+};
+
+}  // namespace
+
+IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
+                                 const IntrinsicMetricOptions& options)
+{
+    IntrinsicMetric metric;
+    metric.triangles = surface.triangles;
+    metric.lengths = edge_lengths(vertices, surface.triangles);
+    if (options.mollify) metric.mollification = mollify(metric.lengths, options.margin);
+    if (options.delaunay) metric.flips = DelaunayFlipper(metric, surface).run();
+    return metric;
+}
+
+}  // namespace koebe

@@ -1,0 +1,31 @@
+// The cotan Laplacian and what it acts on (paper, section 4.1; Pinkall and Polthier 1993).
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// (F, 3) edge lengths: column k is the edge from corner k to corner (k + 1) mod 3, half-edge 3 f + k.
+using EdgeLengths = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// Lengths of the edges of each face, in the unit of the positions. Works for positions in space and in the plane.
+EdgeLengths edge_lengths(const Vertices& vertices, const Triangles& triangles);
+EdgeLengths edge_lengths(const PlanarPoints& points, const Triangles& triangles);
+
+/// (F, 3) half the cotangent of the angle opposite to each half-edge, dimensionless; from lengths alone, by
+/// cot = (b^2 + c^2 - a^2) / (4 area) with Kahan's area. A face of zero area gets finite weights.
+EdgeLengths half_cotangents(const EdgeLengths& lengths);
+
+/// The stiffness matrix K of the Dirichlet energy: u' K u = integral |grad u|^2, dimensionless, (V, V), positive
+/// semidefinite, K 1 = 0, both triangles stored. K_ij = -(cot alpha + cot beta) / 2. Unused vertices get an empty row.
+SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half_cotangents, Index vertex_count);
+
+/// A third of the area of the faces around each vertex (V), in squared units of the positions.
+VectorXd vertex_areas(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count);
+
+/// Area of one triangle from its edge lengths, stable for needles (Kahan 1986); 0 where the inequality fails.
+double triangle_area(double a, double b, double c);
+
+}  // namespace koebe

@@ -1,0 +1,37 @@
+// A file that is whole or absent.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace koebe {
+
+/// Writes to a temporary file in the target's folder, which commit renames to the target. Without commit, nothing
+/// of it stays and a file of the target's name stays as it was. A symbolic link is followed, and the permissions of
+/// the file replaced are kept. A target that is no regular file (a pipe, /dev/null) is written to directly.
+class AtomicFile {
+public:
+    /// @throws FileError the temporary file cannot be made
+    explicit AtomicFile(const std::filesystem::path& target);
+    ~AtomicFile();
+    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile&&) = delete;
+
+    /// @throws FileError as on a full disk
+    void write(std::string_view bytes);
+    /// @throws FileError the target cannot be replaced
+    void commit();
+
+private:
+    void close_descriptor();
+    [[noreturn]] void fail() const;
+
+    std::filesystem::path target_, temporary_;
+    int descriptor_ = -1;
+};
+
+/// What AtomicFile needs, asked before a long computation.
+/// @throws FileError the folder is missing or not writable, or the target is a folder
+void require_writable(const std::filesystem::path& target);
+
+}  // namespace koebe

@@ -1,0 +1,123 @@
+#include "io/mesh_reader.h"
+
+#include "io/file_error.h"
+#include "io/format_readers.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace koebe {
+namespace {
+
+using Reader = PolygonMesh (*)(std::string_view);
+
+Reader reader_for(std::string extension)
+{
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (extension == ".obj") return io::read_obj;
+    if (extension == ".off") return io::read_off;
+    if (extension == ".ply") return io::read_ply;
+    if (extension == ".stl") return io::read_stl;
+    throw InputError("format not supported: '" + extension + "'; supported are OBJ, OFF, PLY, STL");
+}
+
+std::string read_bytes(const std::filesystem::path& path)
+{
+    const auto fail = [&path] {
+        throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")");
+    };
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    if (!file) fail();
+    std::string bytes;
+    std::error_code no_size;  // a pipe has none
+    const auto size = std::filesystem::file_size(path, no_size);
+    std::size_t wanted = no_size ? 0 : static_cast<std::size_t>(size) + 1;
+    for (std::size_t filled = 0;;) {
+        wanted = std::max(wanted, filled + (std::size_t{1} << 16));
+        bytes.resize(wanted);
+        const std::size_t got = std::fread(bytes.data() + filled, 1, wanted - filled, file.get());
+        filled += got;
+        if (filled < wanted) {
+            if (std::ferror(file.get())) fail();
+            bytes.resize(filled);
+            return bytes;
+        }
+    }
+}
+
+std::vector<Index> not_finite(const Vertices& vertices)
+{
+    std::vector<Index> bad;
+    for (Index v = 0; v < vertices.rows(); ++v)
+        if (!vertices.row(v).allFinite()) bad.push_back(v);
+    return bad;
+}
+
+std::vector<Index> faces_out_of_range(const PolygonMesh& mesh)
+{
+    std::vector<Index> bad;
+    const auto is_bad = [&](Index v) { return v < 0 || v >= mesh.vertices.rows(); };
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (std::ranges::any_of(mesh.face(f), is_bad)) bad.push_back(f);
+    return bad;
+}
+
+void require_a_mesh(const PolygonMesh& mesh)
+{
+    if (mesh.vertices.rows() == 0) throw InputError("the file holds no vertex");
+    if (mesh.face_count() == 0) throw InputError("the file holds no face");
+    if (const std::vector<Index> bad = faces_out_of_range(mesh); !bad.empty())
+        throw InputError(std::to_string(bad.size()) + " faces name a vertex that is not among the file's " +
+                             std::to_string(mesh.vertices.rows()) + " (faces listed)",
+                         bad);
+    if (const std::vector<Index> bad = not_finite(mesh.vertices); !bad.empty())
+        throw InputError(std::to_string(bad.size()) +
+                             " vertices have a coordinate that is NaN or infinite (vertices listed)",
+                         bad);
+}
+
+}  // namespace
+
+namespace io {
+
+MeshBuilder::MeshBuilder(std::size_t expected_vertices, std::size_t expected_faces)
+{
+    positions_.reserve(expected_vertices);
+    mesh_.face_begin.reserve(expected_faces + 1);
+    mesh_.corners.reserve(3 * expected_faces);
+}
+
+PolygonMesh MeshBuilder::finish()
+{
+    constexpr std::size_t limit = std::numeric_limits<Index>::max();
+    if (positions_.size() > limit || mesh_.corners.size() > limit || mesh_.face_begin.size() > limit)
+        throw InputError("the mesh is too large for 32-bit indices");
+    mesh_.vertices = Eigen::Map<const Vertices>(positions_.empty() ? nullptr : positions_.front().data(),
+                                                static_cast<Eigen::Index>(positions_.size()), 3);
+    return std::move(mesh_);
+}
+
+}  // namespace io
+
+PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension)
+{
+    PolygonMesh mesh = reader_for(extension)(bytes);
+    require_a_mesh(mesh);
+    return mesh;
+}
+
+PolygonMesh read_mesh(const std::filesystem::path& path)
+{
+    const std::string extension = path.extension().string();
+    reader_for(extension);  // no file of another format is read
+    return parse_mesh(read_bytes(path), extension);
+}
+
+}  // namespace koebe

@@ -1,0 +1,173 @@
+#include "io/polygon_triangulation.h"
+
+#include "core/errors.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/assertions_behaviour.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace koebe {
+namespace {
+
+using Eigen::Vector3d;
+using Triangle = std::array<Index, 3>;
+using Polygon = std::vector<Index>;
+using Positions = std::vector<Vector3d>;
+
+/// From this many corners on, CGAL's Delaunay search space beats the plain cubic method (measured: flat, 16 corners).
+constexpr std::size_t delaunay_corners = 17;
+/// The cubic method as a last resort takes a second at this many corners.
+constexpr std::size_t cubic_corners = 500;
+
+/// The corners without immediate repetitions.
+Polygon distinct_corners(std::span<const Index> face)
+{
+    Polygon polygon(face.begin(), face.end());
+    polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+    while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+    return polygon;
+}
+
+/// Positions moved to the origin and scaled to a largest coordinate of 1, so that no square over- or underflows.
+Positions normalized_positions(const Vertices& vertices, const Polygon& polygon)
+{
+    Positions positions;
+    positions.reserve(polygon.size());
+    double scale = 0.0;
+    const Vector3d origin = vertices.row(polygon.front()).transpose();
+    for (const Index v : polygon) {
+        positions.push_back(0.5 * vertices.row(v).transpose() - 0.5 * origin);
+        scale = std::max(scale, positions.back().lpNorm<Eigen::Infinity>());
+    }
+    if (scale > 0.0)
+        for (Vector3d& p : positions) p /= scale;
+    return positions;
+}
+
+/// @returns corner numbers
+std::vector<Triangle> cut_quadrilateral(const Positions& p)
+{
+    const Vector3d diagonal_02 = p[2] - p[0], diagonal_13 = p[3] - p[1];
+    const Vector3d normal = diagonal_02.cross(diagonal_13);  // twice the polygon's area vector
+    const auto side = [&](int a, int b, int c) { return (p[b] - p[a]).cross(p[c] - p[a]).dot(normal); };
+    const double worst_02 = std::min(side(0, 1, 2), side(0, 2, 3));
+    const double worst_13 = std::min(side(0, 1, 3), side(1, 2, 3));
+    const bool both_fit = worst_02 > 0.0 && worst_13 > 0.0;
+    const bool cut_02 = both_fit ? diagonal_02.squaredNorm() <= diagonal_13.squaredNorm() : worst_02 >= worst_13;
+    if (cut_02) return {{0, 1, 2}, {0, 2, 3}};
+    return {{0, 1, 3}, {1, 2, 3}};
+}
+
+/// Whether the polygon goes from one vertex to the same next one twice: no slit does, and CGAL takes seconds to fail.
+bool repeats_an_edge(const Polygon& polygon)
+{
+    std::vector<std::array<Index, 2>> edges;
+    edges.reserve(polygon.size());
+    for (std::size_t i = 0; i < polygon.size(); ++i) edges.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+    std::ranges::sort(edges);
+    return std::ranges::adjacent_find(edges) != edges.end();
+}
+
+/// @returns corner numbers; fewer than size - 2 triangles if the polygon cannot be cut
+std::vector<Triangle> cut_polygon(const Positions& positions)
+{
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    std::vector<Kernel::Point_3> points;
+    points.reserve(positions.size());
+    for (const Vector3d& p : positions) points.emplace_back(p.x(), p.y(), p.z());
+    std::vector<CGAL::Triple<int, int, int>> cut;
+    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
+        points, std::back_inserter(cut),
+        CGAL::parameters::use_delaunay_triangulation(positions.size() >= delaunay_corners)
+            .do_not_use_cubic_algorithm(positions.size() >= cubic_corners));
+    std::vector<Triangle> triangles;
+    triangles.reserve(cut.size());
+    for (const auto& t : cut) triangles.push_back({t.first, t.second, t.third});
+    return triangles;
+}
+
+/// CGAL reports failed checks by printing, and then throws: here it only throws.
+class SilentCgal {
+public:
+    SilentCgal() : error_(CGAL::set_error_handler(ignore)), warning_(CGAL::set_warning_handler(ignore)) {}
+    ~SilentCgal()
+    {
+        CGAL::set_error_handler(error_);
+        CGAL::set_warning_handler(warning_);
+    }
+    SilentCgal(const SilentCgal&) = delete;
+    SilentCgal& operator=(const SilentCgal&) = delete;
+
+private:
+    static void ignore(const char*, const char*, const char*, int, const char*) {}
+    CGAL::Failure_function error_, warning_;
+};
+
+bool are_different(Index a, Index b, Index c) { return a != b && b != c && c != a; }
+
+class Triangulator {
+public:
+    explicit Triangulator(const PolygonMesh& mesh) : mesh_(mesh)
+    {
+        triangles_.reserve(mesh.corners.size() - std::min<std::size_t>(mesh.corners.size(), 2 * mesh.face_count()));
+        face_.reserve(triangles_.capacity());
+    }
+
+    void add_face(Index f)
+    {
+        const std::span<const Index> filed = mesh_.face(f);
+        if (filed.size() == 3 && are_different(filed[0], filed[1], filed[2]))
+            return add({filed[0], filed[1], filed[2]}, f);
+        const Polygon polygon = distinct_corners(filed);
+        if (polygon.size() < 3) return collapsed_.push_back(f);
+        if (polygon.size() == 3) return add({polygon[0], polygon[1], polygon[2]}, f);
+        if (repeats_an_edge(polygon)) return uncut_.push_back(f);
+        const Positions positions = normalized_positions(mesh_.vertices, polygon);
+        const std::vector<Triangle> cut = polygon.size() == 4 ? cut_quadrilateral(positions) : cut_polygon(positions);
+        const auto is_triangle = [&polygon](const Triangle& t) {
+            return are_different(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
+        };
+        if (cut.size() + 2 != polygon.size() || !std::ranges::all_of(cut, is_triangle)) return uncut_.push_back(f);
+        for (const Triangle& t : cut) add({polygon[t[0]], polygon[t[1]], polygon[t[2]]}, f);
+    }
+
+    Triangulation finish()
+    {
+        if (!uncut_.empty())
+            throw InputError(std::to_string(uncut_.size()) + " polygons cannot be cut into triangles (faces listed)",
+                             uncut_);
+        const Index* data = triangles_.empty() ? nullptr : triangles_.front().data();
+        return {Eigen::Map<const Triangles>(data, static_cast<Eigen::Index>(triangles_.size()), 3), std::move(face_),
+                std::move(collapsed_)};
+    }
+
+private:
+    void add(const Triangle& triangle, Index face)
+    {
+        triangles_.push_back(triangle);
+        face_.push_back(face);
+    }
+
+    const PolygonMesh& mesh_;
+    std::vector<Triangle> triangles_;
+    std::vector<Index> face_, collapsed_, uncut_;
+};
+
+}  // namespace
+
+Triangulation triangulate(const PolygonMesh& mesh)
+{
+    const SilentCgal silent;
+    Triangulator triangulator(mesh);
+    for (Index f = 0; f < mesh.face_count(); ++f) triangulator.add_face(f);
+    return triangulator.finish();
+}
+
+}  // namespace koebe

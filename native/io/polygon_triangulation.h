@@ -1,0 +1,27 @@
+// Triangles for the computation, out of polygons as filed.
+#pragma once
+
+#include "io/polygon_mesh.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct Triangulation {
+    Triangles triangles;            ///< with the polygons' vertices and orientation, in the order of the faces
+    std::vector<Index> face;        ///< the filed face of each triangle
+    std::vector<Index> collapsed;   ///< faces of fewer than three different vertices: they have no triangle
+};
+
+/// Cuts every polygon into triangles without new vertices.
+///
+/// A vertex repeated at once (1 2 2 3) counts once. A quadrilateral is cut along the diagonal that leaves both
+/// triangles on the polygon's side, the shorter one if both do. Larger polygons, flat or not, convex or not, get the
+/// triangulation of least bend and area [Liepa, Filling Holes in Meshes, 2003; CGAL triangulate_hole_polyline]. A
+/// polygon may go round a hole through a slit, along which it names two vertices twice.
+///
+/// @param mesh with finite vertices and indices in range
+/// @throws InputError a polygon that cannot be cut, as one that goes to and fro (1 2 1 3) (elements: faces)
+Triangulation triangulate(const PolygonMesh& mesh);
+
+}  // namespace koebe

@@ -1,0 +1,34 @@
+"""Conformal maps of surfaces with holes onto circle domains, by the generalized Koebe iteration.
+
+W. Zeng, X. Yin, M. Zhang, F. Luo, X. Gu, "Generalized Koebe's Method for Conformal Mapping Multiply Connected
+Domains". Arrays in, UVs and a report out; nothing here knows Blender.
+"""
+
+from ._api import (
+    annulus_map,
+    boundary_loops,
+    disk_map,
+    distortion,
+    fill_holes,
+    uniformize,
+)
+from ._koebe import CancelToken, __version__
+from ._result import UniformizeResult
+from .errors import Cancelled, InputError, KoebeError, SolverError, TopologyError
+
+__all__ = [
+    "CancelToken",
+    "Cancelled",
+    "InputError",
+    "KoebeError",
+    "SolverError",
+    "TopologyError",
+    "UniformizeResult",
+    "__version__",
+    "annulus_map",
+    "boundary_loops",
+    "disk_map",
+    "distortion",
+    "fill_holes",
+    "uniformize",
+]

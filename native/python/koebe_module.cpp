@@ -1,0 +1,164 @@
+// The Python module: definitions, exception map, GIL release. Nothing else.
+#include "conformal/annulus_map.h"
+#include "conformal/disk_map.h"
+#include "conformal/distortion.h"
+#include "conformal/uniformize.h"
+#include "core/topology.h"
+#include "geometry/hole_filling.h"
+#include "report/json.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace koebe;
+
+namespace {
+
+/// Raises the Python class of the same name, with .elements and, for TopologyError, .kind.
+void translate(const KoebeError& error)
+{
+    const py::object type = py::module_::import("koebe.errors").attr(error.name());
+    py::object instance = type(error.what());
+    instance.attr("elements") = py::cast(error.elements());
+    if (const auto* topology = dynamic_cast<const TopologyError*>(&error))
+        instance.attr("kind") = to_string(topology->kind());
+    PyErr_SetObject(type.ptr(), instance.ptr());
+}
+
+/// The checked surface for a map that is made for so many boundary loops.
+Surface surface_with_loops(const Vertices& vertices, const Triangles& triangles, std::size_t count)
+{
+    validate_arrays(vertices, triangles);
+    Surface surface = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
+    if (surface.loops.size() != count)
+        throw InputError("the map is for " + std::to_string(count) + " boundary loops, the mesh has " +
+                         std::to_string(surface.loops.size()));
+    return surface;
+}
+
+PlanarPoints planar(const VectorXcd& positions)
+{
+    PlanarPoints points(positions.size(), 2);
+    points << positions.real(), positions.imag();
+    return points;
+}
+
+/// Runs the computation without the GIL; progress is called on the calling thread with it, and an exception it
+/// raises (KeyboardInterrupt among them) ends the computation.
+template <class Compute>
+auto without_gil(const py::object& progress, const CancelToken& token, Compute compute)
+{
+    ProgressCallback callback;
+    if (!progress.is_none())
+        callback = [&progress](double fraction, const std::string& stage) {
+            const py::gil_scoped_acquire gil;
+            progress(fraction, stage);
+        };
+    ExecutionContext context(callback, token);
+    const py::gil_scoped_release release;
+    return compute(context);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_koebe, m)
+{
+    m.attr("__version__") = KOEBE_VERSION;
+
+    py::register_local_exception_translator([](std::exception_ptr pointer) {
+        try {
+            if (pointer) std::rethrow_exception(pointer);
+        } catch (const KoebeError& error) {
+            translate(error);
+        }
+    });
+
+    py::enum_<Method>(m, "Method").value("gk", Method::gk).value("ck", Method::ck);
+    py::enum_<Engine>(m, "Engine").value("condensed", Engine::condensed).value("mesh", Engine::mesh);
+    py::enum_<OuterLoop>(m, "OuterLoop")
+        .value("automatic", OuterLoop::automatic)
+        .value("longest", OuterLoop::longest)
+        .value("vertex", OuterLoop::vertex);
+    py::enum_<Balance>(m, "Balance").value("none", Balance::none).value("area", Balance::area);
+
+    py::class_<CancelToken>(m, "CancelToken", "A flag that any thread may raise to stop a computation.")
+        .def(py::init<>())
+        .def("cancel", &CancelToken::cancel)
+        .def_property_readonly("cancelled", &CancelToken::cancelled);
+
+    py::class_<UniformizeOptions>(m, "UniformizeOptions")
+        .def(py::init<>())
+        .def_readwrite("method", &UniformizeOptions::method)
+        .def_readwrite("engine", &UniformizeOptions::engine)
+        .def_readwrite("outer", &UniformizeOptions::outer)
+        .def_readwrite("outer_vertex", &UniformizeOptions::outer_vertex)
+        .def_readwrite("tolerance", &UniformizeOptions::tolerance)
+        .def_readwrite("max_sweeps", &UniformizeOptions::max_sweeps)
+        .def_readwrite("balance", &UniformizeOptions::balance)
+        .def_readwrite("threads", &UniformizeOptions::threads);
+
+    py::class_<UniformizeResult>(m, "UniformizeResult")
+        .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
+        .def("to_json", [](const UniformizeResult& r) { return to_json(r).dump(); });
+
+    m.def("uniformize",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
+              return without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return uniformize(vertices, triangles, options, context);
+              });
+          });
+    m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
+        const py::gil_scoped_release release;
+        return analyze_surface(triangles, vertex_count).loops;
+    });
+    m.def("validate_arrays", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
+        validate_arrays(vertices, triangles);
+    });
+    m.def("fill_holes",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             const std::optional<std::vector<Index>>& loops) {
+              FilledSurface filled = [&] {
+                  const py::gil_scoped_release release;
+                  return fill_holes(vertices, triangles, loops);
+              }();
+              return std::make_tuple(std::move(filled.vertices), std::move(filled.triangles),
+                                     py::array_t<Index>(filled.label.size(), filled.label.data()));
+          });
+    m.def("disk_map",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
+              const py::gil_scoped_release release;
+              const Vertices positions = vertices;
+              const Surface surface = surface_with_loops(positions, triangles, 1);
+              return planar(disk_map(surface.triangles, edge_lengths(positions, surface.triangles),
+                                     surface.vertex_count, surface.loops[0])
+                                .positions);
+          });
+    m.def("annulus_map",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
+              const py::gil_scoped_release release;
+              const Vertices positions = vertices;
+              const Surface surface = surface_with_loops(positions, triangles, 2);
+              const auto length = [&](const VertexLoop& loop) {
+                  double sum = 0.0;
+                  for (std::size_t i = 0; i < loop.size(); ++i)
+                      sum += (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
+                  return sum;
+              };
+              const int outer = length(surface.loops[0]) >= length(surface.loops[1]) ? 0 : 1;
+              const AnnulusMap map =
+                  annulus_map(surface.triangles, edge_lengths(positions, surface.triangles), surface.vertex_count,
+                              surface.loops[outer], surface.loops[1 - outer]);
+              return std::make_pair(planar(map.positions), map.inner_radius);
+          });
+    m.def("distortion",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             const Eigen::Ref<const PlanarPoints>& uv) {
+              const py::gil_scoped_release release;
+              return to_json(measure_distortion(vertices, triangles, uv)).dump();
+          });
+}

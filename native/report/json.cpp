@@ -1,0 +1,84 @@
+#include "report/json.h"
+
+namespace koebe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json step_json(const KoebeStep& step)
+{
+    return {{"step", step.step},
+            {"pair", {step.pair.first, step.pair.second}},
+            {"change", step.change},
+            {"mean_roundness", step.mean_roundness}};
+}
+
+Json loop_json(const LoopReport& loop)
+{
+    return {{"vertices", loop.vertices},
+            {"center", {loop.circle.center.real(), loop.circle.center.imag()}},
+            {"radius", loop.circle.radius},
+            {"roundness", loop.roundness},
+            {"roundness_projected", loop.roundness_projected},
+            {"off_circle", loop.off_circle}};
+}
+
+Json seconds_json(const StageSeconds& seconds)
+{
+    return {{"read", seconds.read},     {"topology", seconds.topology}, {"metric", seconds.metric},
+            {"factor", seconds.factor}, {"iterate", seconds.iterate},   {"finish", seconds.finish},
+            {"write", seconds.write},   {"total", seconds.total}};
+}
+
+template <typename T>
+Json array_json(const std::vector<T>& items, Json (*item_json)(const T&))
+{
+    Json array = Json::array();
+    for (const T& item : items) array.push_back(item_json(item));
+    return array;
+}
+
+}  // namespace
+
+const char* to_string(Method method) noexcept { return method == Method::gk ? "gk" : "ck"; }
+
+const char* to_string(Engine engine) noexcept { return engine == Engine::condensed ? "condensed" : "mesh"; }
+
+Json to_json(const Distortion& distortion)
+{
+    return {{"angle_error_deg",
+             {{"mean", distortion.angle_error_deg.mean},
+              {"sd", distortion.angle_error_deg.sd},
+              {"max", distortion.angle_error_deg.max}}},
+            {"beltrami", {{"mean", distortion.beltrami.mean}, {"max", distortion.beltrami.max}}},
+            {"area_distortion",
+             {{"log_sd", distortion.area.log_sd},
+              {"log_min", distortion.area.log_min},
+              {"log_max", distortion.area.log_max}}},
+            {"conformal_energy", distortion.conformal_energy},
+            {"flipped", distortion.flipped.size()},
+            {"below_resolution", distortion.below_resolution.size()}};
+}
+
+Json to_json(const UniformizeResult& result)
+{
+    Json report{{"version", KOEBE_VERSION},
+                {"input", ""},
+                {"vertices", result.vertex_count},
+                {"faces", result.face_count},
+                {"method", to_string(result.method)},
+                {"engine", to_string(result.engine)},
+                {"outer_loop", result.outer_loop},
+                {"converged", result.converged},
+                {"sweeps", result.sweeps},
+                {"steps", result.steps},
+                {"history", array_json(result.history, step_json)},
+                {"loops", array_json(result.loops, loop_json)}};
+    report.update(to_json(result.distortion));
+    report.update({{"seconds", seconds_json(result.seconds)},
+                   {"peak_memory_mb", result.peak_memory_mb},
+                   {"warnings", result.warnings}});
+    return report;
+}
+
+}  // namespace koebe

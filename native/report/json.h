@@ -1,0 +1,21 @@
+// The report as JSON: one form for the command and for Python.
+#pragma once
+
+#include "conformal/result.h"
+
+#include <nlohmann/json.hpp>
+
+namespace koebe {
+
+const char* to_string(Method method) noexcept;
+const char* to_string(Engine engine) noexcept;
+
+/// Everything but the UVs. Vertices and faces are counted from 0; circles are in unit-disk coordinates; what is not
+/// finite becomes null. "input" is empty: the front end that read a file puts its name there.
+nlohmann::ordered_json to_json(const UniformizeResult& result);
+
+/// The part of it that judges a map: angle_error_deg, beltrami, area_distortion, conformal_energy, flipped,
+/// below_resolution (the last two as counts).
+nlohmann::ordered_json to_json(const Distortion& distortion);
+
+}  // namespace koebe

@@ -1,0 +1,19 @@
+// A picture of the circle domain.
+#pragma once
+
+#include "conformal/result.h"
+#include "io/polygon_mesh.h"
+
+#include <string>
+
+namespace koebe {
+
+/// From this many faces on the picture leaves the wireframe out: it would be black, and megabytes.
+inline constexpr Index wireframe_face_limit = 50000;  // faces
+
+/// The unit disk with the loops' circles and, up to wireframe_face_limit faces, the edges of the mesh, drawn thinner
+/// where the map shrinks. The imaginary axis points up. Vertices that are off their loop's circle are marked.
+/// @param mesh the polygons whose vertices result.uv places
+std::string to_svg(const UniformizeResult& result, const PolygonMesh& mesh);
+
+}  // namespace koebe

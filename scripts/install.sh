@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Install the Debian packages that are missing.
+# Usage: scripts/install.sh build|blender ...        LIST=1 prints the names and installs nothing.
+set -euo pipefail
+
+declare -A groups=(
+    # compilers, libraries, and Python with NumPy and pytest
+    [build]="build-essential cmake ninja-build ccache
+        libopenmesh-dev libeigen3-dev libsuitesparse-dev libopenblas-pthread-dev libcgal-dev
+        nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev
+        python3-dev python3-venv python3-numpy python3-pytest ca-certificates"
+    # Blender, what the bpy wheels link, and a screen with software OpenGL for windows and renders
+    [blender]="blender libgl1 libsm6 libxfixes3 libxi6 libxkbcommon0 libxrender1
+        libegl1 libgl1-mesa-dri xvfb xauth"
+)
+
+wanted=()
+for group in "$@"; do
+    read -r -d '' -a names <<<"${groups[$group]?no such group}" || true
+    wanted+=("${names[@]}")
+done
+
+if [ -n "${LIST:-}" ]; then
+    printf '%s\n' "${wanted[@]}"
+    exit
+fi
+
+is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+missing=()
+if command -v dpkg-query >/dev/null; then
+    for name in "${wanted[@]}"; do
+        is_installed "$name" || missing+=("$name")
+    done
+else
+    echo "scripts/install.sh: this is no Debian; the equivalents of these must be present: ${wanted[*]}" >&2
+fi
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+    as_root=(sudo)
+    command -v sudo >/dev/null || {
+        echo "scripts/install.sh: neither root nor sudo; please install: ${missing[*]}" >&2
+        exit 1
+    }
+fi
+echo "Installing Debian packages ($*): ${missing[*]}"
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"

@@ -1,0 +1,36 @@
+"""Fixtures for tests that run inside Blender, or under a Python with bpy, on the installed add-on.
+
+The runner installs and enables the zip and names the add-on's module in KOEBE_UV_MODULE.
+"""
+
+import importlib
+import os
+
+import bpy
+import pytest
+
+pytest.register_assert_rewrite("scenes")
+
+
+@pytest.fixture(scope="session")
+def addon_name():
+    """Name of the installed add-on's package."""
+    return os.environ["KOEBE_UV_MODULE"]
+
+
+@pytest.fixture(scope="session")
+def addon(addon_name):
+    """A function that imports one of the installed add-on's modules."""
+    return lambda module: importlib.import_module(f"{addon_name}.{module}")
+
+
+@pytest.fixture(scope="session")
+def koebe(addon):
+    """The native package, as the installed add-on finds it."""
+    return addon("native").load()
+
+
+@pytest.fixture(autouse=True)
+def empty_scene():
+    """Every test starts in Object Mode with nothing in the file; preferences and add-ons stay."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=False)

@@ -1,0 +1,180 @@
+"""`batch.py` as a farm runs it: a process of its own, options, exit codes, whole files."""
+
+import importlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+@pytest.fixture
+def batch(addon_name, tmp_path):
+    """A function that runs the installed batch.py on the open file and returns the finished process."""
+    script = Path(importlib.import_module(addon_name).__file__).with_name("batch.py")
+
+    def run(*arguments, source=None):
+        if source is None:
+            source = tmp_path / "in.blend"
+            bpy.ops.wm.save_as_mainfile(filepath=str(source), copy=True)
+        if bpy.app.binary_path:
+            command = [bpy.app.binary_path, "-b", source, "--python-exit-code", "1", "-P", script]
+        else:
+            command = [sys.executable, script, source]
+        return subprocess.run(
+            [*map(str, command), "--", *map(str, arguments)], capture_output=True, text=True, cwd=tmp_path,
+            env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
+        )  # fmt: skip
+
+    return run
+
+
+def outputs(folder):
+    """Names of all files that a run has left, hidden ones too."""
+    return sorted(path.name for path in folder.iterdir() if path.name != "in.blend")
+
+
+def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
+    obj = scenes.add_panel()
+    obj.scale = (1, 2, 1)
+    done = batch("--output", "out.blend", "--report", "out.json", "--balance", "area", "--layer", "Round")
+    assert done.returncode == 0, done.stderr
+    assert outputs(tmp_path) == ["out.blend", "out.json"]
+    assert "Panel: 4 loops" in done.stdout
+    bpy.ops.uv.koebe_uniformize(balance="area", layer="Round")
+    expected = scenes.corner_uv(obj.data, "Round").copy()
+    state = scenes.mesh_state(obj.data)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    obj = bpy.data.objects["Panel"]
+    assert np.array_equal(scenes.corner_uv(obj.data, "Round"), expected)
+    assert scenes.mesh_state(obj.data) == state
+    assert obj.material_slots[0].material.name == "Koebe Checker"
+    content = json.loads((tmp_path / "out.json").read_text())
+    (entry,) = content["objects"]
+    assert content["exit_code"] == 0
+    assert entry["object"] == "Panel" and entry["flipped"] == 0 and entry["converged"] is True
+    assert len(entry["loops"]) == 4 and entry["vertices"] == len(obj.data.vertices)
+    assert {frozenset(loop["vertices"]) for loop in entry["loops"]} == {
+        frozenset(loop) for loop in scenes.boundary_loops(obj.data)
+    }
+
+
+def test_loops_are_reported_in_the_numbers_of_the_mesh(batch, tmp_path):
+    vertices, faces = scenes.panel_arrays()
+    faces = [[v + 10 for v in face] for face in faces]
+    obj = scenes.add_object("Late", np.vstack([np.zeros((10, 3)), vertices]), faces)
+    scenes.select(obj)
+    assert batch("--output", "out.blend", "--report", "out.json").returncode == 0
+    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    assert {frozenset(loop["vertices"]) for loop in entry["loops"]} == {
+        frozenset(loop) for loop in scenes.boundary_loops(obj.data)
+    }
+
+
+def test_only_the_named_objects_and_no_checker(batch, tmp_path):
+    for name in ("A", "B, not C", "C"):
+        scenes.add_panel(name, size=12, holes=((0.1, 0.4, 0.4, 0.7),))
+    done = batch("--output", "out.blend", "--objects", "A,C", "--no-checker")
+    assert done.returncode == 0, done.stderr
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert {obj.name for obj in bpy.data.objects if obj.data.uv_layers} == {"A", "C"}
+    assert len(bpy.data.materials) == 0
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (), ("--output",), ("--output", "out.blend", "--method", "rf"), ("--output", "out.blend", "--tolerance", "0"),
+        ("--output", "out.blend", "--objects", "Nobody"), ("--output", "out.blend", "--outer", "sideways"),
+        ("--output", "no/such/folder/out.blend"), ("--output", "out.blend", "--layer", ""), ("--what",),
+    ],
+    ids=" ".join,
+)  # fmt: skip
+def test_wrong_usage_is_2_and_leaves_nothing(batch, tmp_path, arguments):
+    scenes.add_panel(size=8, holes=())
+    done = batch(*arguments)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.strip()
+    assert outputs(tmp_path) == []
+
+
+def test_a_bad_mesh_is_3_with_its_reason_and_no_blend(batch, tmp_path):
+    scenes.add_panel("Good")
+    scenes.add_cube("Bad")
+    done = batch("--output", "out.blend", "--report", "out.json")
+    assert done.returncode == 3
+    assert "Bad: " in done.stderr and "closed" in done.stderr and "Traceback" not in done.stderr
+    assert outputs(tmp_path) == ["out.json"]
+    entries = {entry["object"]: entry for entry in json.loads((tmp_path / "out.json").read_text())["objects"]}
+    assert entries["Bad"]["error"]["name"] == "TopologyError" and entries["Bad"]["error"]["kind"] == "closed"
+    assert "error" not in entries["Good"]
+
+
+def test_not_converged_is_4_and_written(batch, tmp_path):
+    scenes.add_panel()
+    done = batch("--output", "out.blend", "--report", "out.json", "--max-sweeps", "1", "--tolerance", "1e-14")
+    assert done.returncode == 4, done.stderr
+    assert "NOT CONVERGED" in done.stdout
+    content = json.loads((tmp_path / "out.json").read_text())
+    assert content["objects"][0]["converged"] is False
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert "Koebe" in bpy.data.objects["Panel"].data.uv_layers
+
+
+def test_the_output_may_replace_the_input_and_leaves_no_backup(batch, tmp_path):
+    scenes.add_panel()
+    source = tmp_path / "in.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(source), copy=True)
+    assert batch("--output", source, source=source).returncode == 0
+    assert outputs(tmp_path) == []
+    bpy.ops.wm.open_mainfile(filepath=str(source))
+    assert "Koebe" in bpy.data.objects["Panel"].data.uv_layers
+
+
+def test_a_failed_run_keeps_an_older_output(batch, tmp_path):
+    (tmp_path / "out.blend").write_text("older")
+    scenes.add_cube()
+    assert batch("--output", "out.blend").returncode == 3
+    assert (tmp_path / "out.blend").read_text() == "older"
+
+
+def test_a_file_saved_in_edit_mode(batch, tmp_path):
+    obj = scenes.add_panel()
+    bpy.ops.uv.koebe_uniformize()
+    expected = scenes.corner_uv(obj.data, "Koebe").copy()
+    obj.data.uv_layers.remove(obj.data.uv_layers["Koebe"])
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    assert batch("--output", "out.blend").returncode == 0
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Panel"].data, "Koebe"), expected)
+
+
+def test_linked_images_are_still_found_from_another_folder(batch, tmp_path):
+    (tmp_path / "far" / "away").mkdir(parents=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    image = bpy.data.images.new("Image", 4, 4)
+    image.filepath_raw, image.file_format = str(tmp_path / "image.png"), "PNG"
+    image.save()
+    image.filepath = "//image.png"
+    image.use_fake_user = True
+    scenes.add_panel()
+    bpy.ops.wm.save_mainfile()
+    done = batch("--output", "far/away/out.blend", source=tmp_path / "in.blend")
+    assert done.returncode == 0, done.stderr
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "far" / "away" / "out.blend"))
+    assert Path(bpy.path.abspath(bpy.data.images["Image"].filepath)).resolve() == (tmp_path / "image.png").resolve()
+
+
+def test_a_file_that_is_no_blend(batch, tmp_path):
+    junk = tmp_path / "in.blend"
+    junk.write_text("this is no blend file")
+    done = batch("--output", "out.blend", source=junk)
+    assert done.returncode not in (0, 3, 4)
+    assert outputs(tmp_path) == []

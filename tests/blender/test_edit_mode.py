@@ -1,0 +1,153 @@
+"""Edit Mode: only the selected faces are mapped, and the artist stays where they were."""
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def parts(obj):
+    """Faces inside and outside of a circle that no hole meets."""
+    center = scenes.read(obj.data.polygons, "center", np.float32, 3)
+    inside = np.hypot(center[:, 0], center[:, 1]) < 0.8
+    return np.flatnonzero(inside), np.flatnonzero(~inside)
+
+
+def corners_of(obj, faces):
+    """Corners of these faces."""
+    start = scenes.read(obj.data.polygons, "loop_start", np.int32)
+    size = scenes.read(obj.data.polygons, "loop_total", np.int32)
+    return np.concatenate([np.arange(start[f], start[f] + size[f]) for f in faces])
+
+
+@pytest.mark.parametrize("existing", [False, True])
+def test_only_selected_faces_get_uvs(existing):
+    obj = scenes.add_panel()
+    old = np.zeros((len(obj.data.loops), 2), dtype=np.float32)
+    if existing:
+        old = np.random.default_rng(2).uniform(0, 1, old.shape).astype(np.float32)
+        obj.data.uv_layers.new(name="Koebe").data.foreach_set("uv", old.ravel())
+    inside, outside = parts(obj)
+    scenes.select_faces(obj, inside)
+    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert bpy.context.mode == "EDIT_MESH"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    uv = scenes.corner_uv(obj.data, "Koebe")
+    others = corners_of(obj, outside)
+    assert np.array_equal(uv[others], old[others])
+    points = uv[corners_of(obj, inside)]
+    assert np.abs(np.hypot(*(points - 0.5).T).max() - 0.5) < 1e-6  # they fill the disk
+    assert np.flatnonzero(scenes.read(obj.data.polygons, "select", bool)).tolist() == inside.tolist()
+
+
+def test_selected_faces_are_mapped_like_a_mesh_of_their_own():
+    obj = scenes.add_panel()
+    inside, _ = parts(obj)
+    vertices = scenes.read(obj.data.vertices, "co", np.float32, 3)
+    faces = [list(obj.data.polygons[f].vertices) for f in inside]
+    used = np.unique(np.concatenate(faces))
+    own = scenes.add_object("Own", vertices[used], [np.searchsorted(used, f) for f in faces])
+    scenes.select(own)
+    bpy.ops.uv.koebe_uniformize()
+    scenes.select(obj)
+    scenes.select_faces(obj, inside)
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    part = scenes.corner_uv(obj.data, "Koebe")[corners_of(obj, inside)]
+    assert np.array_equal(part, scenes.corner_uv(own.data, "Koebe"))
+
+
+def test_the_mesh_its_selection_and_the_active_face_stay():
+    obj = scenes.add_panel()
+    scenes.select_faces(obj, range(0, len(obj.data.polygons) // 2))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    before = scenes.mesh_state(obj.data)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert scenes.mesh_state(obj.data, but_layer="Koebe") == before
+
+
+def test_hidden_faces_are_not_mapped():
+    obj = scenes.add_panel()
+    inside, outside = parts(obj)
+    scenes.select_faces(obj, outside)
+    bpy.ops.mesh.hide()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    uv = scenes.corner_uv(obj.data, "Koebe")
+    assert not uv[corners_of(obj, outside)].any()
+    assert uv[corners_of(obj, inside)].all()
+
+
+def test_nothing_selected_says_so():
+    obj = scenes.add_panel()
+    scenes.select_faces(obj, [])
+    with pytest.raises(RuntimeError, match="no faces are selected"):
+        bpy.ops.uv.koebe_uniformize()
+    assert bpy.context.mode == "EDIT_MESH"
+    assert len(obj.data.uv_layers) == 0
+
+
+def test_edits_that_only_edit_mode_knows_are_seen():
+    obj = scenes.add_panel()
+    scenes.select_faces(obj)
+    bpy.ops.transform.resize(value=(4, 1, 1))
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    written = scenes.corner_uv(obj.data, "Koebe").copy()
+    bpy.ops.uv.koebe_uniformize(layer="Outside")
+    assert np.array_equal(written, scenes.corner_uv(obj.data, "Outside"))
+
+
+def test_several_objects_in_edit_mode_and_a_selected_one_that_is_not():
+    one, two, three = (scenes.add_panel(name) for name in ("One", "Two", "Three"))
+    scenes.select(one, two)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    three.select_set(True)
+    bpy.ops.uv.koebe_uniformize()
+    assert {obj.name for obj in bpy.context.objects_in_mode} == {"One", "Two"}
+    assert three.select_get() and bpy.context.active_object is one
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.array_equal(scenes.corner_uv(one.data, "Koebe"), scenes.corner_uv(two.data, "Koebe"))
+    assert len(three.data.uv_layers) == 0
+
+
+def test_the_loop_of_the_active_vertex_becomes_the_rim():
+    import bmesh
+
+    obj = scenes.add_panel()
+    loops = scenes.boundary_loops(obj.data)
+    hole = min(loops, key=len)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    mesh = bmesh.from_edit_mesh(obj.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.select_history.add(mesh.verts[hole[0]])
+    bmesh.update_edit_mesh(obj.data)
+    bpy.ops.uv.koebe_uniformize(outer="active")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    radii = {len(loop): scenes.fit_circle(scenes.loop_uv(obj.data, "Koebe", loop))[1] for loop in loops}
+    assert radii.pop(len(hole)) == pytest.approx(0.5, abs=1e-6)
+    assert max(radii.values()) < 0.5
+
+
+def test_active_vertex_without_one_says_so():
+    scenes.add_panel()
+    with pytest.raises(RuntimeError, match="no vertex is active"):
+        bpy.ops.uv.koebe_uniformize(outer="active")
+
+
+def test_undo_in_edit_mode():
+    obj = scenes.add_panel()
+    scenes.select_faces(obj)
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Panel"]
+    assert obj.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(obj.data.uv_layers) == 0

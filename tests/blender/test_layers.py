@@ -1,0 +1,71 @@
+"""Which UV layer is written, and when none can be."""
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def test_the_layer_of_the_option_is_made_and_the_others_stay():
+    obj = scenes.add_panel()
+    obj.data.uv_layers.new(name="UVMap")
+    bpy.ops.uv.koebe_uniformize(layer="Ünïcode 1")
+    assert [layer.name for layer in obj.data.uv_layers] == ["UVMap", "Ünïcode 1"]
+    assert obj.data.uv_layers.active.name == "Ünïcode 1"
+    assert obj.data.uv_layers["UVMap"].active_render
+
+
+def test_the_longest_name_that_blender_keeps():
+    obj = scenes.add_panel()
+    name = "n" * 63
+    bpy.ops.uv.koebe_uniformize(layer=name)
+    bpy.ops.uv.koebe_uniformize(layer=name)
+    assert [layer.name for layer in obj.data.uv_layers] == [name]
+
+
+def test_a_full_mesh_is_refused_and_left_alone_but_an_existing_layer_is_written():
+    full, free = scenes.add_panel("Full"), scenes.add_panel("Free")
+    for index in range(8):
+        full.data.uv_layers.new(name=f"Layer {index}")
+    before = scenes.mesh_state(full.data)
+    scenes.select(free, full)
+    with pytest.raises(RuntimeError, match="Full: .*8 UV layers"):
+        bpy.ops.uv.koebe_uniformize()
+    assert scenes.mesh_state(full.data) == before
+    assert len(free.data.uv_layers) == 0, "all or nothing"
+    bpy.ops.uv.koebe_uniformize(layer="Layer 3")
+    assert len(full.data.uv_layers) == 8
+    assert np.array_equal(scenes.corner_uv(full.data, "Layer 3"), scenes.corner_uv(free.data, "Layer 3"))
+
+
+def test_an_attribute_of_that_name_is_not_overwritten():
+    obj = scenes.add_panel()
+    attribute = obj.data.attributes.new("Koebe", "FLOAT", "POINT")
+    attribute.data.foreach_set("value", np.arange(len(obj.data.vertices), dtype=np.float32))
+    with pytest.raises(RuntimeError, match="Panel: .*attribute 'Koebe'"):
+        bpy.ops.uv.koebe_uniformize()
+    values = scenes.read(obj.data.attributes["Koebe"].data, "value", np.float32)
+    assert np.array_equal(values, np.arange(len(values)))
+    assert len(obj.data.uv_layers) == 0
+
+
+@pytest.mark.parametrize("name", ["", " ", ".hidden"])
+def test_names_that_cannot_be_used_are_refused(name):
+    obj = scenes.add_panel()
+    with pytest.raises(RuntimeError, match="layer: "):
+        bpy.ops.uv.koebe_uniformize(layer=name)
+    assert len(obj.data.uv_layers) == 0
+
+
+def test_a_linked_mesh_is_refused(tmp_path):
+    scenes.add_panel("Away")
+    library = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(library), copy=True)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(library), link=True) as (_, into):
+        into.meshes = ["Away"]
+    obj = bpy.data.objects.new("Linked", into.meshes[0])
+    bpy.context.collection.objects.link(obj)
+    scenes.select(obj)
+    with pytest.raises(RuntimeError, match="Linked: .*make it local"):
+        bpy.ops.uv.koebe_uniformize()

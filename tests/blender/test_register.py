@@ -1,0 +1,59 @@
+"""Enabled, disabled and enabled again: everything is there, nothing is left behind."""
+
+import addon_utils
+import bpy
+
+
+def registered():
+    """What the add-on shows to Blender."""
+    return (
+        hasattr(bpy.types, "UV_OT_koebe_uniformize"),
+        hasattr(bpy.types, "VIEW3D_PT_koebe"),
+        hasattr(bpy.types, "IMAGE_PT_koebe"),
+        hasattr(bpy.types.Scene, "koebe_uv"),
+        sum(f.__name__ == "draw_menu" for f in bpy.types.VIEW3D_MT_uv_map._dyn_ui_initialize()),
+        sum(f.__name__ == "draw_menu" for f in bpy.types.IMAGE_MT_uvs._dyn_ui_initialize()),
+    )
+
+
+def test_it_is_enabled_with_panels_and_menu_entries():
+    assert registered() == (True, True, True, True, 1, 1)
+
+
+def test_disabling_leaves_nothing_behind(addon_name):
+    addon_utils.disable(addon_name)
+    try:
+        assert registered() == (False, False, False, False, 0, 0)
+    finally:
+        addon_utils.enable(addon_name)
+    assert registered() == (True, True, True, True, 1, 1)
+
+
+def test_panels_are_where_artists_look():
+    for panel, editor in ((bpy.types.VIEW3D_PT_koebe, "VIEW_3D"), (bpy.types.IMAGE_PT_koebe, "IMAGE_EDITOR")):
+        assert (panel.bl_label, panel.bl_category) == ("Koebe UV", "Koebe")
+        assert (panel.bl_space_type, panel.bl_region_type) == (editor, "UI")
+
+
+def test_everything_an_artist_meets_has_a_tooltip_that_teaches():
+    types = [bpy.ops.uv.koebe_uniformize.get_rna_type(), bpy.ops.uv.koebe_checker.get_rna_type(),
+             bpy.ops.uv.koebe_select_loop.get_rna_type(),
+             bpy.types.Scene.bl_rna.properties["koebe_uv"].fixed_type]  # fmt: skip
+    for owner in types:
+        for prop in owner.properties:
+            if prop.identifier in {"rna_type", "name"}:
+                continue
+            assert len(prop.description) > 20, f"{owner.identifier}.{prop.identifier}"
+            if prop.type == "ENUM":
+                assert all(len(item.description) > 20 for item in prop.enum_items)
+
+
+def test_the_operators_defaults_are_the_panels_and_the_batchs(addon):
+    options = addon("options").Options()
+    operator = bpy.ops.uv.koebe_uniformize.get_rna_type().properties
+    settings = bpy.context.scene.koebe_uv
+    for name in addon("properties").OPTION_NAMES:
+        default = operator[name].default
+        assert getattr(settings, name) == default
+        expected = getattr(options, name)
+        assert abs(default - expected) < 1e-6 if isinstance(expected, float) else default == expected

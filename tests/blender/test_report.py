@@ -1,0 +1,124 @@
+"""The report for the panel, and the operators that select what it speaks of."""
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+from test_bad_meshes import FAN, selected
+from test_islands import add_seamed_panel
+
+
+def islands():
+    """Entries of the report."""
+    return list(bpy.context.window_manager.koebe_uv.islands)
+
+
+def test_every_island_is_reported_with_its_figures(koebe):
+    obj = add_seamed_panel()
+    bad = scenes.add_cube("Bad")
+    scenes.select(obj, bad)
+    bpy.ops.uv.koebe_uniformize()
+    inner, outer, closed = islands()
+    assert [entry.object_name for entry in (inner, outer, closed)] == ["Panel", "Panel", "Bad"]
+    assert [entry.mapped for entry in (inner, outer, closed)] == [True, True, False]
+    assert [len(entry.loops) for entry in (inner, outer, closed)] == [4, 2, 0]
+    assert "closed" in closed.message
+    assert inner.converged and inner.flipped == 0 and inner.seconds > 0 and inner.angle_error > 0
+    assert inner.loops[0].radius == pytest.approx(1.0) and 0 < inner.loops[1].radius < 1
+
+
+def test_a_new_run_replaces_the_report():
+    scenes.add_panel()
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.uv.koebe_uniformize()
+    assert len(islands()) == 1
+
+
+def test_loops_are_selected_edge_by_edge_in_edit_mode():
+    obj = add_seamed_panel()
+    bpy.ops.uv.koebe_uniformize()
+    report = bpy.context.window_manager.koebe_uv
+    holes = {frozenset(loop) for loop in scenes.boundary_loops(obj.data)}
+    report.active = 0
+    found = set()
+    for index in range(4):
+        assert bpy.ops.uv.koebe_select_loop(loop=index) == {"FINISHED"}
+        assert bpy.context.mode == "EDIT_MESH"
+        vertices, edges, _ = selected(obj)
+        assert len(edges) == len(vertices)
+        if index == 0:
+            assert all(obj.data.edges[e].use_seam for e in edges) and len(edges) == 52
+        else:
+            found.add(frozenset(vertices))
+    assert found == {loop for loop in holes if len(loop) != 52}
+    with pytest.raises(RuntimeError, match="4 loops"):
+        bpy.ops.uv.koebe_select_loop(loop=4)
+
+
+def test_offenders_are_selected_from_object_mode():
+    obj = scenes.add_object("Bad", FAN, [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
+    good = scenes.add_panel("Good")
+    scenes.select(good, obj)
+    bpy.ops.uv.koebe_uniformize()
+    bpy.context.window_manager.koebe_uv.active = 1
+    assert bpy.ops.uv.koebe_select_offenders() == {"FINISHED"}
+    assert bpy.context.active_object is obj and not good.select_get()
+    vertices, edges, faces = selected(obj)
+    assert vertices == [0, 1] and len(edges) == 1 and faces == []
+
+
+def test_flipped_faces_are_selected(koebe, monkeypatch):
+    """The map with one vertex pulled across the disk."""
+    obj = scenes.add_panel()
+    original = koebe.uniformize
+
+    def tangled(*arguments, **options):
+        result = original(*arguments, **options)
+        uv = result.uv.copy()
+        uv[70] = -uv[70]
+        result.uv = uv
+        return result
+
+    monkeypatch.setattr(koebe, "uniformize", tangled)
+    bpy.ops.uv.koebe_uniformize()
+    areas = scenes.signed_areas(obj.data, "Koebe")
+    triangle_face = scenes.read(obj.data.loop_triangles, "polygon_index", np.int32)
+    expected = sorted(set(triangle_face[areas <= 0].tolist()))
+    assert expected
+    assert bpy.ops.uv.koebe_select_flipped() == {"FINISHED"}
+    assert selected(obj)[2] == expected
+
+
+def test_a_report_of_an_object_that_is_gone_selects_nothing():
+    obj = scenes.add_panel()
+    bpy.ops.uv.koebe_uniformize()
+    assert bpy.ops.uv.koebe_select_loop.poll()
+    bpy.data.objects.remove(obj)
+    assert not bpy.ops.uv.koebe_select_loop.poll()
+
+
+def test_reset_gives_the_defaults_back():
+    settings = bpy.context.scene.koebe_uv
+    settings.margin, settings.method, settings.layer = 0.1, "ck", "Other"
+    bpy.ops.uv.koebe_reset()
+    assert (settings.margin, settings.method, settings.layer) == (pytest.approx(0.02), "gk", "Koebe")
+
+
+def test_a_preset_keeps_the_options(tmp_path):
+    settings = bpy.context.scene.koebe_uv
+    settings.margin, settings.balance = 0.1, "area"
+    assert bpy.ops.uv.koebe_preset_add(name="Koebe test") == {"FINISHED"}
+    try:
+        bpy.ops.uv.koebe_reset()
+        path = bpy.utils.preset_find("Koebe_test", "koebe_uv") or bpy.utils.preset_find("Koebe test", "koebe_uv")
+        bpy.ops.script.execute_preset(filepath=path, menu_idname="KOEBE_MT_presets")
+        assert settings.margin == pytest.approx(0.1) and settings.balance == "area"
+    finally:
+        bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
+
+
+def test_the_shortcut_is_off_until_asked_for(addon_name):
+    preferences = bpy.context.preferences.addons[addon_name].preferences
+    assert preferences.shortcut is False
+    preferences.shortcut = True
+    preferences.shortcut = False

@@ -1,0 +1,41 @@
+// Circle domains with known circles, triangulated, and conformal lifts of them (docs/method.md, "Exact solutions").
+#pragma once
+
+#include "conformal/result.h"
+#include "core/types.h"
+
+#include <string>
+#include <vector>
+
+namespace koebe::test {
+
+/// The unit disk without round holes, as a triangle mesh whose boundary vertices lie exactly on the circles.
+struct CircleDomain {
+    std::vector<Circle> circles;    ///< the unit circle first
+    VectorXcd points;               ///< (V) vertices
+    Triangles triangles;            ///< counter-clockwise
+    std::vector<VertexLoop> loops;  ///< as `circles`; the domain on the left
+};
+
+/// Four holes of different sizes in the unit disk: five circles.
+std::vector<Circle> five_circles();
+
+/// Quasi-uniform mesh of about so many faces.
+/// @param circles the unit circle first, the others inside it and apart
+CircleDomain make_circle_domain(const std::vector<Circle>& circles, Index target_faces);
+
+/// Concentric rings of equal sectors between radius `inner` and 1, each cell cut in two.
+CircleDomain make_round_annulus(double inner, Index sectors, Index rings);
+
+enum class Lift { plane, polynomial, sphere, enneper };
+inline constexpr Lift curved_lifts[] = {Lift::polynomial, Lift::sphere, Lift::enneper};
+std::string to_string(Lift lift);
+
+/// Positions in space under a conformal immersion: the plane itself; z + 0.3 z^2 + 0.05 i z^3; inverse stereographic
+/// projection; Enneper's surface.
+Vertices lift(const VectorXcd& points, Lift kind);
+
+/// Largest relative error of the inversive distances of all pairs: what no Moebius map changes.
+double inversive_distance_error(const std::vector<Circle>& found, const std::vector<Circle>& expected);
+
+}  // namespace koebe::test

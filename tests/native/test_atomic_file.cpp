@@ -1,0 +1,121 @@
+// Laws of atomic files: before commit nothing has changed, and after it everything.
+#include "io/atomic_file.h"
+
+#include "io/file_error.h"
+#include "temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include <sys/stat.h>
+
+namespace koebe {
+namespace {
+
+namespace fs = std::filesystem;
+using test::bytes_of;
+using test::TemporaryFolder;
+
+TEST(AtomicFile, ReplacesOnCommitAndNotBefore)
+{
+    const TemporaryFolder folder;
+    const fs::path target = folder.write("out", "old");
+    AtomicFile file(target);
+    file.write("new");
+    EXPECT_EQ(bytes_of(target), "old");
+    file.commit();
+    EXPECT_EQ(bytes_of(target), "new");
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(AtomicFile, LeavesNothingBehindWithoutCommit)
+{
+    const TemporaryFolder folder;
+    {
+        AtomicFile file(folder.path() / "out");
+        file.write("half");
+        EXPECT_EQ(folder.file_count(), 1u);
+        AtomicFile moved(std::move(file));
+        moved.write(" of it");
+    }
+    EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(AtomicFile, TwoOfOneTargetDoNotMix)
+{
+    const TemporaryFolder folder;
+    AtomicFile a(folder.path() / "out"), b(folder.path() / "out");
+    a.write("first");
+    b.write("second");
+    b.commit();
+    a.commit();
+    EXPECT_EQ(bytes_of(folder.path() / "out"), "first");
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(AtomicFile, FollowsLinksAndKeepsPermissions)
+{
+    const TemporaryFolder folder;
+    const fs::path target = folder.write("target", "old");
+    fs::permissions(target, fs::perms::owner_read | fs::perms::owner_write | fs::perms::others_read);
+    fs::create_symlink("target", folder.path() / "link");
+    fs::create_symlink("link", folder.path() / "link_to_link");
+    AtomicFile file(folder.path() / "link_to_link");
+    file.write("new");
+    file.commit();
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "link_to_link"));
+    EXPECT_EQ(bytes_of(target), "new");
+    EXPECT_EQ(fs::status(target).permissions(),
+              fs::perms::owner_read | fs::perms::owner_write | fs::perms::others_read);
+    EXPECT_EQ(folder.file_count(), 3u);
+}
+
+TEST(AtomicFile, NewFilesHaveThePermissionsOfAnyOther)
+{
+    const TemporaryFolder folder;
+    const fs::path other = folder.write("other", "");
+    AtomicFile file(folder.path() / "out");
+    file.commit();
+    EXPECT_EQ(fs::status(folder.path() / "out").permissions(), fs::status(other).permissions());
+}
+
+TEST(AtomicFile, NamesMayBeAsLongAsTheSystemAllows)
+{
+    const TemporaryFolder folder;
+    AtomicFile file(folder.path() / std::string(255, 'n'));
+    file.commit();
+    EXPECT_TRUE(fs::exists(folder.path() / std::string(255, 'n')));
+}
+
+TEST(AtomicFile, DevicesArePipedToAndNotReplaced)
+{
+    AtomicFile file("/dev/null");
+    file.write("gone");
+    file.commit();
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+    AtomicFile full("/dev/full");
+    EXPECT_THROW(full.write("no space"), FileError);
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(AtomicFile, WhatCannotBeWrittenIsSaidBefore)
+{
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("file", "");
+    EXPECT_NO_THROW(require_writable(file));
+    EXPECT_NO_THROW(require_writable(folder.path() / "new"));
+    EXPECT_NO_THROW(require_writable("relative"));
+    EXPECT_NO_THROW(require_writable("/dev/null"));
+    for (const fs::path& bad : {folder.path(), folder.path() / "missing" / "out", file / "out", fs::path()}) {
+        SCOPED_TRACE(bad);
+        EXPECT_THROW(require_writable(bad), FileError);
+    }
+    EXPECT_EQ(folder.file_count(), 1u);
+    for (const fs::path& bad : {folder.path() / "missing" / "out", file / "out"})
+        EXPECT_THROW(AtomicFile{bad}, FileError);
+}
+
+}  // namespace
+}  // namespace koebe

@@ -1,0 +1,108 @@
+#include "conformal/circle_fit.h"
+#include "conformal/moebius.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace koebe;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// n points of a circle; skew 0 spaces them evenly, skew towards 1 crowds them at angle pi.
+VectorXcd points_on(const Circle& circle, int n, double skew = 0.0)
+{
+    VectorXcd points(n);
+    for (int i = 0; i < n; ++i) {
+        const double t = 2.0 * pi * i / n;
+        points[i] = circle.center + std::polar(circle.radius, t + skew * std::sin(t));
+    }
+    return points;
+}
+
+void expect_equal(const Circle& found, const Circle& expected, double tolerance)
+{
+    EXPECT_LT(std::abs(found.center - expected.center), tolerance * expected.radius);
+    EXPECT_NEAR(found.radius, expected.radius, tolerance * expected.radius);
+}
+
+}  // namespace
+
+TEST(CircleFit, least_squares_finds_a_circle_from_uneven_points_at_any_scale)
+{
+    for (const double scale : {1e-8, 1.0, 1e8}) {
+        const Circle circle{scale * Complex(3.0, -2.0), 0.5 * scale};
+        for (const double skew : {0.0, 0.5, 0.9})
+            expect_equal(fit_circle_least_squares(points_on(circle, 17, skew)), circle, 1e-13);
+        // Half of the circle is enough.
+        expect_equal(fit_circle_least_squares(points_on(circle, 40).head(20)), circle, 1e-12);
+    }
+}
+
+TEST(CircleFit, least_squares_makes_the_distances_stationary)
+{
+    VectorXcd points = points_on({{1.0, 2.0}, 2.0}, 31, 0.4);
+    for (int i = 0; i < points.size(); ++i) points[i] += 0.1 * std::polar(1.0, 7.0 * i * i);
+    const auto sum = [&](const Circle& c) { return ((points.array() - c.center).abs() - c.radius).square().sum(); };
+    const Circle best = fit_circle_least_squares(points);
+    for (const double e : {1e-3, -1e-3}) {
+        EXPECT_LT(sum(best), sum({best.center + e, best.radius}));
+        EXPECT_LT(sum(best), sum({best.center + Complex(0.0, e), best.radius}));
+        EXPECT_LT(sum(best), sum({best.center, best.radius + e}));
+    }
+}
+
+TEST(CircleFit, the_papers_circle_is_exact_for_even_points_and_second_order_for_uneven_ones)
+{
+    const Circle circle{{-1.0, 0.5}, 0.3};
+    expect_equal(fit_circle_paper(points_on(circle, 23)), circle, 1e-14);
+    const double coarse = std::abs(fit_circle_paper(points_on(circle, 40, 0.5)).center - circle.center);
+    const double fine = std::abs(fit_circle_paper(points_on(circle, 80, 0.5)).center - circle.center);
+    EXPECT_GT(coarse, 1e-5);
+    EXPECT_NEAR(coarse / fine, 4.0, 0.2);
+}
+
+TEST(CircleFit, length_weights_sum_to_one_and_follow_the_edges)
+{
+    VectorXcd square(5);  // one side has a point in its middle
+    square << Complex(0, 0), Complex(1, 0), Complex(2, 0), Complex(2, 2), Complex(0, 2);
+    const VectorXd weights = length_weights(square);
+    EXPECT_NEAR(weights.sum(), 1.0, 1e-15);
+    EXPECT_NEAR(weights[1], 0.125, 1e-15);  // two edges of 1, half of 2, of 8
+    EXPECT_NEAR(weights[3], 0.25, 1e-15);
+    EXPECT_LT(std::abs(fit_circle_paper(square).center - Complex(1.0, 1.0)), 1e-15);
+}
+
+TEST(CircleFit, roundness_is_the_root_mean_square_of_the_relative_deviation)
+{
+    EXPECT_LT(roundness(points_on({{4.0, 4.0}, 2.0}, 50, 0.7), {{4.0, 4.0}, 2.0}), 1e-15);
+    // Radius 1 + e cos 5t: root mean square e / sqrt 2, whatever the scale.
+    const double e = 1e-3;
+    for (const double scale : {1e-8, 1e8}) {
+        VectorXcd points(400);
+        for (int i = 0; i < 400; ++i)
+            points[i] = std::polar(scale * (1.0 + e * std::cos(5.0 * 2.0 * pi * i / 400)), 2.0 * pi * i / 400);
+        EXPECT_NEAR(roundness(points, {{0.0, 0.0}, scale}), e / std::sqrt(2.0), 1e-6);
+    }
+}
+
+TEST(CircleFit, inversive_distance_is_kept_by_moebius_maps)
+{
+    const Circle a{{0.3, 0.2}, 0.2}, b{{-0.4, 0.1}, 0.3}, unit;
+    EXPECT_NEAR(inversive_distance(Circle{{0.0, 0.0}, 0.25}, unit), 0.5 * (4.0 + 0.25), 1e-14);
+    const Moebius map{{0.35, -0.4}, std::polar(1.0, 0.7)};
+    EXPECT_NEAR(inversive_distance(map(a), map(b)), inversive_distance(a, b), 1e-12);
+    EXPECT_NEAR(inversive_distance(map(a), map(unit)), inversive_distance(a, unit), 1e-12);
+}
+
+TEST(CircleFit, degenerate_loops_give_finite_circles)
+{
+    VectorXcd line(4);
+    line << Complex(0, 0), Complex(1, 1), Complex(2, 2), Complex(3, 3);
+    EXPECT_TRUE(std::isfinite(fit_circle_least_squares(line).radius));
+    EXPECT_EQ(fit_circle_least_squares(VectorXcd::Constant(5, Complex(2.0, 1.0))).center, Complex(2.0, 1.0));
+    EXPECT_EQ(fit_circle_paper(VectorXcd::Constant(1, Complex(2.0, 1.0))).radius, 0.0);
+}

@@ -1,0 +1,100 @@
+#include "circle_domain.h"
+#include "geometry/condensed_laplacian.h"
+#include "geometry/laplacian.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+struct Sample {
+    explicit Sample(Index face_count = 3000)
+        : domain(make_circle_domain(five_circles(), face_count)), plane(lift(domain.points, Lift::plane)),
+          laplacian(cotan_laplacian(domain.triangles, half_cotangents(edge_lengths(plane, domain.triangles)),
+                                    static_cast<Index>(plane.rows())))
+    {
+        for (const VertexLoop& loop : domain.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    }
+    CircleDomain domain;
+    Vertices plane;
+    SparseMatrix laplacian;
+    std::vector<Index> boundary;
+};
+
+}  // namespace
+
+class CondensedLaplacianTest : public testing::TestWithParam<Ordering> {};
+
+TEST_P(CondensedLaplacianTest, sigma_is_the_schur_complement)
+{
+    const Sample sample(600);
+    const CondensedLaplacian condensed(sample.laplacian, sample.boundary, GetParam());
+    std::vector<char> on_boundary(sample.plane.rows(), 0);
+    for (const Index v : sample.boundary) on_boundary[v] = 1;
+    std::vector<Index> inside;
+    for (Index v = 0; v < sample.plane.rows(); ++v)
+        if (!on_boundary[v]) inside.push_back(v);
+    const MatrixXd k = sample.laplacian;
+    const MatrixXd schur = k(sample.boundary, sample.boundary) -
+                           k(sample.boundary, inside) * k(inside, inside).llt().solve(k(inside, sample.boundary));
+    EXPECT_LT((condensed.sigma() - schur).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+TEST_P(CondensedLaplacianTest, extension_of_linear_boundary_values_is_linear)
+{
+    const Sample sample;
+    const CondensedLaplacian condensed(sample.laplacian, sample.boundary, GetParam());
+    const MatrixXd linear = sample.plane.leftCols<2>();
+    const MatrixXd values = linear(sample.boundary, Eigen::all);
+    EXPECT_LT((condensed.extend(values) - linear).cwiseAbs().maxCoeff(), 1e-11);
+    // The flux of a linear function through its nodes: u' Sigma u is its energy over the domain.
+    const MatrixXd energy = values.transpose() * condensed.sigma() * values;
+    const MatrixXd expected = linear.transpose() * (sample.laplacian * linear);
+    EXPECT_LT((energy - expected).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+TEST_P(CondensedLaplacianTest, what_a_source_gives_arrives_at_the_boundary)
+{
+    const Sample sample;
+    const CondensedLaplacian condensed(sample.laplacian, sample.boundary, GetParam());
+    VectorXd load = VectorXd::Random(sample.plane.rows());
+    for (const Index v : sample.boundary) load[v] = 0.0;
+    const InteriorSolution solution = condensed.solve_interior(load);
+    const VectorXd residual = sample.laplacian * solution.values - load;
+    VectorXd inside = residual;
+    for (const Index v : sample.boundary) inside[v] = 0.0;
+    EXPECT_LT(inside.cwiseAbs().maxCoeff(), 1e-11);
+    EXPECT_NEAR(solution.boundary_flux.sum(), load.sum(), 1e-9);
+    for (std::size_t i = 0; i < sample.boundary.size(); ++i)
+        ASSERT_NEAR(solution.boundary_flux[i], -residual[sample.boundary[i]], 1e-10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Orderings, CondensedLaplacianTest, testing::Values(Ordering::amd, Ordering::metis));
+
+TEST(CondensedLaplacianOrder, an_interior_in_two_parts_keeps_the_boundary_last)
+{
+    // Two rows of cells side by side, all vertices of the shared column on the boundary: K_II falls apart.
+    const Index n = 9;
+    std::vector<Index> corners;
+    Vertices vertices(n * 5, 3);
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < 5; ++j) vertices.row(i * 5 + j) << i, j, 0.0;
+    for (Index i = 0; i + 1 < n; ++i)
+        for (Index j = 0; j + 1 < 5; ++j) {
+            const Index a = i * 5 + j, b = a + 5, c = b + 1, d = a + 1;
+            corners.insert(corners.end(), {a, b, c, a, c, d});
+        }
+    const Triangles triangles = Eigen::Map<Triangles>(corners.data(), corners.size() / 3, 3);
+    const SparseMatrix laplacian =
+        cotan_laplacian(triangles, half_cotangents(edge_lengths(vertices, triangles)), n * 5);
+    std::vector<Index> boundary;
+    for (Index v = 0; v < n * 5; ++v)
+        if (v / 5 == 0 || v / 5 == n - 1 || v / 5 == n / 2 || v % 5 == 0 || v % 5 == 4) boundary.push_back(v);
+    const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd);
+    const MatrixXd linear = vertices.leftCols<2>();
+    EXPECT_LT((condensed.extend(linear(boundary, Eigen::all)) - linear).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((condensed.sigma() * VectorXd::Ones(boundary.size())).cwiseAbs().maxCoeff(), 1e-12);
+}

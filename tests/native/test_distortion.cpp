@@ -1,0 +1,80 @@
+#include "circle_domain.h"
+#include "conformal/distortion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+PlanarPoints planar(const VectorXcd& z)
+{
+    PlanarPoints points(z.size(), 2);
+    points.col(0) = z.real();
+    points.col(1) = z.imag();
+    return points;
+}
+
+}  // namespace
+
+TEST(Distortion, of_a_similarity_is_none)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 1000);
+    const Vertices surface = 37.0 * lift(domain.points, Lift::plane);
+    const VectorXcd turned = std::polar(0.9, 1.2) * domain.points;
+    const Distortion d = measure_distortion(surface, domain.triangles, planar(turned));
+    EXPECT_LT(d.angle_error_deg.max, 1e-10);
+    EXPECT_LT(d.beltrami.max, 1e-12);
+    EXPECT_LT(d.area.log_sd, 1e-7);
+    EXPECT_NEAR(d.conformal_energy, 0.0, 1e-13);
+    EXPECT_TRUE(d.flipped.empty());
+}
+
+TEST(Distortion, of_a_stretch_is_known)
+{
+    // (x, y) -> (x, y/2): mu = (1 - 1/2) / (1 + 1/2) = 1/3; energy 1/2 (1 + 1/4) A - A/2 = A/8.
+    Vertices vertices(3, 3);
+    vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+    Triangles triangles(1, 3);
+    triangles << 0, 1, 2;
+    PlanarPoints uv(3, 2);
+    uv << 0, 0, 1, 0, 0, 0.5;
+    const Distortion d = measure_distortion(vertices, triangles, uv);
+    EXPECT_NEAR(d.beltrami.mean, 1.0 / 3.0, 1e-14);
+    EXPECT_NEAR(d.conformal_energy, 0.5 / 8.0, 1e-14);
+    const double angle = std::atan(0.5) * 180.0 / std::numbers::pi;
+    EXPECT_NEAR(d.angle_error_deg.max, 45.0 - angle, 1e-12);
+    EXPECT_NEAR(d.angle_error_deg.mean, 2.0 * (45.0 - angle) / 3.0, 1e-12);
+}
+
+TEST(Distortion, counts_flips_in_32_bits)
+{
+    Vertices vertices(4, 3);
+    vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0;
+    Triangles triangles(2, 3);
+    triangles << 0, 1, 2, 1, 3, 2;
+    PlanarPoints uv(4, 2);
+    uv << 0, 0, 0.5, 0, 0, 0.5, 0.1, 0.1;  // the second face folded over
+    EXPECT_EQ(measure_distortion(vertices, triangles, uv).flipped, (std::vector<Index>{1}));
+    uv << 0.5, 0.5, 0.5 + 1e-9, 0.5, 0.5, 0.5 + 1e-9, 0.9, 0.9;  // the first one positive in 64 bits only
+    const Distortion tiny = measure_distortion(vertices, triangles, uv);
+    EXPECT_EQ(tiny.flipped.front(), 0);
+    EXPECT_EQ(tiny.below_resolution, (std::vector<Index>{0}));
+}
+
+TEST(Distortion, leaves_out_faces_without_area_on_the_surface)
+{
+    Vertices vertices(4, 3);
+    vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0;
+    Triangles triangles(2, 3);
+    triangles << 0, 1, 2, 0, 3, 1;
+    PlanarPoints uv(4, 2);
+    uv << 0, 0, 0.5, 0, 0, 0.5, 0.3, -0.3;
+    const Distortion d = measure_distortion(vertices, triangles, uv);
+    EXPECT_TRUE(std::isfinite(d.area.log_sd));
+    EXPECT_LT(d.angle_error_deg.max, 1e-10);
+}

@@ -1,0 +1,232 @@
+#include "circle_domain.h"
+#include "conformal/circle_fit.h"
+#include "conformal/koebe_mesh.h"
+#include "conformal/moebius.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+KoebeMeshResult run(const CircleDomain& domain, Lift kind, const UniformizeOptions& options = {},
+                    const KoebeMeshOptions& mesh_options = {})
+{
+    ExecutionContext context;
+    const Surface surface = analyze_surface(domain.triangles, static_cast<Index>(domain.points.size()));
+    return koebe_mesh(lift(domain.points, kind), surface, domain.loops, options, context, mesh_options);
+}
+
+std::vector<Circle> circles_of(const KoebeMeshResult& result)
+{
+    std::vector<Circle> circles;
+    for (const VectorXcd& loop : result.outcome.loops) circles.push_back(fit_circle_least_squares(loop));
+    return circles;
+}
+
+double error_of(const CircleDomain& domain, const KoebeMeshResult& result)
+{
+    return inversive_distance_error(circles_of(result), domain.circles);
+}
+
+std::vector<Circle> six_circles()
+{
+    auto circles = five_circles();
+    circles.push_back({{0.05, 0.62}, 0.1});
+    return circles;
+}
+
+/// Steps until every later change is below the bound.
+int steps_to(const KoebeMeshResult& result, double roundness_excess)
+{
+    const auto& history = result.outcome.history;
+    const double limit = history.back().mean_roundness;
+    int steps = static_cast<int>(history.size());
+    while (steps > 1 && std::abs(history[steps - 2].mean_roundness - limit) < roundness_excess * limit) --steps;
+    return steps;
+}
+
+}  // namespace
+
+class KoebeMeshMethod : public testing::TestWithParam<Method> {};
+
+TEST_P(KoebeMeshMethod, finds_the_circles_of_a_lifted_circle_domain)
+{
+    UniformizeOptions options;
+    options.method = GetParam();
+    for (const Lift kind : {Lift::plane, Lift::polynomial, Lift::sphere, Lift::enneper}) {
+        double first = 0.0, last = 0.0;
+        for (const Index faces : {1000, 9000}) {
+            const CircleDomain domain = make_circle_domain(five_circles(), faces);
+            const KoebeMeshResult result = run(domain, kind, options);
+            EXPECT_TRUE(result.outcome.converged) << to_string(kind);
+            last = error_of(domain, result);
+            if (first == 0.0) first = last;
+        }
+        EXPECT_LT(first, 2e-3) << to_string(kind);
+        EXPECT_LT(last, 5e-4) << to_string(kind);
+    }
+}
+
+TEST_P(KoebeMeshMethod, the_outer_loop_is_on_the_unit_circle_and_the_others_are_nearly_round)
+{
+    UniformizeOptions options;
+    options.method = GetParam();
+    const CircleDomain domain = make_circle_domain(six_circles(), 4000);
+    const KoebeMeshResult result = run(domain, Lift::polynomial, options);
+    for (const Complex z : result.outcome.loops[0]) EXPECT_NEAR(std::abs(z), 1.0, 1e-14);
+    for (std::size_t k = 1; k < domain.loops.size(); ++k) {
+        EXPECT_LT(roundness(result.outcome.loops[k], circles_of(result)[k]), 2e-3);
+        EXPECT_EQ(result.outcome.loops[k], gather_loop(result.positions, domain.loops[k]));
+    }
+    for (Eigen::Index f = 0; f < domain.triangles.rows(); ++f) {
+        const Complex a = result.positions[domain.triangles(f, 0)];
+        EXPECT_GT(std::imag(std::conj(result.positions[domain.triangles(f, 1)] - a) *
+                            (result.positions[domain.triangles(f, 2)] - a)),
+                  0.0);
+    }
+}
+
+TEST_P(KoebeMeshMethod, a_circle_domain_is_a_fixed_point)
+{
+    // Loops 1 to n keep their circles up to the automorphism that the normalization of loop 0 leaves.
+    UniformizeOptions options;
+    options.method = GetParam();
+    const CircleDomain domain = make_circle_domain(six_circles(), 8000);
+    const KoebeMeshResult result = run(domain, Lift::plane, options);
+    const std::vector<Circle> found = circles_of(result);
+    const Moebius to_first = center_circle(domain.circles[1]), found_to_first = center_circle(found[1]);
+    const Complex turn = to_first(domain.circles[2]).center / found_to_first(found[2]).center;
+    const VectorXcd expected = to_first(domain.points);
+    const VectorXcd moved = turn / std::abs(turn) * found_to_first(result.positions);
+    EXPECT_LT((moved - expected).cwiseAbs().maxCoeff(), 2e-3);
+}
+
+TEST_P(KoebeMeshMethod, changes_decay_geometrically_in_sweeps)
+{
+    UniformizeOptions options;
+    options.method = GetParam();
+    options.tolerance = 1e-11;
+    const CircleDomain domain = make_circle_domain(six_circles(), 2000);
+    const KoebeMeshResult result = run(domain, Lift::polynomial, options);
+    EXPECT_TRUE(result.outcome.converged);
+    EXPECT_LE(result.outcome.sweeps, 8);
+}
+
+TEST_P(KoebeMeshMethod, reruns_are_bit_identical_and_units_do_not_matter)
+{
+    UniformizeOptions options;
+    options.method = GetParam();
+    const CircleDomain domain = make_circle_domain(five_circles(), 1000);
+    const KoebeMeshResult result = run(domain, Lift::enneper, options);
+    EXPECT_EQ(run(domain, Lift::enneper, options).positions, result.positions);
+    const Surface surface = analyze_surface(domain.triangles, static_cast<Index>(domain.points.size()));
+    for (const double scale : {1e-8, 1e8}) {
+        ExecutionContext context;
+        const Vertices scaled = scale * lift(domain.points, Lift::enneper);
+        const KoebeMeshResult again = koebe_mesh(scaled, surface, domain.loops, options, context);
+        EXPECT_LT((again.positions - result.positions).cwiseAbs().maxCoeff(), 1e-9);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, KoebeMeshMethod, testing::Values(Method::gk, Method::ck),
+                         [](const auto& method) { return method.param == Method::gk ? "gk" : "ck"; });
+
+TEST(KoebeMesh, both_methods_find_the_same_circles_and_gk_in_fewer_steps)
+{
+    const CircleDomain domain = make_circle_domain(six_circles(), 3000);
+    for (const Lift kind : curved_lifts) {
+        UniformizeOptions gk, ck;
+        ck.method = Method::ck;
+        const KoebeMeshResult a = run(domain, kind, gk), b = run(domain, kind, ck);
+        EXPECT_LT(inversive_distance_error(circles_of(a), circles_of(b)), 1e-3) << to_string(kind);
+        EXPECT_LT(a.outcome.steps, b.outcome.steps);
+        EXPECT_LT(steps_to(a, 1e-3), steps_to(b, 1e-3)) << to_string(kind);
+        EXPECT_LT(steps_to(a, 1e-5), steps_to(b, 1e-5)) << to_string(kind);
+    }
+}
+
+TEST(KoebeMesh, the_history_names_the_pairs)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 600);
+    UniformizeOptions options;
+    options.max_sweeps = 2;
+    options.tolerance = 0.0;
+    const auto gk = run(domain, Lift::sphere, options).outcome;
+    EXPECT_FALSE(gk.converged);
+    EXPECT_EQ(gk.sweeps, 2);
+    EXPECT_EQ(gk.steps, 6);
+    const std::vector<std::pair<int, int>> expected{{0, 1}, {2, 3}, {0, 4}, {0, 1}, {2, 3}, {0, 4}};
+    for (std::size_t s = 0; s < expected.size(); ++s) {
+        EXPECT_EQ(gk.history[s].pair, expected[s]);
+        EXPECT_EQ(gk.history[s].step, static_cast<int>(s) + 1);
+        EXPECT_GT(gk.history[s].mean_roundness, 0.0);
+    }
+    options.method = Method::ck;
+    const auto ck = run(domain, Lift::sphere, options).outcome;
+    for (std::size_t s = 0; s < ck.history.size(); ++s)
+        EXPECT_EQ(ck.history[s].pair, std::pair(0, 1 + static_cast<int>(s) % 4));
+}
+
+TEST(KoebeMesh, agrees_with_the_condensed_limit_of_the_exact_circles)
+{
+    // Two loops: one step, the annulus; the circles of a round annulus come back.
+    const CircleDomain annulus = make_round_annulus(0.3, 96, 20);
+    const KoebeMeshResult result = run(annulus, Lift::sphere);
+    EXPECT_TRUE(result.outcome.converged);
+    EXPECT_EQ(result.outcome.steps, 1);
+    EXPECT_LT(error_of(annulus, result), 1e-3);
+}
+
+TEST(KoebeMesh, one_loop_is_the_riemann_map)
+{
+    const CircleDomain disk = make_circle_domain({Circle{}}, 4000);
+    const KoebeMeshResult result = run(disk, Lift::enneper);
+    EXPECT_TRUE(result.outcome.converged);
+    EXPECT_EQ(result.outcome.steps, 0);
+    // Enneper's surface is symmetric, so the normalized map is a rotation of the disk.
+    Complex turn = (result.positions.array() * disk.points.array().conjugate()).sum();
+    turn /= std::abs(turn);
+    EXPECT_LT((result.positions.array() - turn * disk.points.array()).abs().maxCoeff(), 2e-3);
+}
+
+TEST(KoebeMesh, the_metric_of_the_present_image_drifts)
+{
+    // What the paper writes, and why it is not the default: each sweep adds an error of the size of the first.
+    const CircleDomain domain = make_circle_domain(five_circles(), 2000);
+    UniformizeOptions options;
+    options.tolerance = 0.0;
+    KoebeMeshOptions present;
+    present.metric = KoebeMeshOptions::Metric::present;
+    options.max_sweeps = 2;
+    const double early = error_of(domain, run(domain, Lift::polynomial, options, present));
+    options.max_sweeps = 6;
+    const double late = error_of(domain, run(domain, Lift::polynomial, options, present));
+    EXPECT_GT(late, 2.0 * early);
+    EXPECT_LT(error_of(domain, run(domain, Lift::polynomial, options)), 0.1 * early);
+}
+
+TEST(KoebeMesh, progress_never_goes_back_and_cancelling_stops_it)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 1000);
+    const Surface surface = analyze_surface(domain.triangles, static_cast<Index>(domain.points.size()));
+    const Vertices vertices = lift(domain.points, Lift::sphere);
+    double last = -1.0;
+    int calls = 0;
+    CancelToken token;
+    const auto progress = [&](double fraction, const std::string&) {
+        EXPECT_GE(fraction, last);
+        EXPECT_LE(fraction, 1.0);
+        last = fraction;
+        ++calls;
+    };
+    ExecutionContext context(progress, token);
+    const KoebeMeshResult result = koebe_mesh(vertices, surface, domain.loops, {}, context);
+    EXPECT_GE(calls, result.outcome.steps);
+
+    ExecutionContext cancelled([&](double, const std::string&) { token.cancel(); }, token);
+    EXPECT_THROW(koebe_mesh(vertices, surface, domain.loops, {}, cancelled), Cancelled);
+}

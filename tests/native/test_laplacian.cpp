@@ -1,0 +1,93 @@
+#include "circle_domain.h"
+#include "core/errors.h"
+#include "geometry/laplacian.h"
+#include "geometry/sparse_cholesky.h"
+
+#include <gtest/gtest.h>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+struct Sample {
+    CircleDomain domain = make_circle_domain(five_circles(), 2000);
+    Vertices vertices = lift(domain.points, Lift::enneper);
+    SparseMatrix laplacian(const Vertices& v) const
+    {
+        return cotan_laplacian(domain.triangles, half_cotangents(edge_lengths(v, domain.triangles)),
+                               static_cast<Index>(v.rows()));
+    }
+};
+
+}  // namespace
+
+TEST(Laplacian, is_symmetric_semidefinite_and_kills_constants)
+{
+    const Sample sample;
+    const SparseMatrix k = sample.laplacian(sample.vertices);
+    EXPECT_LT((SparseMatrix(k.transpose()) - k).norm(), 1e-14 * k.norm());
+    EXPECT_LT((k * VectorXd::Ones(k.cols())).cwiseAbs().maxCoeff(), 1e-12);
+    for (int trial = 0; trial < 5; ++trial) {
+        const VectorXd u = VectorXd::Random(k.cols());
+        EXPECT_GT(u.dot(k * u), 0.0);
+    }
+}
+
+TEST(Laplacian, a_plane_has_the_energy_of_its_linear_functions)
+{
+    // |grad (2x - y)|^2 = 5 and linear functions are exact: u' K u = 5 area.
+    const Sample sample;
+    const SparseMatrix k = sample.laplacian(lift(sample.domain.points, Lift::plane));
+    const VectorXd u = 2.0 * sample.domain.points.real() - sample.domain.points.imag();
+    double area = 0.0;
+    for (Eigen::Index f = 0; f < sample.domain.triangles.rows(); ++f) {
+        const Complex a = sample.domain.points[sample.domain.triangles(f, 0)];
+        const Complex b = sample.domain.points[sample.domain.triangles(f, 1)] - a;
+        const Complex c = sample.domain.points[sample.domain.triangles(f, 2)] - a;
+        area += 0.5 * (std::conj(b) * c).imag();
+    }
+    EXPECT_NEAR(u.dot(k * u), 5.0 * area, 1e-11);
+    EXPECT_NEAR(vertex_areas(sample.domain.triangles,
+                             edge_lengths(lift(sample.domain.points, Lift::plane), sample.domain.triangles),
+                             static_cast<Index>(u.size()))
+                    .sum(),
+                area, 1e-12);
+}
+
+TEST(Laplacian, does_not_depend_on_the_unit)
+{
+    const Sample sample;
+    const SparseMatrix k = sample.laplacian(sample.vertices);
+    for (const double scale : {1e-8, 1e8}) {
+        const SparseMatrix scaled = sample.laplacian(scale * sample.vertices);
+        EXPECT_LT((scaled - k).norm(), 1e-12 * k.norm()) << scale;
+    }
+}
+
+TEST(Laplacian, weights_of_a_degenerate_face_are_finite)
+{
+    EdgeLengths lengths(2, 3);
+    lengths << 1.0, 1.0, 2.0, 1.0, 1.0, 0.0;
+    EXPECT_TRUE(half_cotangents(lengths).allFinite());
+}
+
+TEST(DirichletSolver, reproduces_linear_functions_of_a_plane)
+{
+    const Sample sample;
+    const Vertices plane = lift(sample.domain.points, Lift::plane);
+    std::vector<char> fixed(plane.rows(), 0);
+    for (const VertexLoop& loop : sample.domain.loops)
+        for (const Index v : loop) fixed[v] = 1;
+    const DirichletSolver solver(sample.laplacian(plane), fixed);
+    const MatrixXd solution = solver.solve(plane.leftCols<2>());
+    EXPECT_LT((solution - plane.leftCols<2>()).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+TEST(SparseCholesky, refuses_an_indefinite_matrix)
+{
+    SparseMatrix matrix(2, 2);
+    matrix.insert(0, 0) = 1.0;
+    matrix.insert(1, 1) = -1.0;
+    EXPECT_THROW(SparseCholesky{matrix}, SolverError);
+}

@@ -1,0 +1,106 @@
+// Laws of the writer: what is written reads back to the last bit, and a file is whole or absent.
+#include "io/obj_writer.h"
+
+#include "core/errors.h"
+#include "io/mesh_reader.h"
+#include "temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <sstream>
+
+namespace koebe {
+namespace {
+
+using test::bytes_of;
+using test::TemporaryFolder;
+
+/// Polygons over random vertices of all magnitudes.
+PolygonMesh random_mesh(Index vertex_count, Index face_count)
+{
+    std::mt19937_64 random(3);
+    PolygonMesh mesh;
+    mesh.vertices.resize(vertex_count, 3);
+    for (double& x : mesh.vertices.reshaped())
+        x = std::uniform_real_distribution<double>(-1.0, 1.0)(random) * std::pow(10.0, static_cast<int>(random() % 600) - 300);
+    for (Index f = 0; f < face_count; ++f) {
+        for (Index corner = 0; corner < 3 + f % 4; ++corner)
+            mesh.corners.push_back(static_cast<Index>(random() % vertex_count));
+        mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
+    }
+    return mesh;
+}
+
+std::string written_with_uvs(const TemporaryFolder& folder, const PolygonMesh& mesh, const PlanarPoints& points)
+{
+    AtomicFile file(folder.path() / "out.obj");
+    write_obj_with_uvs(file, mesh, points);
+    file.commit();
+    return bytes_of(folder.path() / "out.obj");
+}
+
+TEST(ObjWriter, ReadsBackToTheLastBitInTheSameOrder)
+{
+    const TemporaryFolder folder;
+    PolygonMesh mesh = random_mesh(5000, 3000);  // several buffers full
+    mesh.vertices.row(0) << -0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max();
+    written_with_uvs(folder, mesh, PlanarPoints::Zero(5000, 2));
+    const PolygonMesh read = read_mesh(folder.path() / "out.obj");
+    EXPECT_TRUE(read.vertices == mesh.vertices);
+    EXPECT_EQ(read.corners, mesh.corners);
+    EXPECT_EQ(read.face_begin, mesh.face_begin);
+}
+
+TEST(ObjWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquare)
+{
+    const TemporaryFolder folder;
+    PlanarPoints points = PlanarPoints::Random(400, 2) * 0.7;
+    points.topRows(3) << 1.0 + 1e-12, 0.0, 0.0, -1.0 - 1e-12, 1.0 / 3.0, -1.0 / 7.0;
+    std::istringstream lines(written_with_uvs(folder, random_mesh(400, 2), points));
+    Index v = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("vt ")) continue;
+        const std::size_t space = line.find(' ', 3);
+        const double u = std::strtod(line.c_str() + 3, nullptr), w = std::strtod(line.c_str() + space, nullptr);
+        EXPECT_EQ(u, std::min(1.0, (1.0 + points(v, 0)) / 2.0));
+        EXPECT_EQ(w, std::max(0.0, (1.0 + points(v, 1)) / 2.0));
+        ++v;
+    }
+    EXPECT_EQ(v, 400);
+}
+
+TEST(ObjWriter, FacesNameTheTextureCoordinateOfTheirVertex)
+{
+    const TemporaryFolder folder;
+    PolygonMesh mesh = random_mesh(4, 0);
+    mesh.corners = {3, 0, 1, 0, 1, 2, 3};
+    mesh.face_begin = {0, 3, 7};
+    const std::string text = written_with_uvs(folder, mesh, PlanarPoints::Zero(4, 2));
+    EXPECT_NE(text.find("\nf 4/4 1/1 2/2\nf 1/1 2/2 3/3 4/4\n"), std::string::npos) << text;
+}
+
+TEST(ObjWriter, GroupsAreNamedWhereTheyChange)
+{
+    const TemporaryFolder folder;
+    PolygonMesh mesh = random_mesh(3, 0);
+    mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
+    mesh.face_begin = {0, 3, 6, 9};
+    AtomicFile file(folder.path() / "out.obj");
+    write_obj_with_groups(file, mesh, {0, 0, 2}, {"surface", "patch_0", "patch_1"});
+    file.commit();
+    const std::string text = bytes_of(folder.path() / "out.obj");
+    EXPECT_TRUE(text.ends_with("\ng surface\nf 1 2 3\nf 2 3 1\ng patch_1\nf 3 1 2\n")) << text;
+    EXPECT_EQ(text.find("patch_0"), std::string::npos);
+}
+
+TEST(ObjWriter, NeedsAPointForEachVertex)
+{
+    const TemporaryFolder folder;
+    AtomicFile file(folder.path() / "out.obj");
+    EXPECT_THROW(write_obj_with_uvs(file, random_mesh(4, 1), PlanarPoints::Zero(3, 2)), InputError);
+}
+
+}  // namespace
+}  // namespace koebe

@@ -1,0 +1,515 @@
+"""The koebe command: files in, files out, exit codes, and what it prints.
+
+The command is build/koebe, or what the environment variable KOEBE_COMMAND names.
+"""
+
+import json
+import os
+import pty
+import re
+import signal
+import struct
+import subprocess
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+COMMAND = os.environ.get("KOEBE_COMMAND", str(ROOT / "build" / "koebe"))
+HOSTILE = sorted((ROOT.parent / "shared" / "meshes" / "hostile").glob("*"))
+
+USAGE, CANNOT_BE_MAPPED, NOT_CONVERGED, INTERRUPTED = 2, 3, 4, 130
+
+
+def koebe(*args, **options):
+    return subprocess.run([COMMAND, *map(str, args)], capture_output=True, text=True, timeout=120, **options)
+
+
+# ---------------------------------------------------------------- meshes
+
+
+def perforated(n=24, holes=((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))):
+    """A wavy square of n x n cells with round holes: vertices and quadrilaterals, no vertex unused."""
+    t = np.linspace(0.0, 1.0, n + 1)
+    points = np.stack([a.ravel() for a in np.meshgrid(t, t)], axis=1)
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    quads = np.stack([corner, corner + 1, corner + n + 2, corner + n + 1], axis=1)
+    center = points[quads].mean(axis=1)
+    for *middle, radius in holes:
+        inside = np.linalg.norm(center - middle, axis=1) < radius
+        rim = np.intersect1d(quads[inside], quads[~inside])
+        arm = points[rim] - middle
+        points[rim] = middle + radius * arm / np.linalg.norm(arm, axis=1, keepdims=True)
+        quads, center = quads[~inside], center[~inside]
+    used, quads = np.unique(quads, return_inverse=True)
+    x, y = points[used].T
+    return np.stack([x, y, 0.15 * np.sin(3.0 * x) * np.cos(2.0 * y)], axis=1), quads.reshape(-1, 4)
+
+
+def triangles_of(quads):
+    return quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+
+def obj_text(vertices, faces):
+    lines = ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
+    lines += ["f " + " ".join(str(i + 1) for i in f) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def off_text(vertices, faces):
+    lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
+    lines += [" ".join(repr(float(x)) for x in v) for v in vertices]
+    lines += [" ".join(map(str, [len(f), *f])) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def ply_bytes(vertices, faces):
+    header = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n"
+        "property double x\nproperty double y\nproperty double z\n"
+        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    body = b"".join(struct.pack(f"<B{len(f)}i", len(f), *f) for f in faces)
+    return header.encode() + np.asarray(vertices, dtype="<f8").tobytes() + body
+
+
+def stl_text(vertices, triangles):
+    facets = []
+    for triangle in triangles:
+        corners = "".join(f"vertex {x!r} {y!r} {z!r}\n" for x, y, z in vertices[triangle].tolist())
+        facets.append(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    return "solid a\n" + "".join(facets) + "endsolid a\n"
+
+
+class Obj:
+    """An OBJ as it is written: vertices, texture coordinates, faces as tuples, groups as [(name, first face)]."""
+
+    def __init__(self, path):
+        self.vertices, self.uv, self.faces, self.groups = [], [], [], []
+        for line in Path(path).read_text().splitlines():
+            keyword, *words = line.split() or [""]
+            if keyword == "v":
+                self.vertices.append([float(w) for w in words])
+            elif keyword == "vt":
+                self.uv.append([float(w) for w in words])
+            elif keyword == "f":
+                corners = [w.split("/") for w in words]
+                assert all(len(set(c)) == 1 for c in corners), "vt has another number than v"
+                self.faces.append(tuple(int(c[0]) - 1 for c in corners))
+            elif keyword == "g":
+                self.groups.append((words[0], len(self.faces)))
+        self.vertices, self.uv = np.array(self.vertices), np.array(self.uv)
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    """Folder with the perforated square in quadrilaterals as in.obj."""
+    vertices, quads = perforated()
+    (tmp_path / "in.obj").write_text(obj_text(vertices, quads))
+    return tmp_path
+
+
+def names(folder):
+    return {p.name for p in folder.iterdir()}
+
+
+def disk(uv):
+    return 2.0 * uv - 1.0
+
+
+# ---------------------------------------------------------------- uniformize
+
+
+def test_out_has_the_same_vertices_and_polygons_and_circles_for_holes(mesh):
+    vertices, quads = perforated()
+    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json")
+    assert run.returncode == 0, run.stderr
+    out = Obj(mesh / "out.obj")
+    assert np.array_equal(out.vertices, vertices)  # to the last bit
+    assert out.faces == [tuple(q) for q in quads]
+    assert out.uv.shape == (len(vertices), 2)
+    assert out.uv.min() >= 0.0 and out.uv.max() <= 1.0
+
+    report = json.loads((mesh / "report.json").read_text())
+    assert len(report["loops"]) == 4
+    assert report["loops"][0]["center"] == [0.0, 0.0] and report["loops"][0]["radius"] == 1.0
+    for loop in report["loops"]:
+        distance = np.linalg.norm(disk(out.uv)[loop["vertices"]] - loop["center"], axis=1)
+        assert np.abs(distance - loop["radius"]).max() < 1e-6
+    on_loops = [v for loop in report["loops"] for v in loop["vertices"]]
+    assert len(on_loops) == len(set(on_loops))
+    assert report["flipped"] == 0
+    corners = disk(out.uv)[quads]
+    a, b = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    assert (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).min() > 0.0  # twice the areas
+
+
+def test_prints_one_result_line_and_nothing_else(mesh):
+    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj")
+    number = r"[0-9.]+"
+    assert re.fullmatch(
+        rf"{re.escape(str(mesh / 'out.obj'))}: 4 loops, \d+ sweeps?, roundness {number}e-\d\d, "
+        rf"angle error {number} deg, 0 flipped, {number} s\n",
+        run.stdout,
+    ), run.stdout
+    assert run.stderr == ""
+    quiet = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--quiet")
+    assert (quiet.returncode, quiet.stdout, quiet.stderr) == (0, "", "")
+    assert names(mesh) == {"in.obj", "out.obj"}
+
+
+def test_the_report_has_the_keys_of_the_contract(mesh):
+    koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", "--method", "gk")
+    report = json.loads((mesh / "report.json").read_text())
+    assert list(report) == [
+        *("version", "input", "vertices", "faces", "method", "engine", "outer_loop", "converged", "sweeps", "steps"),
+        *("history", "loops", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy", "flipped"),
+        *("below_resolution", "seconds", "peak_memory_mb", "warnings"),
+    ]
+    assert report["input"] == "in.obj"
+    assert report["vertices"] == len(perforated()[0])
+    assert (report["method"], report["engine"], report["converged"]) == ("gk", "condensed", True)
+    assert all(list(step) == ["step", "pair", "change", "mean_roundness"] for step in report["history"])
+    assert len(report["history"]) == report["steps"] > 0
+    assert set(report["loops"][0]) == {
+        *("vertices", "center", "radius", "roundness", "roundness_projected", "off_circle")
+    }
+    assert list(report["seconds"]) == [*("read", "topology", "metric", "factor", "iterate", "finish", "write", "total")]
+    parts = [value for stage, value in report["seconds"].items() if stage != "total"]
+    assert 0.0 < sum(parts) <= report["seconds"]["total"]
+    assert report["peak_memory_mb"] > 1.0
+
+
+def test_every_format_gives_the_same_map(mesh):
+    vertices, quads = perforated()
+    (mesh / "in.off").write_text(off_text(vertices, quads))
+    (mesh / "in.ply").write_bytes(ply_bytes(vertices, quads))
+    outs = []
+    for name in ("in.obj", "in.off", "in.ply"):
+        assert koebe("uniformize", mesh / name, mesh / "out.obj").returncode == 0
+        outs.append((mesh / "out.obj").read_text())
+    assert outs[0] == outs[1] == outs[2]  # to the last bit, and from run to run
+
+
+def test_stl_corners_become_shared_vertices(mesh):
+    vertices, quads = perforated()
+    (mesh / "in.STL").write_text(stl_text(vertices, triangles_of(quads)))
+    run = koebe("uniformize", mesh / "in.STL", mesh / "out.obj")
+    assert run.returncode == 0, run.stderr
+    out = Obj(mesh / "out.obj")
+    assert len(out.vertices) == len(vertices)
+    assert np.array_equal(out.vertices[np.array(out.faces)], vertices[triangles_of(quads)])
+
+
+def test_outer_picks_the_loop_of_the_unit_circle(mesh):
+    koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json")
+    hole = json.loads((mesh / "report.json").read_text())["loops"][2]["vertices"]
+    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", "--outer", hole[1])
+    assert run.returncode == 0, run.stderr
+    report = json.loads((mesh / "report.json").read_text())
+    assert set(report["loops"][0]["vertices"]) == set(hole)
+    uv = disk(Obj(mesh / "out.obj").uv)
+    assert np.abs(np.linalg.norm(uv[hole], axis=1) - 1.0).max() < 1e-12
+
+    inside = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--outer", 10**6)
+    assert inside.returncode == CANNOT_BE_MAPPED and inside.stderr.count("\n") == 1
+
+
+def test_vertices_of_no_face_and_faces_of_no_area_stay_in_the_file(tmp_path):
+    vertices, quads = perforated()
+    text = "v 9 9 9\n" + obj_text(vertices, quads + 1) + "v 8 8 8\n" + "f 2 2 3\n"
+    (tmp_path / "in.obj").write_text(text)
+    run = koebe("uniformize", tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "report.json")
+    assert run.returncode == 0, run.stderr
+    out = Obj(tmp_path / "out.obj")
+    assert np.array_equal(out.vertices, [[9, 9, 9], *vertices, [8, 8, 8]])
+    assert out.faces[-1] == (1, 1, 2) and len(out.faces) == len(quads) + 1
+    warnings = json.loads((tmp_path / "report.json").read_text())["warnings"]
+    assert any(str(len(quads)) in w for w in warnings), warnings  # the number of the face passed over
+
+
+def test_svg_shows_every_circle(mesh):
+    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--svg", mesh / "picture.svg")
+    assert run.returncode == 0, run.stderr
+    svg = ElementTree.parse(mesh / "picture.svg").getroot()
+    tag = "{http://www.w3.org/2000/svg}"
+    assert svg.get("viewBox")
+    holes = [g for g in svg.iter(tag + "g") if g.get("class") == "holes"]
+    assert len(holes[0].findall(tag + "circle")) == 3
+    assert list(svg.iter(tag + "path"))
+
+
+def test_out_may_be_in(mesh):
+    before = Obj(mesh / "in.obj")
+    assert koebe("uniformize", mesh / "in.obj", mesh / "in.obj").returncode == 0
+    after = Obj(mesh / "in.obj")
+    assert np.array_equal(before.vertices, after.vertices) and before.faces == after.faces
+    assert len(after.uv) == len(after.vertices)
+
+
+# ---------------------------------------------------------------- exit codes
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["flatten"],
+        ["uniformize"],
+        ["uniformize", "in.obj"],
+        ["uniformize", "in.obj", "out.obj", "more"],
+        ["uniformize", "in.obj", "out.obj", "--speed", "9"],
+        ["uniformize", "in.obj", "out.obj", "--method", "tutte"],
+        ["uniformize", "in.obj", "out.obj", "--engine", "steam"],
+        ["uniformize", "in.obj", "out.obj", "--balance", "angle"],
+        ["uniformize", "in.obj", "out.obj", "--outer", "-1"],
+        ["uniformize", "in.obj", "out.obj", "--outer", "short"],
+        ["uniformize", "in.obj", "out.obj", "--tolerance", "0"],
+        ["uniformize", "in.obj", "out.obj", "--tolerance", "nan"],
+        ["uniformize", "in.obj", "out.obj", "--tolerance", "1e-3x"],
+        ["uniformize", "in.obj", "out.obj", "--max-sweeps", "0"],
+        ["uniformize", "in.obj", "out.obj", "--max-sweeps", "1.5"],
+        ["uniformize", "in.obj", "out.obj", "--threads", "-1"],
+        ["uniformize", "in.obj", "out.obj", "--threads", "99999999999"],
+        ["uniformize", "in.obj", "out.obj", "--json"],
+        ["uniformize", "in.obj", "out.obj", "--json", "./out.obj"],
+        ["fill", "in.obj", "out.obj", "--loops", "one"],
+    ],
+)
+def test_wrong_usage_is_2_and_writes_nothing(mesh, arguments):
+    run = koebe(*arguments, cwd=mesh)
+    assert run.returncode == USAGE
+    assert run.stdout == "" and run.stderr != ""
+    assert names(mesh) == {"in.obj"}
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["uniformize", "--help"], ["fill", "--help"]])
+def test_help_and_version_are_0(arguments):
+    run = koebe(*arguments)
+    assert run.returncode == 0 and run.stdout and not run.stderr
+
+
+def test_not_converged_is_4_and_all_files_are_written(mesh):
+    run = koebe(
+        *("uniformize", mesh / "in.obj", mesh / "out.obj", "--max-sweeps", 1, "--tolerance", 1e-14),
+        *("--json", mesh / "report.json", "--svg", mesh / "picture.svg"),
+    )
+    assert run.returncode == NOT_CONVERGED
+    assert run.stdout.endswith(", not converged\n")
+    assert names(mesh) == {"in.obj", "out.obj", "report.json", "picture.svg"}
+    assert json.loads((mesh / "report.json").read_text())["converged"] is False
+
+
+def assert_one_line_and_no_file(run, folder, before, error=r"\w+Error"):
+    """Exit code 3, and an error line that starts with a match of `error`."""
+    assert run.returncode == CANNOT_BE_MAPPED, (run.returncode, run.stdout, run.stderr)
+    assert run.stdout == ""
+    assert re.fullmatch(r"\w+(\(\w+\))?: \S.*\n", run.stderr), run.stderr  # one line
+    assert re.match(error, run.stderr), run.stderr
+    assert names(folder) == before
+
+
+@pytest.mark.parametrize("option", ["OUT", "--json", "--svg"])
+def test_files_that_cannot_be_written_are_found_before_the_mesh_is_read(tmp_path, option):
+    (tmp_path / "folder").mkdir()
+    for bad in (tmp_path / "missing" / "out.obj", tmp_path / "folder"):
+        files = [bad] if option == "OUT" else [tmp_path / "out.obj", option, bad]
+        run = koebe("uniformize", tmp_path / "no_such.obj", *files)
+        assert_one_line_and_no_file(run, tmp_path, {"folder"}, "FileError: cannot write")
+
+
+def test_a_full_disk_is_3_and_leaves_the_other_files_alone(mesh):
+    if not Path("/dev/full").exists():
+        pytest.skip("no /dev/full")
+    (mesh / "out.obj").write_text("old")
+    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", "/dev/full")
+    assert_one_line_and_no_file(run, mesh, {"in.obj", "out.obj"}, "FileError: cannot write /dev/full")
+    assert (mesh / "out.obj").read_text() == "old"
+
+
+def test_a_missing_mesh_is_3(tmp_path):
+    run = koebe("uniformize", tmp_path / "in.obj", tmp_path / "out.obj")
+    assert_one_line_and_no_file(run, tmp_path, set(), "FileError: cannot read")
+
+
+def tube(n=12, m=5, twist=False, close=False):
+    """A cylinder of n x m cells; its ends glued into a torus, or the strip into a Moebius band."""
+    around, along = np.meshgrid(np.arange(n), np.arange(m if close else m + 1))
+    angle = 2.0 * np.pi * around.ravel() / n
+    height = along.ravel() / m
+    vertices = np.stack([np.cos(angle), np.sin(angle), height], axis=1)
+    index = lambda i, j: (j % m if close else j) * n + i % n  # noqa: E731
+    cells = [(i, j) for j in range(m) for i in range(n - 1 if twist else n)]
+    quads = [[index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)] for i, j in cells]
+    if twist:
+        quads += [[index(n - 1, j), index(0, m - j), index(0, m - j - 1), index(n - 1, j + 1)] for j in range(m)]
+    return vertices, triangles_of(np.array(quads))
+
+
+def hostile_meshes():
+    """Name, file and bytes, and what the error line starts with."""
+    vertices, quads = perforated(8, ((0.5, 0.5, 0.2),))
+    triangles = triangles_of(quads)
+    good = obj_text(vertices, triangles)
+    two = obj_text(np.concatenate([vertices, vertices + 5]), np.concatenate([triangles, triangles + len(vertices)]))
+    closed = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+    whole, cells = perforated(8, ())
+    bowtie = obj_text(whole, np.delete(cells, [8 * 3 + 3, 8 * 4 + 4], axis=0))  # two holes that share a corner
+    cases = [
+        ("empty", "in.obj", "", "InputError"),
+        ("nan", "in.obj", good.replace("v 0.0 0.0", "v nan 0.0", 1), "InputError: 1 vertices"),
+        ("past_the_end", "in.obj", good + "f 1 2 999\n", "InputError: 1 faces"),
+        ("garbage", "in.obj", "v 0 0 0\nv 1 one 1\n", "InputError: line 2"),
+        ("binary_noise", "in.stl", bytes(range(256)) * 8, "InputError"),
+        ("huge_counts", "in.off", "OFF\n4000000000 4000000000 0\n", "InputError"),
+        ("cut_short", "in.ply", ply_bytes(vertices, triangles)[:-7], "InputError"),
+        ("format", "in.glb", b"glTF\2\0\0\0", "InputError: format not supported: '.glb'; supported are OBJ"),
+        ("all_collapsed", "in.obj", "v 0 0 0\nv 1 0 0\nf 1 1 2\n", "InputError"),
+        ("wound_polygon", "in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf" + " 1 2 4 3" * 234 + "\n", "InputError"),
+        ("one_point", "in.obj", re.sub(r"v .*", "v 1 1 1", good), "InputError: all vertices lie on one point"),
+        ("third_face", "in.obj", good + f"v 9 9 9\nf 1 2 {len(vertices) + 1}\nf 2 1 {len(vertices) + 1}\n",
+         r"TopologyError\(nonmanifold_edge\)"),
+        ("bowtie", "in.obj", bowtie, r"TopologyError\(nonmanifold_vertex\)"),
+        ("two_parts", "in.obj", two, r"TopologyError\(disconnected\)"),
+        ("closed", "in.obj", closed, r"TopologyError\(closed\)"),
+        ("torus", "in.obj", obj_text(*tube(close=True)), r"TopologyError\((closed|genus)\)"),
+        ("moebius_band", "in.obj", obj_text(*tube(twist=True)), r"TopologyError\(nonorientable\)"),
+    ]  # fmt: skip
+    return [pytest.param(*case[1:], id=case[0]) for case in cases]
+
+
+@pytest.mark.parametrize("name, content, error", hostile_meshes())
+@pytest.mark.parametrize("command", ["uniformize", "fill"])
+def test_bad_meshes_are_3_with_one_line(tmp_path, command, name, content, error):
+    (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+    (tmp_path / "out.obj").write_text("old")
+    run = koebe(command, tmp_path / name, tmp_path / "out.obj")
+    if command == "fill" and re.search("closed|genus|one point", error):
+        assert run.returncode == 0, run.stderr  # nothing to fill, or nothing that asks for lengths
+        return
+    assert_one_line_and_no_file(run, tmp_path, {name, "out.obj"}, error)
+    assert (tmp_path / "out.obj").read_text() == "old"
+
+
+@pytest.mark.parametrize("path", HOSTILE, ids=lambda p: p.name)
+def test_files_from_the_wild_give_a_result_or_one_line(tmp_path, path):
+    run = koebe("uniformize", path, tmp_path / "out.obj", "--json", tmp_path / "report.json")
+    if run.returncode in (0, NOT_CONVERGED):
+        assert names(tmp_path) == {"out.obj", "report.json"}
+        out = Obj(tmp_path / "out.obj")
+        assert len(out.uv) == len(out.vertices) and np.isfinite(out.uv).all()
+        assert run.stdout.count("\n") == 1
+    else:
+        assert_one_line_and_no_file(run, tmp_path, set())
+
+
+def test_disconnected_faces_are_those_of_the_file(tmp_path):
+    vertices, quads = perforated(8, ())
+    island = [[len(vertices) + i for i in range(4)]]
+    text = obj_text(np.concatenate([vertices, vertices[quads[0]] + 9.0]), island + quads.tolist())
+    (tmp_path / "in.obj").write_text(text)
+    run = koebe("uniformize", tmp_path / "in.obj", tmp_path / "out.obj")
+    assert run.stderr.endswith(" [0]\n"), run.stderr
+
+
+# ---------------------------------------------------------------- interrupts and terminals
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_an_interrupt_is_130_and_nothing_is_written(tmp_path, number):
+    os.mkfifo(tmp_path / "in.obj")  # the command waits for its input until the signal is sent
+    arguments = ["uniformize", tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "report.json"]
+    run = subprocess.Popen(
+        [COMMAND, *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # nohup and & start with some ignored
+    )
+    with open(tmp_path / "in.obj", "w") as pipe:  # opens when the command does, after it set its handlers
+        run.send_signal(number)
+        pipe.write(obj_text(*perforated()))
+    stdout, stderr = run.communicate(timeout=60)
+    assert run.returncode == INTERRUPTED, stderr
+    assert stdout == "" and stderr.count("\n") == 1
+    assert names(tmp_path) == {"in.obj"}
+
+
+def on_terminal(*args):
+    """Runs with stderr on a terminal; exit code and what came there."""
+    reader, writer = pty.openpty()
+    run = subprocess.Popen([COMMAND, *map(str, args)], stdout=subprocess.DEVNULL, stderr=writer)
+    os.close(writer)
+    seen = b""
+    while True:
+        try:
+            chunk = os.read(reader, 4096)
+        except OSError:  # the other end is closed
+            break
+        if not chunk:
+            break
+        seen += chunk
+    os.close(reader)
+    return run.wait(timeout=60), seen.decode()
+
+
+def test_progress_is_for_terminals_and_leaves_no_trace(mesh):
+    code, seen = on_terminal("uniformize", mesh / "in.obj", mesh / "out.obj")
+    assert code == 0
+    percents = [int(p) for p in re.findall(r"(\d+)% \w+", seen)]
+    assert percents == sorted(percents) and percents[-1] == 100, seen
+    assert "\n" not in seen and seen.endswith("\r\033[K")
+    assert on_terminal("uniformize", mesh / "in.obj", mesh / "out.obj", "--quiet") == (0, "")
+
+
+def test_an_error_on_a_terminal_is_one_clean_line(mesh):
+    (mesh / "in.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    code, seen = on_terminal("uniformize", mesh / "in.obj", mesh / "out.obj")
+    assert code == CANNOT_BE_MAPPED
+    assert seen.rsplit("\033[K", 1)[-1].startswith("TopologyError(closed): ")
+
+
+# ---------------------------------------------------------------- fill
+
+
+def border_of(faces):
+    edges = {(f[i], f[(i + 1) % len(f)]) for f in faces for i in range(len(f))}
+    return {e for e in edges if (e[1], e[0]) not in edges}
+
+
+def test_fill_closes_the_surface_and_labels_the_patches(mesh):
+    vertices, quads = perforated()
+    run = koebe("fill", mesh / "in.obj", mesh / "out.obj")
+    assert run.returncode == 0, run.stderr
+    assert re.fullmatch(r".*out\.obj: 4 loops filled, \d+ faces added, [0-9.]+ s\n", run.stdout), run.stdout
+    out = Obj(mesh / "out.obj")
+    assert np.array_equal(out.vertices[: len(vertices)], vertices)
+    assert out.faces[: len(quads)] == [tuple(q) for q in quads]
+    assert border_of(out.faces) == set()
+    assert out.groups[0] == ("surface", 0)
+    assert [name for name, _ in out.groups[1:]] == ["patch_0", "patch_1", "patch_2", "patch_3"]
+    assert out.groups[1][1] == len(quads)
+
+
+def test_fill_of_chosen_loops_leaves_the_others_open(mesh):
+    _, quads = perforated()
+    run = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--loops", "1,3")
+    assert run.returncode == 0, run.stderr
+    out = Obj(mesh / "out.obj")
+    assert [name for name, _ in out.groups] == ["surface", "patch_1", "patch_3"]
+    still_open = border_of(out.faces)
+    assert still_open < border_of(quads.tolist())
+    assert koebe("uniformize", mesh / "out.obj", mesh / "map.obj").stdout.count("2 loops") == 1
+    outside = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--loops", "4")
+    assert outside.returncode == CANNOT_BE_MAPPED and outside.stderr.count("\n") == 1
+
+
+def test_fill_turns_polygons_that_lie_the_wrong_way_round(mesh):
+    vertices, quads = perforated()
+    (mesh / "in.obj").write_text(obj_text(vertices, [q[::-1] if i == 7 else q for i, q in enumerate(quads)]))
+    assert koebe("fill", mesh / "in.obj", mesh / "out.obj").returncode == 0
+    out = Obj(mesh / "out.obj")
+    assert border_of(out.faces) == set()
+    assert set(out.faces[7]) == set(quads[7])
