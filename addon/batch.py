@@ -186,7 +186,7 @@ def main():
         except RuntimeError as error:
             fail(USAGE, str(error).strip())
     if not bpy.data.filepath:
-        fail(USAGE, "no .blend file is open: blender -b IN.blend -P batch.py -- --output OUT.blend")
+        fail(USAGE, "no .blend file is open: blender -b IN.blend -P batch.py -- --output OUT.blend [options]")
     return run(*chosen)
 
 

@@ -121,6 +121,8 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
     def _finish(self, context, job):
         """Write what was computed, all or nothing, and say what became of it."""
         results.record(context, job)
+        for area in context.screen.areas if context.screen else ():
+            area.tag_redraw()
         failures = [report.failure_line(outcome) for outcome in job.outcomes if outcome.failed]
         if not job.mapped_any:
             select_offenders(context, job)

@@ -89,7 +89,8 @@ def _scatter(surface, rings, random):
     """A Poisson disk sample of the inside of the rings, with radius 0.8 spacing, that also keeps off the rings."""
     outlines = [surface.chart(ring) for ring in rings]
     fixed = np.concatenate(rings)
-    plane_step = np.median(np.linalg.norm(np.concatenate([np.diff(o, axis=0) for o in outlines[1:]]), axis=1)) / 2
+    rim_steps = np.linalg.norm(np.concatenate([np.diff(outline, axis=0) for outline in outlines[1:]]), axis=1)
+    plane_step = np.percentile(rim_steps, 30) / 2
     low, high = outlines[0].min(axis=0), outlines[0].max(axis=0)
     grid = np.stack(np.meshgrid(*(np.arange(a, b, plane_step) for a, b in zip(low, high))), axis=-1).reshape(-1, 2)
     grid = grid[_inside(grid, outlines)]

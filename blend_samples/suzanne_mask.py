@@ -4,7 +4,7 @@ import bmesh
 import bpy
 from mathutils import Vector
 
-CUT = Vector((0.0, 0.02, 0.0))
+CUT = Vector((0.0, -0.48, 0.0))
 BACKWARD = Vector((0.0, 1.0, 0.0))
 SUBDIVISIONS = 3
 # The floor of the pit that is Suzanne's mouth, in the undivided model: |x|, depth y and height z.
@@ -12,7 +12,7 @@ PIT = ((0.0, 0.10), (-0.68, -0.60), (-0.88, -0.74))
 
 
 def suzanne_mask():
-    """Points and faces: eyes taken out, mouth pit opened, subdivided, cut behind the brows and before the ears."""
+    """Points and faces: eyes taken out, mouth pit opened, subdivided, cut just behind the brows, along the muzzle."""
     cage = bmesh.new()
     bmesh.ops.create_monkey(cage)
     eyes = [v for part in _parts(cage) if len(part) < 100 for v in part]

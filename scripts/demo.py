@@ -18,6 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLES = ROOT / "blend_samples"
+LOOK = ("--checker-size", "48")
 COLUMNS = ("sample", "loops", "faces", "sweeps", "roundness", "angle error", "flips", "seconds", "")
 
 
@@ -59,7 +60,7 @@ def map_sample(name, options):
         make = ["--output", source.parent, "--only", name]
         run_script(options.blender, SAMPLES / "make_samples.py", make)
     mapped, report, picture = (options.output / f"{name}.{kind}" for kind in ("blend", "json", "png"))
-    run_script(options.blender, ROOT / "addon" / "batch.py", ["--output", mapped, "--report", report], source)
+    run_script(options.blender, ROOT / "addon" / "batch.py", ["--output", mapped, "--report", report, *LOOK], source)
     run_script(options.blender, ROOT / "scripts" / "render_uv.py", ["--output", picture], mapped)
     islands = json.loads(report.read_text(encoding="utf-8"))["objects"]
     if len(islands) != 1:

@@ -9,8 +9,9 @@
     --size 1600x800    width and height in pixels
     --samples N        Cycles samples per pixel (32)
 
-The surface is seen as the file's camera sees it. The domain is drawn from the UV coordinates alone; the ring around
-each hole is the circle fitted to the hole's UV loop, in the colour of the same loop's rim on the surface.
+The surface is seen as the file's camera sees it. The domain is drawn from the UV coordinates alone, by quarter turns
+the way up that the surface is; the ring around each hole is the circle fitted to the hole's UV loop, in the colour of
+the same loop's rim on the surface.
 The file itself is not changed.
 """
 
@@ -77,7 +78,15 @@ def seen_points(obj, vertex):
     return (points + (-1.0, 0.0, 0.1 - points[:, 2].min()))[vertex]
 
 
-def flat_points(uv, circles):
+def quarter_turn(uv, seen):
+    """The rotation by a multiple of 90 degrees, as a matrix (2, 2), that brings UV points nearest to seen ones, up to
+    shift and scale."""
+    correlation = (uv - uv.mean(axis=0)).T @ (seen - seen.mean(axis=0))
+    turns = [np.linalg.matrix_power([[0, 1], [-1, 0]], k) for k in range(4)]
+    return max(turns, key=lambda turn: np.sum(correlation * turn))
+
+
+def flat_points(uv, circles, turn):
     """The UV points in the right square, and the centers and radii of the loops' circles there."""
     low = np.min([center - radius for center, radius in circles], axis=0)
     high = np.max([center + radius for center, radius in circles], axis=0)
@@ -85,7 +94,7 @@ def flat_points(uv, circles):
     middle = (low + high) / 2
 
     def place(q):
-        return (q - middle) * scale + (1.0, 0.0)
+        return (q - middle) * scale @ turn + (1.0, 0.0)
 
     return place(uv), [(place(center), radius * scale) for center, radius in circles]
 
@@ -97,7 +106,7 @@ def main():
     loops = uv_loops.boundary_loops(corners, sizes)
     circles = [uv_loops.fitted_circle(uv[loop]) for loop in loops]
     surface = seen_points(obj, vertex)
-    flat, rings = flat_points(uv, circles)
+    flat, rings = flat_points(uv, circles, quarter_turn(uv, surface[:, :2]))
     material = studio.checker_material(obj, options.layer)
 
     scene = bpy.data.scenes.new("picture")

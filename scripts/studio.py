@@ -106,7 +106,7 @@ def add_ring(scene, points, code):
     """A closed tube through points (n, 3), thinner where the ring is small."""
     curve = bpy.data.curves.new("ring", "CURVE")
     curve.dimensions = "3D"
-    curve.bevel_depth = min(RIM, 0.12 * np.ptp(points[:, :2], axis=0).max())
+    curve.bevel_depth = np.clip(0.12 * np.ptp(points[:, :2], axis=0).max(), RIM / 3, RIM)
     curve.bevel_resolution = 3
     spline = curve.splines.new("POLY")
     spline.points.add(len(points) - 1)

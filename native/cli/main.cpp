@@ -4,6 +4,7 @@
 #include "cli/subcommand.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <vector>
@@ -27,7 +28,8 @@ int run_guarded(const Subcommand& command)
     } catch (const koebe::KoebeError& error) {
         return fail(error_line(error), cannot_be_mapped);
     } catch (const std::bad_alloc&) {
-        return fail(error_line("OutOfMemory", "the mesh needs more memory than there is"), cannot_be_mapped);
+        fail(error_line("OutOfMemory", "the mesh needs more memory than there is"), cannot_be_mapped);
+        std::_Exit(cannot_be_mapped);  // at an ordinary exit OpenBLAS joins threads that wait for memory for ever
     } catch (const std::exception& error) {
         return fail(error_line("InternalError", error.what()), cannot_be_mapped);
     }

@@ -7,9 +7,11 @@
 namespace koebe {
 
 struct DiskPatchOptions {
-    double longest_edge = 1.5;  ///< in mean edges of the rim
-    double gradation = 0.2;     ///< growth of the edge length per distance from the rim, dimensionless
-    double worst_angle = 0.5;   ///< a mesh whose smallest angle falls below this part of what it was is made anew
+    /// In mean edges of the rim. 1 is what the paper says, and what keeps second order: the disk of loop 0 may then
+    /// have more faces than the surface. With 1.5 the error is up to ten times larger, with 3 it stops falling.
+    double longest_edge = 1.0;
+    double gradation = 0.25;   ///< growth of the edge length per distance from the rim, dimensionless
+    double worst_angle = 0.5;  ///< a mesh whose smallest angle falls below this part of what it was is made anew
 };
 
 /// A disk of triangles. Its first vertices are the loop's, in the loop's order.

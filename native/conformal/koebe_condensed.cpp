@@ -181,8 +181,10 @@ KoebeOutcome koebe_condensed(const CondensedLaplacian& surface, const std::vecto
         ++outcome.sweeps;
         CircleState after = fit_circles(outcome.loops);
         const double change = circle_change(before.circles, after.circles);
+        // The steps of a sweep take effect together, with its last one.
         for (const auto& pair : pairs)
-            outcome.history.push_back({++outcome.steps, pair, change, after.mean_roundness});
+            outcome.history.push_back({++outcome.steps, pair, change, before.mean_roundness});
+        outcome.history.back().mean_roundness = after.mean_roundness;
         // With two loops the step reads nothing of the state it replaces: it is exact.
         outcome.converged = change < options.tolerance || state.loop_count() == 2;
         before = std::move(after);

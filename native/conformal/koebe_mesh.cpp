@@ -55,7 +55,8 @@ public:
           loops_(loops),
           triangles_(triangles),
           lengths_(lengths),
-          vertex_count_(static_cast<Index>(vertices.rows()))
+          vertex_count_(static_cast<Index>(vertices.rows())),
+          stale_(loops.size(), 0)
     {
         for (const VertexLoop& loop : loops) {
             const VectorXd edges = loop_edges(vertices, loop);
@@ -75,8 +76,11 @@ public:
         // orientation of the surface. So both rims are conj(z / |z|) on a circle run through clockwise.
         set_angles(i, gather_loop(map.positions, loops_[i]));
         set_angles(j, gather_loop(map.positions, loops_[j]).conjugate());
-        for (const int k : {i, j}) patches_[k].refill(unit_circle_points(angles_[k]).conjugate());
+        stale_[i] = stale_[j] = 1;
     }
+
+    /// Steps of angles raised since the last call.
+    int take_raised() { return std::exchange(raised_, 0); }
 
     /// With one loop: no disk is left to fill.
     void open_disk()
@@ -85,7 +89,7 @@ public:
     }
 
     /// The map of S and D_1, ..., D_n to the unit disk, on the surface's vertices.
-    VectorXcd disk_image() const
+    VectorXcd disk_image()
     {
         const FilledMesh mesh = assemble({0});
         return harmonic_map(mesh.triangles, mesh.lengths, mesh.vertex_count, loops_[0], unit_circle_points(angles_[0]))
@@ -93,12 +97,14 @@ public:
     }
 
 private:
-    FilledMesh assemble(const std::vector<int>& removed) const
+    /// The surface with all disks but those, the ones whose rim has moved filled again.
+    FilledMesh assemble(const std::vector<int>& removed)
     {
         FilledMesh mesh{triangles_, lengths_, vertex_count_, std::vector<Index>(loops_.size(), -1)};
         Eigen::Index row = triangles_.rows(), face_count = row;
         for (std::size_t k = 0; k < loops_.size(); ++k)
             if (std::find(removed.begin(), removed.end(), static_cast<int>(k)) == removed.end()) {
+                if (std::exchange(stale_[k], 0)) patches_[k].refill(unit_circle_points(angles_[k]).conjugate());
                 mesh.offset[k] = mesh.vertex_count - patches_[k].rim_size();
                 mesh.vertex_count += patches_[k].vertex_count() - patches_[k].rim_size();
                 face_count += patches_[k].triangles().rows();
@@ -135,8 +141,14 @@ private:
     {
         const Eigen::Index m = circle.size();
         VectorXd step(m);
-        for (Eigen::Index b = 0; b < m; ++b)
-            step[b] = std::max(std::arg(circle[(b + 1) % m] / circle[b]), shortest_step * 2.0 * std::numbers::pi / m);
+        const double least = shortest_step * 2.0 * std::numbers::pi / static_cast<double>(m);
+        for (Eigen::Index b = 0; b < m; ++b) {
+            step[b] = std::arg(circle[(b + 1) % m] / circle[b]);
+            if (!(step[b] > least)) {
+                step[b] = least;
+                ++raised_;
+            }
+        }
         angles_[k] = centered_angles(arc_length_angles(step), weights_[k], angles_[k]);
     }
 
@@ -148,6 +160,8 @@ private:
     std::vector<VectorXd> weights_;  // per loop: share of each vertex in its length
     std::vector<VectorXd> angles_;   // per loop: where its vertices are on the rim of D_k, counter-clockwise
     std::vector<DiskPatch> patches_;
+    int raised_ = 0;
+    std::vector<char> stale_;  // per loop: its disk has not been filled since the angles changed
 };
 
 struct CircleState {
@@ -208,6 +222,7 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
             now = std::move(next);
         }
         ++outcome.sweeps;
+        outcome.raised_angles = state.take_raised();
         outcome.converged = circle_change(at_sweep_start, now) < options.tolerance || loops.size() == 2;
     }
     for (const VertexLoop& loop : loops) outcome.loops.push_back(gather_loop(result.positions, loop));

@@ -25,7 +25,8 @@ struct UniformizeOptions {
     int threads = 0;           ///< of the dense and sparse kernels; 0: all cores
 };
 
-/// One step of the Koebe iteration.
+/// One step of the Koebe iteration. The condensed engine's steps of one sweep take effect together: they share the
+/// sweep's change, and its roundness stands in the last of them, the one before in the others.
 struct KoebeStep {
     int step = 0;
     std::pair<int, int> pair{0, 0};  ///< the two loops left open; (0, k) for the conventional form

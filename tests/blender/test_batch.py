@@ -22,10 +22,11 @@ def batch(addon_name, tmp_path):
         if source is None:
             source = tmp_path / "in.blend"
             bpy.ops.wm.save_as_mainfile(filepath=str(source), copy=True)
+        opened = [source] if source else []
         if bpy.app.binary_path:
-            command = [bpy.app.binary_path, "-b", source, "--python-exit-code", "1", "-P", script]
+            command = [bpy.app.binary_path, "-b", *opened, "--python-exit-code", "1", "-P", script]
         else:
-            command = [sys.executable, script, source]
+            command = [sys.executable, script, *opened]
         return subprocess.run(
             [*map(str, command), "--", *map(str, arguments)], capture_output=True, text=True, cwd=tmp_path,
             env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
@@ -100,6 +101,12 @@ def test_wrong_usage_is_2_and_leaves_nothing(batch, tmp_path, arguments):
     done = batch(*arguments)
     assert done.returncode == 2, done.stderr
     assert done.stderr.strip()
+    assert outputs(tmp_path) == []
+
+
+def test_no_input_is_2(batch, tmp_path):
+    done = batch("--output", "out.blend", source="")
+    assert done.returncode == 2 and "IN.blend" in done.stderr
     assert outputs(tmp_path) == []
 
 

@@ -144,10 +144,9 @@ def test_undo_in_edit_mode():
     obj = scenes.add_panel()
     scenes.select_faces(obj)
     bpy.ops.ed.undo_push(message="before")
-    bpy.ops.uv.koebe_uniformize()
-    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.uv.koebe_uniformize("EXEC_DEFAULT", True)  # with an undo step, as from the interface
     bpy.ops.ed.undo()
     obj = bpy.data.objects["Panel"]
     assert obj.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert len(obj.data.uv_layers) == 0
+    assert len(obj.data.uv_layers) == 0 and len(obj.material_slots) == 0

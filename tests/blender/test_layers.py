@@ -23,6 +23,15 @@ def test_the_longest_name_that_blender_keeps():
     assert [layer.name for layer in obj.data.uv_layers] == [name]
 
 
+def test_a_full_mesh_is_refused_before_anything_is_computed(koebe, monkeypatch):
+    obj = scenes.add_panel()
+    for index in range(8):
+        obj.data.uv_layers.new(name=f"Layer {index}")
+    monkeypatch.setattr(koebe, "uniformize", lambda *a, **k: pytest.fail("computed in vain"))
+    with pytest.raises(RuntimeError, match="8 UV layers"):
+        bpy.ops.uv.koebe_uniformize()
+
+
 def test_a_full_mesh_is_refused_and_left_alone_but_an_existing_layer_is_written():
     full, free = scenes.add_panel("Full"), scenes.add_panel("Free")
     for index in range(8):

@@ -82,6 +82,7 @@ def test_objects_that_share_a_mesh_are_mapped_once():
     scenes.select(obj, twin)
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
     assert [layer.name for layer in obj.data.uv_layers] == ["Koebe"]
+    assert len(bpy.context.window_manager.koebe_uv.islands) == 1
     scenes.assert_circle_domain(obj)
 
 
@@ -96,6 +97,20 @@ def test_non_uniform_scale_counts_as_the_shape_that_is_seen():
     seen, expected, unscaled = (scenes.corner_uv(o.data, "Koebe") for o in (stretched, applied, plain))
     assert np.abs(seen - expected).max() < 1e-5
     assert np.abs(seen - unscaled).max() > 1e-2
+
+
+def test_rotation_with_non_uniform_scale_under_a_parent_shears():
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.collection.objects.link(parent)
+    parent.scale = (1, 1, 3)
+    obj, applied = scenes.add_panel("Sheared"), scenes.add_panel("Applied")
+    obj.parent, obj.rotation_euler = parent, (0.7, 0.5, 0.3)
+    bpy.context.view_layer.update()
+    for vertex, source in zip(applied.data.vertices, obj.data.vertices, strict=True):
+        vertex.co = obj.matrix_world @ source.co
+    scenes.select(obj, applied)
+    bpy.ops.uv.koebe_uniformize()
+    assert np.abs(scenes.corner_uv(obj.data, "Koebe") - scenes.corner_uv(applied.data, "Koebe")).max() < 1e-5
 
 
 def test_rotation_and_uniform_scale_change_nothing_to_speak_of():
@@ -156,8 +171,7 @@ def test_undo_brings_everything_back_and_redo_the_result():
     obj = scenes.add_panel()
     before = scenes.mesh_state(obj.data)
     bpy.ops.ed.undo_push(message="before")
-    bpy.ops.uv.koebe_uniformize()
-    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.uv.koebe_uniformize("EXEC_DEFAULT", True)  # with an undo step, as from the interface
     mapped = scenes.corner_uv(obj.data, "Koebe").copy()
     bpy.ops.ed.undo()
     obj = bpy.data.objects["Panel"]

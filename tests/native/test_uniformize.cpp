@@ -163,7 +163,8 @@ TEST(Uniformize, gk_needs_fewer_steps_than_ck_to_the_same_roundness)
     std::vector<Circle> circles = five_circles();
     circles.push_back({{0.0, 0.05}, 0.1});
     const CircleDomain domain = make_circle_domain(circles, 4000);
-    for (const Lift kind : curved_lifts) {
+    // Not the sphere: stereographic projection keeps circles round, so that lift has no step to take.
+    for (const Lift kind : {Lift::polynomial, Lift::enneper}) {
         UniformizeOptions options;
         const UniformizeResult gk = run(lift(domain.points, kind), domain.triangles, options);
         options.method = Method::ck;
