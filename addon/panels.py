@@ -108,13 +108,11 @@ class ReportPanel(KoebePanel):
 
     bl_label = "Report"
 
-    @classmethod
-    def poll(cls, context):
-        return len(context.window_manager.koebe_uv.islands) > 0
-
     def draw(self, context):
         layout = self.layout
         report = context.window_manager.koebe_uv
+        if not report.islands:
+            layout.label(text="No run yet")
         if len(report.islands) > 1:
             layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
         entry = active_entry(context)

@@ -39,7 +39,7 @@ def dense():
     """The same with four piercings (both brows, both cheeks), about 150,000 triangles."""
     piercings = [(0.33, 0.27, 0.022), (-0.33, 0.27, 0.022), (0.36, -0.52, 0.020), (-0.36, -0.52, 0.020)]
     rounds = [_seen_from_ahead(_circle((x, z), (r, r))) for x, z, r in piercings]
-    points, triangles = _mesh(0.0140, _holes() + rounds)
+    points, triangles = _mesh(0.0137, _holes() + rounds)
     return refine(points, triangles, face_surface.project)
 
 

@@ -4,7 +4,7 @@ import bmesh
 import bpy
 from mathutils import Vector
 
-CUT = Vector((0.0, -0.48, 0.0))
+CUT = Vector((0.0, -0.485, 0.0))
 BACKWARD = Vector((0.0, 1.0, 0.0))
 SUBDIVISIONS = 3
 # The floor of the pit that is Suzanne's mouth, in the undivided model: |x|, depth y and height z.

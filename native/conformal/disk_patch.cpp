@@ -13,6 +13,8 @@
 namespace koebe {
 namespace {
 
+constexpr double fan_margin = 1e-6;  // of the mean edge length
+
 /// Smallest angle of all triangles, radians; negative where one is flipped.
 double smallest_angle(const VectorXcd& z, const Triangles& triangles)
 {
@@ -59,6 +61,10 @@ DiskPatch::DiskPatch(const Vertices& loop, const DiskPatchOptions& options)
 {
     SurfacePatch fan = fill_on_surface(loop);
     lengths_ = edge_lengths(fan.vertices, fan.triangles);
+    // Vertices of a loop may lie on one line or one point: some margin in every triangle inequality (Sharp and Crane
+    // 2020) keeps the weights finite.
+    const double mean = lengths_.mean();
+    lengths_.array() += mean > 0.0 ? fan_margin * mean : 1.0;
     triangles_ = std::move(fan.triangles);
     vertex_count_ = static_cast<Index>(fan.vertices.rows());
 }

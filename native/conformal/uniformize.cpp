@@ -207,7 +207,6 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     result.engine = options.engine;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
-    const DenseThreads threads(options.threads);
     Stopwatch total, stage;
 
     context.begin_stage("topology", 0.0, 0.05);
@@ -225,6 +224,7 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     context.begin_stage("factor", 0.15, 0.5);
     std::vector<Index> boundary;
     for (const VertexLoop& loop : domain.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    const DenseThreads threads(options.threads, static_cast<Index>(boundary.size()), result.face_count);
     const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd);
     result.seconds.factor = stage.lap();
 

@@ -70,10 +70,14 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
     return product;
 }
 
-DenseThreads::DenseThreads(int threads) : before_(openblas_get_num_threads())
+DenseThreads::DenseThreads(int threads, Index boundary_count, Index face_count)
+    : before_(openblas_get_num_threads())
 {
-    const int all = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    openblas_set_num_threads(threads > 0 ? threads : all);
+    if (threads <= 0) {
+        const bool large = boundary_count >= 1500 || face_count >= 200000;
+        threads = large ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : 1;
+    }
+    openblas_set_num_threads(threads);
 }
 
 DenseThreads::~DenseThreads() { openblas_set_num_threads(before_); }

@@ -14,10 +14,14 @@ MatrixXd spd_solve(MatrixXd matrix, MatrixXd right_hand_side);
 /// The product L L' of a lower triangular matrix (its strict upper part is not read).
 MatrixXd lower_times_transpose(const MatrixXd& lower);
 
-/// Sets the number of threads of the dense kernels for the lifetime of the object; 0 means all cores.
+/// Sets the number of threads of the dense kernels for the lifetime of the object.
+///
+/// 0 leaves the choice to the size of the work: one thread below 1,500 boundary vertices and 200,000 faces, else all
+/// cores. On small matrices the kernels' threads wait for each other actively: idle cores gain little, busy ones
+/// (Blender redraws, another job runs) made choi_alex3 eight times slower.
 class DenseThreads {
 public:
-    explicit DenseThreads(int threads);
+    DenseThreads(int threads, Index boundary_count, Index face_count);
     ~DenseThreads();
     DenseThreads(const DenseThreads&) = delete;
     DenseThreads& operator=(const DenseThreads&) = delete;

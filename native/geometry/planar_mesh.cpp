@@ -1,11 +1,14 @@
 #include "geometry/planar_mesh.h"
 
+#include "core/connectivity.h"
 #include "core/errors.h"
 #include "geometry/planar_region.h"
 #include "geometry/size_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace koebe {
@@ -155,6 +158,42 @@ void smooth(const PlanarMesh& mesh, const SizeField& size, std::vector<Complex>&
     for (std::size_t i = 0; i < interior.size(); ++i) interior[i] = points[boundary_count + static_cast<Index>(i)];
 }
 
+/// Cuts every inner edge between two boundary vertices in the middle.
+void split_chords(PlanarMesh& mesh, Index boundary_count)
+{
+    const Index point_count = static_cast<Index>(mesh.points.size());
+    const std::vector<Index> twin = pair_halfedges(mesh.triangles, point_count);
+    std::map<std::pair<Index, Index>, Index> middles;
+    std::vector<Complex> points(mesh.points.begin(), mesh.points.end());
+    for (Index h = 0; h < static_cast<Index>(twin.size()); ++h) {
+        const Index a = origin(mesh.triangles, h), b = target(mesh.triangles, h);
+        if (twin[h] < h || a >= boundary_count || b >= boundary_count) continue;
+        middles[std::minmax(a, b)] = static_cast<Index>(points.size());
+        points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
+    }
+    if (middles.empty()) return;
+    using Corners = std::array<Index, 3>;
+    std::vector<Corners> pending, done;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+        pending.push_back({mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2)});
+    while (!pending.empty()) {
+        const Corners t = pending.back();
+        pending.pop_back();
+        int k = 0;
+        auto middle = middles.end();
+        for (; k < 3 && middle == middles.end(); ++k) middle = middles.find(std::minmax(t[k], t[(k + 1) % 3]));
+        if (middle == middles.end()) {
+            done.push_back(t);
+        } else {
+            // k is one past the edge found: it runs from t[k - 1] to t[k % 3], opposite to t[(k + 1) % 3].
+            pending.push_back({t[k - 1], middle->second, t[(k + 1) % 3]});
+            pending.push_back({middle->second, t[k % 3], t[(k + 1) % 3]});
+        }
+    }
+    mesh.points = Eigen::Map<const VectorXcd>(points.data(), static_cast<Eigen::Index>(points.size()));
+    mesh.triangles = Eigen::Map<const Triangles>(done.data()->data(), static_cast<Eigen::Index>(done.size()), 3);
+}
+
 }  // namespace
 
 PlanarMesh planar_mesh(const std::vector<VectorXcd>& polygons, const PlanarMeshOptions& options)
@@ -173,7 +212,9 @@ PlanarMesh planar_mesh(const std::vector<VectorXcd>& polygons, const PlanarMeshO
     }
     for (int round = 0; round < options.smoothing && !interior.empty(); ++round)
         smooth(to_arrays(PlanarRegion(polygons, interior), polygons, interior), size, interior);
-    return to_arrays(PlanarRegion(polygons, interior), polygons, interior);
+    PlanarMesh mesh = to_arrays(PlanarRegion(polygons, interior), polygons, interior);
+    split_chords(mesh, boundary_count);
+    return mesh;
 }
 
 }  // namespace koebe

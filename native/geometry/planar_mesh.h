@@ -30,6 +30,9 @@ struct PlanarMesh {
 /// boundary edge, so that no boundary edge is ever split; then they are moved to the size-weighted centroids of
 /// their stars (Du, Faber, Gunzburger 1999). Predicates are exact (CGAL), reruns are bit-identical.
 ///
+/// No inner edge joins two boundary vertices (it would be cut in the middle): where the mesh is glued to another one,
+/// that one may have an edge between the two.
+///
 /// @param polygons closed, simple, disjoint, of any orientation, at least three points each; the first encloses
 ///        the others
 /// @throws InputError a polygon crosses itself or another one, or has coinciding points

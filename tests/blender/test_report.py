@@ -55,6 +55,17 @@ def test_loops_are_selected_edge_by_edge_in_edit_mode():
         bpy.ops.uv.koebe_select_loop(loop=4)
 
 
+def test_loops_of_an_island_are_selected_in_the_numbers_of_the_mesh():
+    obj = add_seamed_panel()
+    bpy.ops.uv.koebe_uniformize()
+    bpy.context.window_manager.koebe_uv.active = 1
+    found = []
+    for index in range(2):
+        bpy.ops.uv.koebe_select_loop(loop=index)
+        found.append([obj.data.edges[e].use_seam for e in selected(obj)[1]])
+    assert sorted(found) == [[False] * 52, [True] * 52]
+
+
 def test_offenders_are_selected_from_object_mode():
     obj = scenes.add_object("Bad", FAN, [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
     good = scenes.add_panel("Good")
