@@ -1,0 +1,158 @@
+"""The Python package: arrays in any legal form, typed errors, progress, cancel and the report."""
+
+import threading
+
+import koebe
+import numpy as np
+import pytest
+
+
+def ring(sectors=48, rings=12, inner=0.4, bend=0.5):
+    """A round annulus bent into space by z + bend z^2 / 4 (conformal), two loops."""
+    angle = 2 * np.pi * np.arange(sectors) / sectors
+    radius = np.linspace(inner, 1.0, rings)
+    z = (radius[:, None] * np.exp(1j * angle)[None, :]).ravel()
+    w = z + bend * z * z / 4
+    vertices = np.column_stack([w.real, w.imag, np.zeros(len(w))])
+    faces = []
+    for i in range(rings - 1):
+        for j in range(sectors):
+            a, b = i * sectors + j, i * sectors + (j + 1) % sectors
+            faces += [[a, a + sectors, b], [b, a + sectors, b + sectors]]
+    return vertices, np.array(faces, dtype=np.int32)
+
+
+VERTICES, FACES = ring()
+
+
+def test_a_bent_round_annulus_gets_its_radius_back():
+    result = koebe.uniformize(VERTICES, FACES)
+    assert result.converged and result.flipped == 0
+    assert result.radii[1] == pytest.approx(0.4, abs=0.01)
+    assert np.abs(result.centers).max() < 1e-12
+    for loop, center, radius in zip(result.loops, result.centers, result.radii, strict=True):
+        assert np.allclose(np.linalg.norm(result.uv[loop] - center, axis=1), radius, atol=1e-12)
+    points, radius = koebe.annulus_map(VERTICES, FACES)
+    assert radius == pytest.approx(result.radii[1], abs=5e-3)
+    assert np.allclose(np.linalg.norm(points[result.loops[0]], axis=1), 1.0)
+
+
+def test_every_legal_array_gives_the_same_result_and_is_left_alone():
+    expected = koebe.uniformize(VERTICES, FACES).uv
+    fortran = np.asfortranarray(VERTICES)
+    frozen = VERTICES.copy()
+    frozen.flags.writeable = False
+    for vertices in (fortran, frozen, VERTICES.astype(np.float32)):
+        for faces in (FACES, FACES.astype(np.int64), np.asfortranarray(FACES)):
+            before = vertices.copy(), faces.copy()
+            uv = koebe.uniformize(vertices, faces).uv
+            assert uv.dtype == np.float64 and uv.shape == (len(VERTICES), 2)
+            assert np.allclose(uv, expected, atol=1e-5 if vertices.dtype == np.float32 else 1e-12)
+            assert np.array_equal(vertices, before[0]) and np.array_equal(faces, before[1])
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces"),
+    [
+        (VERTICES[:, :2], FACES),
+        (VERTICES.astype(int), FACES),
+        (VERTICES, FACES.astype(float)),
+        (VERTICES, FACES.ravel()),
+        (VERTICES, FACES.astype(np.int64) + 2**40),
+        (VERTICES, FACES + 1),
+        (np.full_like(VERTICES, np.nan), FACES),
+        (VERTICES[:0], FACES[:0]),
+    ],
+)
+def test_arrays_that_are_no_mesh_are_input_errors(vertices, faces):
+    with pytest.raises(koebe.InputError):
+        koebe.uniformize(vertices, faces)
+
+
+def test_an_index_out_of_range_names_its_faces():
+    faces = FACES.copy()
+    faces[[3, 70], 1] = len(VERTICES)
+    with pytest.raises(koebe.InputError) as caught:
+        koebe.uniformize(VERTICES, faces)
+    assert list(caught.value.elements) == [3, 70]
+
+
+def test_topology_errors_have_a_kind_and_elements():
+    tetrahedron = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    with pytest.raises(koebe.TopologyError) as caught:
+        koebe.uniformize(np.random.default_rng(1).random((4, 3)), tetrahedron)
+    assert caught.value.kind == "closed"
+    with pytest.raises(koebe.TopologyError) as caught:
+        koebe.uniformize(np.random.default_rng(1).random((5, 3)), np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]]))
+    assert caught.value.kind == "nonmanifold_edge"
+    assert sorted(caught.value.elements) == [0, 1]
+
+
+@pytest.mark.parametrize(
+    "option",
+    [{"method": "x"}, {"engine": "x"}, {"outer": "x"}, {"outer": 10**6}, {"tolerance": 0}, {"max_sweeps": 0},
+     {"threads": -1}, {"balance": "x"}],
+)
+def test_options_are_checked(option):
+    with pytest.raises(koebe.InputError):
+        koebe.uniformize(VERTICES, FACES, **option)
+
+
+def test_progress_is_on_the_calling_thread_and_never_goes_back():
+    seen = []
+    koebe.uniformize(VERTICES, FACES, progress=lambda f, s: seen.append((f, s, threading.get_ident())))
+    fractions = [f for f, _, _ in seen]
+    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] == 1
+    assert {t for _, _, t in seen} == {threading.get_ident()}
+    assert "factor" in {s for _, s, _ in seen}
+
+
+def test_cancel_and_an_exception_from_progress_end_the_call():
+    token = koebe.CancelToken()
+    threading.Thread(target=token.cancel).run()
+    with pytest.raises(koebe.Cancelled):
+        koebe.uniformize(VERTICES, FACES, cancel=token)
+
+    def interrupt(fraction, stage):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        koebe.uniformize(VERTICES, FACES, progress=interrupt)
+
+
+def test_the_report_is_the_contract():
+    report = koebe.uniformize(VERTICES, FACES, engine="mesh").to_dict()
+    assert set(report) >= {
+        "version", "input", "vertices", "faces", "method", "engine", "outer_loop", "converged", "sweeps", "steps",
+        "history", "loops", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy", "flipped",
+        "below_resolution", "seconds", "peak_memory_mb", "warnings",
+    }
+    assert report["engine"] == "mesh" and report["vertices"] == len(VERTICES)
+
+
+def test_filling_both_loops_closes_the_surface():
+    vertices, faces, label = koebe.fill_holes(VERTICES, FACES)
+    assert len(vertices) == len(VERTICES) + 2
+    assert (label == -1).sum() == len(FACES) and set(label) == {-1, 0, 1}
+    with pytest.raises(koebe.TopologyError) as caught:
+        koebe.uniformize(vertices, faces)
+    assert caught.value.kind == "closed"
+
+
+def test_distortion_of_the_surface_itself_is_none():
+    flat = VERTICES[:, :2] / 2
+    assert koebe.distortion(VERTICES, FACES, flat)["angle_error_deg"]["max"] < 1e-6
+    with pytest.raises(koebe.InputError):
+        koebe.distortion(VERTICES, FACES, flat[1:])
+
+
+def test_boundary_loops_and_the_disk_map():
+    loops = koebe.boundary_loops(FACES)
+    assert sorted(len(loop) for loop in loops) == [48, 48]
+    with pytest.raises(koebe.InputError):
+        koebe.disk_map(VERTICES, FACES)
+    vertices, faces, _ = koebe.fill_holes(VERTICES, FACES, [0])
+    points = koebe.disk_map(vertices, faces)
+    rim = koebe.boundary_loops(faces)[0]
+    assert np.allclose(np.linalg.norm(points[rim], axis=1), 1.0)
+    assert koebe.distortion(vertices, faces, points)["angle_error_deg"]["mean"] < 3
