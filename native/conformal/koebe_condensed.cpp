@@ -12,16 +12,11 @@
 namespace koebe {
 namespace {
 
-/// The combination of boundary values and a constant through which no net flux runs. Constants are in the kernel of
-/// Sigma + sum T_k, so alpha 1 1' is added to make it invertible; a function of mean 0, which is one without net flux,
-/// does not feel it, whatever alpha.
-/// @param fluxes of the boundary values (first columns) and of the constant 1 (last column)
-/// @return per column, the constant to take off
-VectorXd balancing_constants(const MatrixXd& fluxes)
-{
-    const VectorXd net = fluxes.colwise().sum();
-    return net.head(net.size() - 1) / net[net.size() - 1];
-}
+/// The constant to take off boundary values so that no net flux runs. Constants are in the kernel of Sigma + sum T_k,
+/// so alpha 1 1' is added to make it invertible; a function without net flux has mean 0 and does not feel it,
+/// whatever alpha.
+/// @param fluxes (m, 2) of the boundary values and of the constant 1
+double balancing_constant(const MatrixXd& fluxes) { return fluxes.col(0).sum() / fluxes.col(1).sum(); }
 
 /// The pairs of one sweep, each loop in at least one; always the same, because partners that change from sweep to
 /// sweep settle on a cycle of maps that differ by the discretization, not on one map.
@@ -55,43 +50,45 @@ public:
 
     int loop_count() const { return static_cast<int>(size_.size()); }
 
-    /// M = (Sigma + sum T_k + alpha 1 1')^-1 for the present angles.
+    /// A = Sigma + sum T_k for the present angles.
     void fill_all_loops()
     {
-        MatrixXd filled = sigma_;
+        filled_ = sigma_;
         for (int k = 0; k < loop_count(); ++k)
-            filled.block(begin_[k], begin_[k], size_[k], size_[k]) += disk_dirichlet_to_neumann(angles_[k]);
-        filled.array() += filled.diagonal().mean() / static_cast<double>(filled.rows());
-        inverse_ = spd_inverse(std::move(filled));
+            filled_.block(begin_[k], begin_[k], size_[k], size_[k]) += disk_dirichlet_to_neumann(angles_[k]);
     }
 
-    /// The map of S with all loops but the outer one filled and the outer one on the circle at its angles: on the
-    /// other loops z = M_k0 M_00^-1 exp(i theta_0).
+    /// The map of S with all loops but the outer one filled and the outer one on the circle at its angles: harmonic,
+    /// A_RR z_R = -A_R0 exp(i theta_0) on the rest R.
     std::vector<VectorXcd> images() const
     {
         const VectorXcd rim = unit_circle_points(angles_[0]);
-        MatrixXd values(size_[0], 3);
-        values << rim.real(), rim.imag(), VectorXd::Ones(size_[0]);
-        const MatrixXd fluxes = spd_solve(block(0, 0), values);
-        const VectorXd constants = balancing_constants(fluxes);
-        const MatrixXd sources = fluxes.leftCols<2>() - fluxes.col(2) * constants.transpose();
+        MatrixXd parts(size_[0], 2);
+        parts << rim.real(), rim.imag();
+        const Index rest = static_cast<Index>(filled_.rows()) - size_[0];
+        const MatrixXd z =
+            spd_solve(filled_.bottomRightCorner(rest, rest), -(filled_.bottomLeftCorner(rest, size_[0]) * parts));
         std::vector<VectorXcd> result{rim};
         for (int k = 1; k < loop_count(); ++k) {
-            const MatrixXd z = (block(k, 0) * sources).rowwise() + constants.transpose();
-            result.emplace_back(z.col(0) + Complex(0.0, 1.0) * z.col(1));
+            const auto rows = z.middleRows(begin_[k] - size_[0], size_[k]);
+            result.emplace_back(rows.col(0) + Complex(0.0, 1.0) * rows.col(1));
         }
         return result;
+    }
+
+    /// M = (A + alpha 1 1')^-1, what the pairs of a sweep are read from; two loops have no rest to eliminate.
+    void invert()
+    {
+        if (loop_count() == 2) return;
+        inverse_ = filled_;
+        inverse_.array() += filled_.diagonal().mean() / static_cast<double>(filled_.rows());
+        inverse_ = spd_inverse(std::move(inverse_));
     }
 
     /// One step: the conjugate of the harmonic function between loops i and j, on both of them.
     std::pair<VectorXd, VectorXd> open_pair(int i, int j, int& raised) const
     {
-        MatrixXd pair(size_[i] + size_[j], size_[i] + size_[j]);
-        pair << block(i, i), block(i, j), block(j, i), block(j, j);
-        MatrixXd values = MatrixXd::Ones(pair.rows(), 2);
-        values.col(0).head(size_[i]).setZero();
-        const MatrixXd fluxes = spd_solve(std::move(pair), values);
-        const VectorXd flux = fluxes.col(0) - balancing_constants(fluxes)[0] * fluxes.col(1);
+        const VectorXd flux = pair_flux(i, j);
         return {angles_from_flux(flux.head(size_[i]), edges_[i], raised),
                 angles_from_flux(flux.tail(size_[j]), edges_[j], raised)};
     }
@@ -99,6 +96,17 @@ public:
     void update(int k, const VectorXd& angles) { angles_[k] = centered_angles(angles, weights_[k], angles_[k]); }
 
 private:
+    VectorXd pair_flux(int i, int j) const
+    {
+        MatrixXd values = MatrixXd::Ones(size_[i] + size_[j], 2);
+        values.col(0).head(size_[i]).setZero();
+        if (loop_count() == 2) return sigma_ * values.col(0);
+        MatrixXd pair(values.rows(), values.rows());
+        pair << block(i, i), block(i, j), block(j, i), block(j, j);
+        const MatrixXd fluxes = spd_solve(std::move(pair), values);
+        return fluxes.col(0) - balancing_constant(fluxes) * fluxes.col(1);
+    }
+
     Eigen::Block<const MatrixXd> block(int i, int j) const
     {
         return inverse_.block(begin_[i], begin_[j], size_[i], size_[j]);
@@ -107,6 +115,7 @@ private:
     const std::vector<VectorXd>& edges_;
     std::vector<VectorXd> weights_;
     MatrixXd sigma_;
+    MatrixXd filled_;
     MatrixXd inverse_;
     std::vector<Index> begin_, size_;
     std::vector<VectorXd> angles_;
@@ -166,6 +175,8 @@ KoebeOutcome koebe_condensed(const CondensedLaplacian& surface, const std::vecto
     while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
         context.advance(1.0 - std::pow(0.5, outcome.sweeps));
         outcome.raised_angles = 0;
+        state.invert();
+        context.checkpoint();
         std::vector<std::pair<VectorXd, VectorXd>> angles;
         for (const auto& [i, j] : pairs) {
             context.checkpoint();
