@@ -99,7 +99,6 @@ int run(const Request& request)
     {
         ProgressLine progress(request.quiet);
         ExecutionContext context(progress.callback(), token);
-        context.checkpoint();
         result = with_filed_faces(input, [&] {
             return uniformize(input.polygons.vertices, input.triangulation.triangles, request.options, context);
         });

@@ -421,9 +421,10 @@ def test_disconnected_faces_are_those_of_the_file(tmp_path):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_an_interrupt_is_130_and_nothing_is_written(tmp_path, number):
+@pytest.mark.parametrize("command", ["uniformize", "fill"])
+def test_an_interrupt_is_130_and_nothing_is_written(tmp_path, command, number):
     os.mkfifo(tmp_path / "in.obj")  # the command waits for its input until the signal is sent
-    arguments = ["uniformize", tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "report.json"]
+    arguments = [command, tmp_path / "in.obj", tmp_path / "out.obj"]
     run = subprocess.Popen(
         [COMMAND, *map(str, arguments)],
         stdout=subprocess.PIPE,
