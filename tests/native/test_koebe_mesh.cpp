@@ -2,6 +2,7 @@
 #include "conformal/circle_fit.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
+#include "conformal/uniformize.h"
 
 #include <gtest/gtest.h>
 
@@ -171,9 +172,25 @@ TEST(KoebeMesh, the_history_names_the_pairs)
         EXPECT_EQ(ck.history[s].pair, std::pair(0, 1 + static_cast<int>(s) % 4));
 }
 
-TEST(KoebeMesh, agrees_with_the_condensed_limit_of_the_exact_circles)
+TEST(KoebeMesh, both_engines_find_the_same_circles)
 {
-    // Two loops: one step, the annulus; the circles of a round annulus come back.
+    const CircleDomain domain = make_circle_domain(six_circles(), 4000);
+    for (const Lift kind : curved_lifts) {
+        std::vector<Circle> circles[2];
+        for (const Engine engine : {Engine::condensed, Engine::mesh}) {
+            UniformizeOptions options;
+            options.engine = engine;
+            ExecutionContext context;
+            for (const LoopReport& loop :
+                 uniformize(lift(domain.points, kind), domain.triangles, options, context).loops)
+                circles[engine == Engine::mesh].push_back(loop.circle);
+        }
+        EXPECT_LT(inversive_distance_error(circles[1], circles[0]), 2e-3) << to_string(kind);
+    }
+}
+
+TEST(KoebeMesh, two_loops_are_one_step)
+{
     const CircleDomain annulus = make_round_annulus(0.3, 96, 20);
     const KoebeMeshResult result = run(annulus, Lift::sphere);
     EXPECT_TRUE(result.outcome.converged);
