@@ -8,14 +8,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <string>
 
 namespace koebe {
 namespace {
 
-using Reader = PolygonMesh (*)(std::string_view);
+using Reader = PolygonMesh (*)(std::string);
 
 Reader reader_for(std::string extension)
 {
@@ -85,30 +84,11 @@ void require_a_mesh(const PolygonMesh& mesh)
 
 }  // namespace
 
-namespace io {
-
-MeshBuilder::MeshBuilder(std::size_t expected_vertices, std::size_t expected_faces)
-{
-    positions_.reserve(expected_vertices);
-    mesh_.face_begin.reserve(expected_faces + 1);
-    mesh_.corners.reserve(3 * expected_faces);
-}
-
-PolygonMesh MeshBuilder::finish()
-{
-    constexpr std::size_t limit = std::numeric_limits<Index>::max();
-    if (positions_.size() > limit || mesh_.corners.size() > limit || mesh_.face_begin.size() > limit)
-        throw InputError("the mesh is too large for 32-bit indices");
-    mesh_.vertices = Eigen::Map<const Vertices>(positions_.empty() ? nullptr : positions_.front().data(),
-                                                static_cast<Eigen::Index>(positions_.size()), 3);
-    return std::move(mesh_);
-}
-
-}  // namespace io
-
 PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension)
 {
-    PolygonMesh mesh = reader_for(extension)(bytes);
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
+    PolygonMesh mesh = reader_for(extension)(std::string(bytes));
     require_a_mesh(mesh);
     return mesh;
 }

@@ -11,19 +11,17 @@ namespace koebe {
 
 /// Reads a mesh file; the extension, in any case, names the format.
 ///
-/// OBJ; OFF, text and binary (big-endian as Geomview writes it, little-endian as OpenMesh and pmp-library do); PLY,
-/// text and binary of both byte orders; STL, text and binary, with corners of identical position made one vertex,
-/// numbered by first appearance. Vertices of no face stay. Numbers are parsed to the nearest 64-bit float. Normals,
-/// colours, texture coordinates, groups and materials are passed over.
+/// OBJ; OFF, text only; PLY, text and binary of both byte orders; STL, text and binary, with corners of identical
+/// position made one vertex, numbered by first appearance. Vertices of no face stay. Numbers of a text are read to the
+/// nearest 64-bit float. Normals, colours, texture coordinates, groups and materials are passed over.
 ///
-/// Why not OpenMesh's readers: they keep 32-bit positions, and leave a vertex that is not a number out, which
-/// renumbers all that follow. CGAL's end a truncated PLY without a word. Both need 100 ms and more where this needs
-/// ten (89,000 faces, OBJ). The tests use OpenMesh's as a second opinion.
+/// The parsers are CGAL's. OpenMesh's keep 32-bit positions, and leave a vertex that is not a number out, which
+/// renumbers all that follow.
 ///
 /// @throws FileError the file cannot be read
-/// @throws InputError the format is not supported or not followed (with the line), there is no vertex or no face, a
-///         face names a vertex that is not there (elements: faces), a coordinate is NaN or infinite (elements:
-///         vertices)
+/// @throws InputError the format is not supported; it is not followed, or the file ends early (elements: the first
+///         vertex or face that is not read); there is no vertex or no face; a face names a vertex that is not there
+///         (elements: faces); a coordinate is NaN or infinite (elements: vertices)
 PolygonMesh read_mesh(const std::filesystem::path& path);
 
 /// The same for the bytes of a file.
