@@ -1,6 +1,7 @@
 // The koebe command: parses, runs one sub-command, and turns errors into one line and an exit code.
 #include "cli/error_line.h"
 #include "cli/exit_code.h"
+#include "cli/fast_kernels.h"
 #include "cli/subcommand.h"
 
 #include <cstdio>
@@ -39,6 +40,7 @@ int run_guarded(const Subcommand& command)
 
 int main(int argc, char** argv)
 {
+    restart_with_fast_kernels(argv);
     CLI::App app("Conformal maps of surfaces with holes onto circle domains.", "koebe");
     app.set_version_flag("--version", KOEBE_VERSION);
     app.require_subcommand(1);

@@ -18,19 +18,6 @@ namespace {
 constexpr double shortest_edge = 1e-9;  // of the mean edge of the loop: vertices that coincide in space
 constexpr double shortest_step = 1e-4;  // of the mean step of the angles along a loop
 
-/// The pairs of loops opened in one sweep, each loop in at least one.
-std::vector<std::pair<int, int>> sweep_pairs(int loop_count, Method method)
-{
-    std::vector<std::pair<int, int>> pairs;
-    if (method == Method::ck) {
-        for (int k = 1; k < loop_count; ++k) pairs.emplace_back(0, k);
-    } else {
-        for (int k = 0; k + 1 < loop_count; k += 2) pairs.emplace_back(k, k + 1);
-        if (loop_count % 2 == 1) pairs.emplace_back(0, loop_count - 1);
-    }
-    return pairs;
-}
-
 VectorXd loop_edges(const Vertices& vertices, const VertexLoop& loop)
 {
     VectorXd edges(loop.size());
@@ -164,32 +151,12 @@ private:
     std::vector<char> stale_;  // per loop: its disk has not been filled since the angles changed
 };
 
-struct CircleState {
-    std::vector<Circle> circles;
-    double mean_roundness = 0.0;
-};
-
-CircleState fit_circles(const VectorXcd& positions, const std::vector<VertexLoop>& loops)
+/// The images of the loops.
+std::vector<VectorXcd> gather_loops(const VectorXcd& positions, const std::vector<VertexLoop>& loops)
 {
-    CircleState state;
-    for (const VertexLoop& loop : loops) {
-        const VectorXcd points = gather_loop(positions, loop);
-        state.circles.push_back(fit_circle_paper(points));
-        state.mean_roundness += roundness(points, state.circles.back()) / static_cast<double>(loops.size());
-    }
-    return state;
-}
-
-/// The paper's termination test: (sum |c' - c|^2 + |r' - r|^2)^(1/2). A first state is compared with no circle at all.
-double circle_change(const CircleState& before, const CircleState& after)
-{
-    double squares = 0.0;
-    for (std::size_t k = 0; k < after.circles.size(); ++k) {
-        const Circle old = before.circles.empty() ? Circle{{0.0, 0.0}, 0.0} : before.circles[k];
-        const double radius_change = after.circles[k].radius - old.radius;
-        squares += std::norm(after.circles[k].center - old.center) + radius_change * radius_change;
-    }
-    return std::sqrt(squares);
+    std::vector<VectorXcd> images;
+    for (const VertexLoop& loop : loops) images.push_back(gather_loop(positions, loop));
+    return images;
 }
 
 }  // namespace
@@ -217,7 +184,8 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
             state.open_pair(pairs[p].first, pairs[p].second);
             context.checkpoint();
             result.positions = state.disk_image();
-            CircleState next = fit_circles(result.positions, loops);
+            outcome.loops = gather_loops(result.positions, loops);
+            CircleState next = circle_state(outcome.loops, fit_circle_paper);
             outcome.history.push_back({++outcome.steps, pairs[p], circle_change(now, next), next.mean_roundness});
             now = std::move(next);
         }
@@ -225,7 +193,6 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
         outcome.raised_angles = state.take_raised();
         outcome.converged = circle_change(at_sweep_start, now) < options.tolerance || loops.size() == 2;
     }
-    for (const VertexLoop& loop : loops) outcome.loops.push_back(gather_loop(result.positions, loop));
     return result;
 }
 

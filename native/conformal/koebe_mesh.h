@@ -2,8 +2,7 @@
 #pragma once
 
 #include "conformal/disk_patch.h"
-#include "conformal/koebe_condensed.h"
-#include "conformal/result.h"
+#include "conformal/koebe_iteration.h"
 #include "core/execution.h"
 #include "core/topology.h"
 #include "geometry/laplacian.h"

@@ -130,6 +130,8 @@ MatrixXd CondensedLaplacian::Impl::trailing_factor() const
     return trailing;
 }
 
+Index CondensedLaplacian::boundary_size() const { return static_cast<Index>(impl_->boundary.size()); }
+
 MatrixXd CondensedLaplacian::sigma() const
 {
     const MatrixXd product = lower_times_transpose(impl_->trailing_factor());

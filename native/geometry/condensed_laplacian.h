@@ -32,6 +32,8 @@ public:
     /// The Dirichlet-to-Neumann matrix (m, m), symmetric positive semidefinite, Sigma 1 = 0.
     MatrixXd sigma() const;
 
+    Index boundary_size() const;
+
     /// Harmonic extension: (m, C) boundary values in the boundary's order -> (V, C) values at all vertices.
     MatrixXd extend(const MatrixXd& boundary_values) const;
 

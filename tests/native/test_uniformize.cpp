@@ -85,6 +85,11 @@ INSTANTIATE_TEST_SUITE_P(Condensed, ExactDomain,
                                          ExactCase{Lift::sphere, Engine::condensed, 2e-4},
                                          ExactCase{Lift::enneper, Engine::condensed, 2e-4}),
                          [](const auto& info) { return to_string(info.param.lift); });
+INSTANTIATE_TEST_SUITE_P(Mesh, ExactDomain,
+                         testing::Values(ExactCase{Lift::polynomial, Engine::mesh, 1e-3},
+                                         ExactCase{Lift::sphere, Engine::mesh, 1e-3},
+                                         ExactCase{Lift::enneper, Engine::mesh, 1e-3}),
+                         [](const auto& info) { return to_string(info.param.lift); });
 
 TEST(Uniformize, a_circle_domain_keeps_its_circles)
 {

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from . import _koebe
 from ._arrays import as_loops, as_planar, as_triangles, as_vertices
+from ._native import _koebe
 from ._result import UniformizeResult
 from .errors import InputError
 

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from . import _koebe
 from ._arrays import as_loops
+from ._native import _koebe
 
 
 class UniformizeResult:

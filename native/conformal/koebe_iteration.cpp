@@ -1,0 +1,42 @@
+#include "conformal/koebe_iteration.h"
+
+#include "conformal/circle_fit.h"
+
+#include <cmath>
+
+namespace koebe {
+
+std::vector<std::pair<int, int>> sweep_pairs(int loop_count, Method method)
+{
+    std::vector<std::pair<int, int>> pairs;
+    if (method == Method::ck) {
+        for (int k = 1; k < loop_count; ++k) pairs.emplace_back(0, k);
+    } else {
+        for (int k = 0; k + 1 < loop_count; k += 2) pairs.emplace_back(k, k + 1);
+        if (loop_count % 2 == 1) pairs.emplace_back(0, loop_count - 1);
+    }
+    return pairs;
+}
+
+CircleState circle_state(const std::vector<VectorXcd>& images, Circle (*fit)(const VectorXcd&))
+{
+    CircleState state;
+    for (const VectorXcd& image : images) {
+        state.circles.push_back(fit(image));
+        state.mean_roundness += roundness(image, state.circles.back()) / static_cast<double>(images.size());
+    }
+    return state;
+}
+
+double circle_change(const CircleState& before, const CircleState& after)
+{
+    double squares = 0.0;
+    for (std::size_t k = 0; k < after.circles.size(); ++k) {
+        const Circle old = before.circles.empty() ? Circle{{0.0, 0.0}, 0.0} : before.circles[k];
+        const double radius_change = after.circles[k].radius - old.radius;
+        squares += std::norm(after.circles[k].center - old.center) + radius_change * radius_change;
+    }
+    return std::sqrt(squares);
+}
+
+}  // namespace koebe
