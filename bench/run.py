@@ -56,7 +56,17 @@ def markdown(title: str, note: str, columns: dict, rows: list[dict]) -> str:
 
 def main() -> None:
     OUT.mkdir(parents=True, exist_ok=True)
-    names = ("choi_alex3", "choi_lion5", "choi_sophie1", "fig1_nefertiti_20k_15", "ict_head_neutral_sub45k")
+    names = (
+        "choi_alex3",
+        "choi_lion5",
+        "choi_sophie1",
+        "fig1_nefertiti_20k_15",
+        "ict_head_neutral_sub45k",
+        "fig12_nefertiti_74k_9",
+        "mountain_40lakes",
+        "nefertiti_20_triangle_holes",
+        "nefertiti_200holes",
+    )
     scans = [str(MESHES / f"{name}.obj") for name in names if (MESHES / f"{name}.obj").exists()]
     exact = [f"enneper:{faces}" for faces in (1000, 4000, 16000, 36000)]
 
