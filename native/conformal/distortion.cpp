@@ -1,5 +1,6 @@
 #include "conformal/distortion.h"
 
+#include "conformal/stored_uv.h"
 #include "geometry/laplacian.h"
 
 #include <Eigen/Geometry>
@@ -14,32 +15,8 @@ namespace koebe {
 namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
-constexpr double resolution = 1e-6;       // UV units: contract, below_resolution
 constexpr double thin = 1e-10;            // twice the area over the squared longest edge, dimensionless
 constexpr double log_area_floor = 1e-300;
-
-
-/// Points as Blender stores them: u, v in [0, 1]^2 as 32-bit floats.
-struct StoredPoint {
-    double u, v;
-};
-
-StoredPoint stored(const PlanarPoints& uv, Index vertex)
-{
-    return {static_cast<double>(static_cast<float>(0.5 * (1.0 + uv(vertex, 0)))),
-            static_cast<double>(static_cast<float>(0.5 * (1.0 + uv(vertex, 1))))};
-}
-
-double stored_area(const StoredPoint& a, const StoredPoint& b, const StoredPoint& c)
-{
-    return 0.5 * ((b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v));
-}
-
-double longest_stored_edge(const StoredPoint& a, const StoredPoint& b, const StoredPoint& c)
-{
-    return std::max({std::hypot(a.u - b.u, a.v - b.v), std::hypot(b.u - c.u, b.v - c.v),
-                     std::hypot(c.u - a.u, c.v - a.v)});
-}
 
 /// A triangle of the surface laid into the plane: corners 0, p1 = (length, 0), p2.
 struct FlatTriangle {
@@ -73,9 +50,7 @@ std::vector<Index> flipped_faces(const Triangles& triangles, const PlanarPoints&
 {
     std::vector<Index> flipped;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (!(stored_area(stored(uv, triangles(f, 0)), stored(uv, triangles(f, 1)), stored(uv, triangles(f, 2))) >
-              0.0))
-            flipped.push_back(static_cast<Index>(f));
+        if (StoredFace(triangles, uv, f).flipped()) flipped.push_back(static_cast<Index>(f));
     return flipped;
 }
 
@@ -84,9 +59,7 @@ Distortion measure_distortion(const Vertices& vertices, const Triangles& triangl
     Distortion result;
     result.flipped = flipped_faces(triangles, uv);
     for (const Index f : result.flipped)
-        if (longest_stored_edge(stored(uv, triangles(f, 0)), stored(uv, triangles(f, 1)),
-                                stored(uv, triangles(f, 2))) < resolution)
-            result.below_resolution.push_back(f);
+        if (StoredFace(triangles, uv, f).below_resolution()) result.below_resolution.push_back(f);
 
     double angle_sum = 0.0, angle_squares = 0.0, corners = 0.0;
     double mu_sum = 0.0, surface_area = 0.0, log_sum = 0.0, log_squares = 0.0;

@@ -1,12 +1,17 @@
 #include "conformal/uniformize.h"
 
+#include "conformal/boundary_angles.h"
 #include "conformal/circle_fit.h"
 #include "conformal/distortion.h"
+#include "conformal/flap_map.h"
+#include "conformal/flip_report.h"
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
+#include "conformal/untangle.h"
 #include "core/topology.h"
 #include "geometry/dense_spd.h"
+#include "geometry/flaps.h"
 #include "geometry/intrinsic_metric.h"
 
 #include <sys/resource.h>
@@ -15,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 
 namespace koebe {
@@ -125,6 +131,28 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
     return domain;
 }
 
+/// The domain without its flaps.
+Domain core_domain(const Domain& whole, FlapCut& cut)
+{
+    Domain core;
+    core.surface = std::move(cut.core);
+    core.vertices = whole.vertices(cut.vertices, Eigen::all);
+    for (const Index v : cut.vertices) core.original.push_back(whole.original[v]);
+    core.loops = cut.loops;
+    for (const VertexLoop& loop : core.loops) core.edges.push_back(loop_edges(core.vertices, loop));
+    core.outer_rank = whole.outer_rank;
+    return core;
+}
+
+/// A disk without inner vertices has no harmonic function to speak of: its loop, evenly by length.
+KoebeOutcome polygon_outcome(const Domain& domain)
+{
+    KoebeOutcome outcome;
+    outcome.loops = {unit_circle_points(arc_length_angles(domain.edges[0]))};
+    outcome.converged = true;
+    return outcome;
+}
+
 /// The automorphism that puts the map into normal position: two loops concentric, else nothing.
 Moebius normal_position(const std::vector<Circle>& circles)
 {
@@ -192,9 +220,36 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
                            " without flux: parts that hang on a loop by an edge");
     if (!outcome.converged)
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
-    if (!result.distortion.flipped.empty())
-        warnings.push_back(plural(result.distortion.flipped.size(), "face") + " flipped; the first is " +
-                           std::to_string(result.distortion.flipped.front()));
+}
+
+/// The map of the whole surface from that of its core: flaps hung back, flipped faces turned back.
+PlanarPoints without_flips(const Domain& whole, const FlapCut& cut, PlanarPoints core_uv, UniformizeResult& result,
+                           UntangleReport& untangled, const ExecutionContext& context)
+{
+    PlanarPoints uv = std::move(core_uv);
+    std::vector<Index> off_circle;
+    if (!cut.flaps.empty()) {
+        PlanarPoints whole_uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
+        whole_uv(cut.vertices, Eigen::all) = uv;
+        uv = std::move(whole_uv);
+        off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
+    }
+    std::vector<Circle> circles;
+    for (const LoopReport& report : result.loops) circles.push_back(report.circle);
+    untangled = untangle(whole.vertices, whole.surface, whole.loops, circles, off_circle, uv, context);
+
+    off_circle.insert(off_circle.end(), untangled.freed.begin(), untangled.freed.end());
+    std::sort(off_circle.begin(), off_circle.end());
+    for (std::size_t k = 0; k < whole.loops.size(); ++k) {
+        LoopReport& report = result.loops[k];
+        report.vertices.clear();
+        for (const Index v : whole.loops[k]) {
+            report.vertices.push_back(whole.original[v]);
+            if (std::binary_search(off_circle.begin(), off_circle.end(), v))
+                report.off_circle.push_back(whole.original[v]);
+        }
+    }
+    return uv;
 }
 
 }  // namespace
@@ -210,7 +265,11 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     Stopwatch total, stage;
 
     context.begin_stage("topology", 0.0, 0.05);
-    const Domain domain = prepare_domain(vertices, triangles, options);
+    const Domain whole = prepare_domain(vertices, triangles, options);
+    FlapCut cut = cut_flaps(whole.vertices, whole.surface, whole.loops);
+    std::optional<Domain> core;
+    if (!cut.flaps.empty()) core = core_domain(whole, cut);
+    const Domain& domain = core ? *core : whole;
     result.outer_loop = domain.outer_rank;
     result.seconds.topology = stage.lap();
 
@@ -230,7 +289,8 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
 
     context.begin_stage("iterate", 0.5, 0.9);
     const KoebeOutcome outcome =
-        options.engine == Engine::mesh
+        domain.loops.size() == 1 && domain.original.size() == domain.loops[0].size() ? polygon_outcome(domain)
+        : options.engine == Engine::mesh
             ? koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context).outcome
             : koebe_condensed(condensed, domain.loops, domain.edges,
                               vertex_areas(metric.triangles, metric.lengths, vertex_count), options, context);
@@ -241,12 +301,17 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     result.seconds.iterate = stage.lap();
 
     context.begin_stage("finish", 0.9, 1.0);
-    const PlanarPoints uv = finish_map(condensed, domain, outcome, result);
+    PlanarPoints core_uv = finish_map(condensed, domain, outcome, result);
     context.advance(0.5);
-    result.distortion = measure_distortion(domain.vertices, domain.surface.triangles, uv);
+    UntangleReport untangled;
+    const PlanarPoints uv = without_flips(whole, cut, std::move(core_uv), result, untangled, context);
+    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
     result.uv = PlanarPoints::Zero(vertices.rows(), 2);
-    result.uv(domain.original, Eigen::all) = uv;
-    add_warnings(domain, outcome, result);
+    result.uv(whole.original, Eigen::all) = uv;
+    add_warnings(whole, outcome, result);
+    const auto flip_sentences = flip_warnings({whole.vertices, whole.surface, whole.loops, whole.original, uv},
+                                              cut.flaps, untangled, result.distortion);
+    result.warnings.insert(result.warnings.end(), flip_sentences.begin(), flip_sentences.end());
     result.seconds.finish = stage.lap();
     result.seconds.total = total.lap();
     result.peak_memory_mb = peak_memory_mb();

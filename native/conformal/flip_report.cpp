@@ -1,0 +1,138 @@
+#include "conformal/flip_report.h"
+
+#include "conformal/stored_uv.h"
+#include "core/connectivity.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+namespace koebe {
+namespace {
+
+constexpr double coarse = 0.25;  // inner vertices over loop vertices: with fewer, faces reach from loop to loop
+
+std::string plural(std::size_t n, const std::string& noun)
+{
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : noun.ends_with("x") ? "es" : "s");
+}
+
+std::string figure(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return text;
+}
+
+std::string flap_warning(const MappedSurface& map, const std::vector<Flap>& flaps)
+{
+    std::size_t faces = 0, rim = 0, inner = 0;
+    const Flap* first = nullptr;
+    for (const Flap& flap : flaps) {
+        faces += flap.faces.size();
+        if (flap.loop == 0) continue;
+        rim += flap.rim.size();
+        ++inner;
+        if (!first) first = &flap;
+    }
+    std::string text = plural(flaps.size(), "part") + " of " + plural(faces, "face") +
+                       " in all, the first behind the edge " + std::to_string(map.original[flaps[0].first]) + "-" +
+                       std::to_string(map.original[flaps[0].last]) + ", hang on their loop by that edge alone: ";
+    if (inner == 0) return text + "drawn along the unit circle";
+    return text + plural(inner, "part") + " drawn inside their hole, with " + plural(rim, "vertex") +
+           " off the circle, the first " + std::to_string(map.original[first->rim[0]]);
+}
+
+/// Connected faces that are too small to be stored, with a flipped one among them.
+struct LostRegion {
+    std::vector<Index> faces;
+    std::size_t flipped = 0;
+    Index tip = -1;      // corner of the face that is smallest in UV
+    int loop = 0;        // the one with a vertex nearest to the tip on the surface
+    double extent = 0.0; // longest stored edge
+    double shortest = 0.0;  // longest edge of the smallest face, in UV units and 64 bits
+};
+
+std::vector<LostRegion> lost_regions(const MappedSurface& map, const std::vector<Index>& below_resolution)
+{
+    const Triangles& triangles = map.surface.triangles;
+    std::vector<char> met(triangles.rows(), 0), flipped(triangles.rows(), 0);
+    for (const Index f : below_resolution) flipped[f] = 1;
+    const auto longest_edge = [&](Index f) {
+        double longest = 0.0;
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(
+                longest, 0.5 * (map.uv.row(triangles(f, k)) - map.uv.row(triangles(f, (k + 1) % 3))).norm());
+        return longest;
+    };
+    std::vector<LostRegion> regions;
+    for (const Index seed : below_resolution) {
+        if (std::exchange(met[seed], 1)) continue;
+        LostRegion region;
+        region.faces.push_back(seed);
+        Index smallest = seed;
+        region.shortest = longest_edge(seed);
+        for (std::size_t head = 0; head < region.faces.size(); ++head) {
+            const Index f = region.faces[head];
+            region.flipped += flipped[f];
+            region.extent = std::max(region.extent, StoredFace(triangles, map.uv, f).longest_edge());
+            if (const double size = longest_edge(f); size < region.shortest) {
+                region.shortest = size;
+                smallest = f;
+            }
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                if (map.surface.twin[h] == no_twin) continue;
+                const Index g = face_of(map.surface.twin[h]);
+                if (!met[g] && StoredFace(triangles, map.uv, g).below_resolution()) {
+                    met[g] = 1;
+                    region.faces.push_back(g);
+                }
+            }
+        }
+        region.tip = triangles(smallest, 0);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < map.loops.size(); ++k)
+            for (const Index v : map.loops[k])
+                if (const double d = (map.vertices.row(v) - map.vertices.row(region.tip)).norm(); d < nearest) {
+                    nearest = d;
+                    region.loop = static_cast<int>(k);
+                }
+        regions.push_back(std::move(region));
+    }
+    return regions;
+}
+
+}  // namespace
+
+std::vector<std::string> flip_warnings(const MappedSurface& map, const std::vector<Flap>& flaps,
+                                       const UntangleReport& untangled, const Distortion& distortion)
+{
+    std::vector<std::string> warnings;
+    std::size_t rim = 0;
+    for (const VertexLoop& loop : map.loops) rim += loop.size();
+    const std::size_t inside = map.original.size() - rim;
+    if (map.loops.size() > 1 && static_cast<double>(inside) < coarse * static_cast<double>(rim))
+        warnings.push_back("too coarse: " + plural(inside, "vertex") + " between the loops' " + std::to_string(rim) +
+                           ", so that faces reach from loop to loop and the map is far from conformal (mean angle error " +
+                           figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh");
+    if (!flaps.empty()) warnings.push_back(flap_warning(map, flaps));
+    if (!untangled.freed.empty())
+        warnings.push_back(plural(untangled.freed.size(), "vertex") +
+                           " freed from their circles, where no straight triangles can follow them; the first is " +
+                           std::to_string(map.original[untangled.freed.front()]));
+    for (const LostRegion& region : lost_regions(map, distortion.below_resolution))
+        warnings.push_back(plural(region.faces.size(), "face") + " around vertex " +
+                           std::to_string(map.original[region.tip]) + ", nearest to loop " +
+                           std::to_string(region.loop) + ", shrank below the resolution of 32-bit UVs (edges from " +
+                           figure(region.shortest) + " to " + figure(region.extent) + "), " +
+                           plural(region.flipped, "face") + " of them to no area; the first is " +
+                           std::to_string(*std::min_element(region.faces.begin(), region.faces.end())) +
+                           ". A long limb does this: a seam or a hole near its end helps");
+    if (!untangled.tangled.empty())
+        warnings.push_back(plural(untangled.tangled.size(), "face") + " flipped; the first is " +
+                           std::to_string(untangled.tangled.front()) + ", at vertex " +
+                           std::to_string(map.original[map.surface.triangles(untangled.tangled.front(), 0)]));
+    return warnings;
+}
+
+}  // namespace koebe

@@ -1,0 +1,39 @@
+// Foldover-free planar maps: the regularized variational method of Garanzha et al. 2021.
+#pragma once
+
+#include "conformal/result.h"
+#include "core/execution.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace koebe {
+
+/// A planar triangle mesh with the shape each face is to take.
+struct FoldoverProblem {
+    enum class Mobility : char { held, sliding, free };
+
+    PlanarPoints points;                     ///< (V, 2)
+    Triangles triangles;                     ///< (F, 3)
+    std::vector<Eigen::Matrix2d> reference;  ///< (F) columns: edges 0-1 and 0-2 of the wanted shape, of positive area
+    VectorXd floor;                          ///< (F) the determinant to stay above, in the reference's areas
+    std::vector<Mobility> mobility;          ///< (V) sliding: along its circle
+    std::vector<Circle> circles;             ///< (V) of sliding vertices
+};
+
+struct FoldoverOptions {
+    int max_iterations = 60;
+    double area_weight = 1.0 / 128.0;  ///< of det + 1/det against the conformal term, dimensionless (Garanzha's theta)
+    double settled = 1e-4;             ///< relative decrease at which a foldover-free map is good enough
+};
+
+/// Minimizes sum_f (tr(J'J) / chi(det J - floor) + theta (det^2 + 1) / chi) over the mobile vertices, J the linear map
+/// from the reference to the image, chi(D, eps) = (D + sqrt(eps^2 + D^2)) / 2, eps shrinking as the worst
+/// determinant rises (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50
+/// lines of code", sections 2 and 3), by Newton's method on Hessians made positive semidefinite face by face.
+/// @return whether every determinant is above its floor; problem.points holds the result either way
+bool minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
+                            const FoldoverOptions& options = {});
+
+}  // namespace koebe

@@ -1,0 +1,44 @@
+// UVs as Blender stores them: u = (1 + x) / 2, v = (1 + y) / 2, rounded to 32-bit floats.
+#pragma once
+
+#include "core/types.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace koebe {
+
+/// UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
+inline constexpr double uv_resolution = 1e-6;
+
+struct StoredPoint {
+    double u, v;
+};
+
+inline StoredPoint stored_point(const PlanarPoints& points, Index vertex)
+{
+    return {static_cast<double>(static_cast<float>(0.5 * (1.0 + points(vertex, 0)))),
+            static_cast<double>(static_cast<float>(0.5 * (1.0 + points(vertex, 1))))};
+}
+
+/// A face as stored; area and edge are computed in 64 bits.
+struct StoredFace {
+    StoredFace(const Triangles& triangles, const PlanarPoints& points, Eigen::Index f)
+        : a(stored_point(points, triangles(f, 0))), b(stored_point(points, triangles(f, 1))),
+          c(stored_point(points, triangles(f, 2)))
+    {
+    }
+
+    double area() const { return 0.5 * ((b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v)); }
+    double longest_edge() const
+    {
+        return std::max({std::hypot(a.u - b.u, a.v - b.v), std::hypot(b.u - c.u, b.v - c.v),
+                         std::hypot(c.u - a.u, c.v - a.v)});
+    }
+    bool flipped() const { return !(area() > 0.0); }
+    bool below_resolution() const { return longest_edge() < uv_resolution; }
+
+    StoredPoint a, b, c;
+};
+
+}  // namespace koebe

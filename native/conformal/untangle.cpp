@@ -1,0 +1,125 @@
+#include "conformal/untangle.h"
+
+#include "conformal/stored_uv.h"
+#include "conformal/untangle_patch.h"
+
+#include <algorithm>
+
+namespace koebe {
+namespace {
+
+constexpr int ring_counts[] = {2, 4, 8};
+constexpr PatchShape shapes[] = {PatchShape::surface, PatchShape::equilateral};
+constexpr std::size_t most_tries = 16;  // single vertices freed in turn for one patch
+constexpr int most_rounds = 12;         // of freeing
+
+using Place = TangledMap::Place;
+
+class Untangler {
+public:
+    Untangler(TangledMap& map, const ExecutionContext& context) : map_(map), context_(context) {}
+
+    UntangleReport run()
+    {
+        UntangleReport report;
+        report.tangled = map_.tangled();
+        for (const PatchBoundary boundary : {PatchBoundary::held, PatchBoundary::sliding})
+            for (const int rings : ring_counts)
+                for (const PatchShape shape : shapes) {
+                    if (report.tangled.empty()) return report;
+                    for (const auto& patch : map_.patches(report.tangled, rings, boundary))
+                        report.repairs += map_.repair(patch, shape, boundary, context_);
+                    report.tangled = map_.tangled();
+                }
+        for (int round = 0; round < most_rounds && !report.tangled.empty(); ++round) {
+            bool progress = false;
+            for (const auto& patch : map_.patches(report.tangled, 2, PatchBoundary::sliding)) {
+                const std::size_t before = map_.tangled(patch).size();
+                if (before == 0) continue;
+                const auto freed = free_some(patch, round);
+                report.freed.insert(report.freed.end(), freed.begin(), freed.end());
+                progress = progress || map_.tangled(patch).size() < before;
+            }
+            report.tangled = map_.tangled();
+            if (!progress && round >= 2) break;
+        }
+        std::sort(report.freed.begin(), report.freed.end());
+        return report;
+    }
+
+private:
+    /// Loop vertices on inner circles within some rings of the patch's tangled faces, nearest first.
+    std::vector<Index> candidates(const std::vector<Index>& patch, int rings) const
+    {
+        std::vector<Index> result;
+        std::vector<Index> faces = map_.tangled(patch);
+        for (int ring = 0; ring <= rings; ++ring) {
+            std::vector<Index> met;
+            for (const Index f : faces)
+                for (int k = 0; k < 3; ++k)
+                    if (const Index v = map_.triangles()(f, k);
+                        map_.loop_of(v) > 0 && map_.place(v) == Place::on_circle)
+                        met.push_back(v);
+            std::sort(met.begin(), met.end());
+            met.erase(std::unique(met.begin(), met.end()), met.end());
+            for (const Index v : met)
+                if (std::find(result.begin(), result.end(), v) == result.end()) result.push_back(v);
+            std::vector<Index> wider;
+            for (const auto& group : map_.patches(map_.tangled(patch), ring + 1, PatchBoundary::sliding))
+                wider.insert(wider.end(), group.begin(), group.end());
+            faces = std::move(wider);
+        }
+        return result;
+    }
+
+    /// Whether the tangled faces of a patch became fewer with the present freedom.
+    bool attempt(const std::vector<Index>& patch)
+    {
+        bool better = false;
+        for (const int rings : ring_counts)
+            for (const PatchShape shape : shapes) {
+                const auto tangled = map_.tangled(patch);
+                if (tangled.empty()) return true;
+                for (const auto& wider : map_.patches(tangled, rings, PatchBoundary::sliding))
+                    better = map_.repair(wider, shape, PatchBoundary::sliding, context_) || better;
+            }
+        return better;
+    }
+
+    /// Frees one vertex if one is enough to better the patch, else all that touch its tangled faces.
+    std::vector<Index> free_some(const std::vector<Index>& patch, int round)
+    {
+        const auto near = candidates(patch, round);
+        for (std::size_t i = 0; i < std::min(near.size(), most_tries); ++i) {
+            map_.set_place(near[i], Place::off_circle);
+            if (attempt(patch)) return {near[i]};
+            map_.set_place(near[i], Place::on_circle);
+        }
+        for (const Index v : near) map_.set_place(v, Place::off_circle);
+        if (attempt(patch)) return near;
+        for (const Index v : near) map_.set_place(v, Place::on_circle);
+        return {};
+    }
+
+    TangledMap& map_;
+    const ExecutionContext& context_;
+};
+
+}  // namespace
+
+UntangleReport untangle(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                        const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
+                        const ExecutionContext& context)
+{
+    const auto tangled = [&](Eigen::Index f) {
+        const StoredFace face(surface.triangles, uv, f);
+        return face.flipped() && !face.below_resolution();
+    };
+    Eigen::Index f = 0;
+    while (f < surface.triangles.rows() && !tangled(f)) ++f;
+    if (f == surface.triangles.rows()) return {};
+    TangledMap map(vertices, surface, loops, circles, off_circle, uv);
+    return Untangler(map, context).run();
+}
+
+}  // namespace koebe

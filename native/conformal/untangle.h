@@ -1,0 +1,29 @@
+// Turns flipped faces back, by moving as little as possible.
+#pragma once
+
+#include "conformal/result.h"
+#include "core/execution.h"
+#include "core/topology.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct UntangleReport {
+    int repairs = 0;              ///< neighbourhoods that were moved
+    std::vector<Index> freed;     ///< loop vertices that had to leave their circles
+    std::vector<Index> tangled;   ///< faces still flipped, those below resolution aside
+};
+
+/// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, from
+/// the mildest measure to the harshest, until none is left: 2, 4 and 8 rings around them with the loops held; the same
+/// with the loops' vertices sliding along their circles; the same with a few vertices freed from their circles, which
+/// a face between vertices that span more than half a circle may need.
+/// @param vertices, surface, loops (the outer one first), circles the surface and its image's circles
+/// @param off_circle loop vertices that are off their circles already
+/// @param uv (V, 2) moved in place
+UntangleReport untangle(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                        const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
+                        const ExecutionContext& context);
+
+}  // namespace koebe

@@ -1,0 +1,257 @@
+#include "conformal/untangle_patch.h"
+
+#include "conformal/foldover_free.h"
+#include "conformal/stored_uv.h"
+#include "geometry/laplacian.h"
+#include "geometry/planar_predicates.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace koebe {
+namespace {
+
+constexpr double rounding = 3e-7;      // twice the area a face can lose by rounding, over its longest edge, disk units
+constexpr double least_height = 1e-2;  // of a wanted shape, over its longest edge
+constexpr double least_size = 1e-14;   // of a wanted shape, disk units
+
+/// Columns: edges 0-1 and 0-2 of a face with these edge lengths, scaled to an area.
+Eigen::Matrix2d shaped(double l01, double l12, double l20, double area)
+{
+    const double longest = std::max({l01, l12, l20});
+    Eigen::Matrix2d edges;
+    if (!(longest > 0.0)) return shaped(1.0, 1.0, 1.0, area);
+    l01 = std::max(l01, least_height * longest);
+    const double height =
+        std::max(2.0 * triangle_area(l01, l12, l20), least_height * longest * longest) / l01;
+    edges << l01, (l01 * l01 + l20 * l20 - l12 * l12) / (2.0 * l01), 0.0, height;
+    return edges * std::sqrt(2.0 * area / edges.determinant());
+}
+
+}  // namespace
+
+TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                       const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv)
+    : vertices_(vertices), surface_(surface), loops_(loops), circles_(circles), uv_(uv),
+      place_(surface.vertex_count, Place::inside), loop_of_(surface.vertex_count, -1),
+      begin_(surface.vertex_count + 1, 0), faces_of_(surface.triangles.size())
+{
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        for (const Index v : loops[k]) {
+            loop_of_[v] = static_cast<int>(k);
+            place_[v] = Place::on_circle;
+        }
+    for (const Index v : off_circle) place_[v] = Place::off_circle;
+    const Triangles& triangles = surface.triangles;
+    for (Eigen::Index i = 0; i < triangles.size(); ++i) ++begin_[triangles.data()[i] + 1];
+    for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+    std::vector<Index> cursor(begin_.begin(), begin_.end() - 1);
+    for (Eigen::Index i = 0; i < triangles.size(); ++i)
+        faces_of_[cursor[triangles.data()[i]]++] = static_cast<Index>(i / 3);
+}
+
+std::vector<Index> TangledMap::tangled() const
+{
+    std::vector<Index> result;
+    for (Eigen::Index f = 0; f < triangles().rows(); ++f)
+        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution())
+            result.push_back(static_cast<Index>(f));
+    return result;
+}
+
+std::vector<Index> TangledMap::tangled(const std::vector<Index>& faces) const
+{
+    std::vector<Index> result;
+    for (const Index f : faces)
+        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution())
+            result.push_back(f);
+    return result;
+}
+
+bool TangledMap::below_resolution(Index vertex) const
+{
+    for (Index i = begin_[vertex]; i < begin_[vertex + 1]; ++i)
+        if (!StoredFace(triangles(), uv_, faces_of_[i]).below_resolution()) return false;
+    return true;
+}
+
+bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
+{
+    return (place_[vertex] == Place::inside || boundary == PatchBoundary::sliding) && !below_resolution(vertex);
+}
+
+std::vector<std::vector<Index>> TangledMap::patches(const std::vector<Index>& faces, int rings,
+                                                    PatchBoundary boundary) const
+{
+    std::vector<char> taken(triangles().rows(), 0);
+    std::vector<Index> region = faces;
+    for (const Index f : faces) taken[f] = 1;
+    std::size_t ring_begin = 0;
+    for (int ring = 0; ring < rings; ++ring) {
+        const std::size_t ring_end = region.size();
+        for (; ring_begin < ring_end; ++ring_begin)
+            for (int k = 0; k < 3; ++k) {
+                const Index v = triangles()(region[ring_begin], k);
+                for (Index i = begin_[v]; i < begin_[v + 1]; ++i)
+                    if (!std::exchange(taken[faces_of_[i]], 1)) region.push_back(faces_of_[i]);
+            }
+    }
+    // Vertices on the edge of the region are held: groups meet only there.
+    const auto moves = [&](Index v) {
+        for (Index i = begin_[v]; i < begin_[v + 1]; ++i)
+            if (!taken[faces_of_[i]]) return false;
+        return mobile(v, boundary);
+    };
+    std::vector<char> grouped(triangles().rows(), 0);
+    std::map<Index, bool> moves_cache;
+    std::vector<std::vector<Index>> result;
+    for (const Index seed : faces) {
+        if (std::exchange(grouped[seed], 1)) continue;
+        std::vector<Index> group{seed};
+        for (std::size_t head = 0; head < group.size(); ++head)
+            for (int k = 0; k < 3; ++k) {
+                const Index v = triangles()(group[head], k);
+                const auto [known, fresh] = moves_cache.try_emplace(v, false);
+                if (!fresh) continue;  // its faces are in a group already, or it does not move
+                known->second = moves(v);
+                if (!known->second) continue;
+                for (Index i = begin_[v]; i < begin_[v + 1]; ++i)
+                    if (!std::exchange(grouped[faces_of_[i]], 1)) group.push_back(faces_of_[i]);
+            }
+        std::sort(group.begin(), group.end());
+        result.push_back(std::move(group));
+    }
+    return result;
+}
+
+/// Areas in the plane: the surface's by the local conformal factor, from edges, as areas may be folded; for equal
+/// shapes their mean around each face.
+VectorXd TangledMap::wanted_areas(const std::vector<Index>& faces, PatchShape shape) const
+{
+    struct Sums {
+        double planar = 0.0, surface = 0.0, area = 0.0, count = 0.0;
+    };
+    std::map<Index, Sums> around;
+    VectorXd areas(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Index a = triangles()(faces[i], k), b = triangles()(faces[i], (k + 1) % 3);
+            const double planar = (uv_.row(a) - uv_.row(b)).squaredNorm();
+            const double surface = (vertices_.row(a) - vertices_.row(b)).squaredNorm();
+            for (const Index v : {a, b}) {
+                around[v].planar += planar;
+                around[v].surface += surface;
+            }
+        }
+    const auto corner_mean = [&](std::size_t i, auto value) {
+        double log_sum = 0.0;
+        for (int k = 0; k < 3; ++k) log_sum += std::log(std::max(value(around[triangles()(faces[i], k)]), 1e-300));
+        return std::exp(log_sum / 3.0);
+    };
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Index f = faces[i];
+        const Eigen::RowVector3d p = vertices_.row(triangles()(f, 0));
+        const double l0 = (vertices_.row(triangles()(f, 1)) - p).norm();
+        const double l1 = (vertices_.row(triangles()(f, 2)) - vertices_.row(triangles()(f, 1))).norm();
+        const double l2 = (vertices_.row(triangles()(f, 2)) - p).norm();
+        const double factor = corner_mean(i, [](const Sums& s) { return s.planar / std::max(s.surface, 1e-300); });
+        const double longest = std::max({l0, l1, l2});
+        areas[i] = factor * std::max(triangle_area(l0, l1, l2), 0.5 * least_height * longest * longest);
+        areas[i] = std::max(areas[i], least_size * least_size);
+        for (int k = 0; k < 3; ++k) {
+            around[triangles()(f, k)].area += areas[i];
+            around[triangles()(f, k)].count += 1.0;
+        }
+    }
+    if (shape == PatchShape::equilateral)
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            areas[i] = corner_mean(i, [](const Sums& s) { return s.area / s.count; });
+    return areas;
+}
+
+bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
+                        const ExecutionContext& context)
+{
+    const std::size_t tangled_before = tangled(patch).size();
+    if (tangled_before == 0) return false;
+    std::vector<Index> names;
+    for (const Index f : patch)
+        for (int k = 0; k < 3; ++k) names.push_back(triangles()(f, k));
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    const auto rank = [&](Index v) {
+        return static_cast<Index>(std::lower_bound(names.begin(), names.end(), v) - names.begin());
+    };
+
+    FoldoverProblem problem;
+    problem.points = uv_(names, Eigen::all);
+    problem.circles.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Index v = names[i];
+        bool moves = mobile(v, boundary);
+        for (Index j = begin_[v]; j < begin_[v + 1] && moves; ++j)
+            moves = std::binary_search(patch.begin(), patch.end(), faces_of_[j]);
+        if (loop_of_[v] >= 0) problem.circles[i] = circles_[loop_of_[v]];
+        problem.mobility.push_back(!moves                            ? FoldoverProblem::Mobility::held
+                                   : place_[v] == Place::on_circle   ? FoldoverProblem::Mobility::sliding
+                                                                     : FoldoverProblem::Mobility::free);
+    }
+    const auto is_held = [&](Index v) { return problem.mobility[rank(v)] == FoldoverProblem::Mobility::held; };
+    std::vector<Index> faces;
+    for (const Index f : patch)
+        if (!(is_held(triangles()(f, 0)) && is_held(triangles()(f, 1)) && is_held(triangles()(f, 2))))
+            faces.push_back(f);
+    if (faces.empty()) return false;
+
+    const VectorXd areas = wanted_areas(faces, shape);
+    problem.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
+    problem.floor = VectorXd::Zero(static_cast<Eigen::Index>(faces.size()));
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Index f = faces[i];
+        double lengths[3], longest = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const Index a = triangles()(f, k), b = triangles()(f, (k + 1) % 3);
+            problem.triangles(i, k) = rank(a);
+            lengths[k] = shape == PatchShape::surface ? (vertices_.row(a) - vertices_.row(b)).norm() : 1.0;
+            longest = std::max(longest, (uv_.row(a) - uv_.row(b)).norm());
+        }
+        problem.reference.push_back(shaped(lengths[0], lengths[1], lengths[2], areas[i]));
+        if (!StoredFace(triangles(), uv_, f).below_resolution())
+            problem.floor[i] = rounding * std::max(longest, 1.5 * std::sqrt(areas[i])) / (2.0 * areas[i]);
+    }
+    minimize_foldover_free(problem, context);
+
+    const PlanarPoints before = uv_(names, Eigen::all);
+    std::vector<Index> moved_rim;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (problem.mobility[i] != FoldoverProblem::Mobility::held && loop_of_[names[i]] >= 0)
+            moved_rim.push_back(names[i]);
+    for (std::size_t i = 0; i < names.size(); ++i) uv_.row(names[i]) = problem.points.row(i);
+    if (problem.points.allFinite() && tangled(patch).size() < tangled_before && !loops_cross(moved_rim)) return true;
+    for (std::size_t i = 0; i < names.size(); ++i) uv_.row(names[i]) = before.row(i);
+    return false;
+}
+
+/// Whether an edge of a loop at one of these vertices meets another edge of any loop.
+bool TangledMap::loops_cross(const std::vector<Index>& moved) const
+{
+    const auto at = [&](Index v) { return Complex(uv_(v, 0), uv_(v, 1)); };
+    for (const VertexLoop& loop : loops_)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Index a = loop[i], b = loop[(i + 1) % loop.size()];
+            if (!std::binary_search(moved.begin(), moved.end(), a) &&
+                !std::binary_search(moved.begin(), moved.end(), b))
+                continue;
+            for (const VertexLoop& other : loops_)
+                for (std::size_t j = 0; j < other.size(); ++j) {
+                    const Index c = other[j], d = other[(j + 1) % other.size()];
+                    if (c != a && c != b && d != a && d != b && segments_meet(at(a), at(b), at(c), at(d))) return true;
+                }
+        }
+    return false;
+}
+
+}  // namespace koebe

@@ -1,0 +1,60 @@
+// A neighbourhood of flipped faces, and the attempt to turn them back.
+#pragma once
+
+#include "conformal/result.h"
+#include "core/execution.h"
+#include "core/topology.h"
+
+#include <vector>
+
+namespace koebe {
+
+enum class PatchShape { surface, equilateral };  ///< what the faces of a patch are drawn towards
+enum class PatchBoundary { held, sliding };      ///< what loop vertices may do: sliding ones stay on their circles
+
+/// A map under repair.
+class TangledMap {
+public:
+    enum class Place : char { inside, on_circle, off_circle };
+
+    /// @param circles of the loops @param off_circle vertices of loops that are free of their circles already
+    TangledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+               const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv);
+
+    /// Faces that count: flipped as stored, and not below resolution.
+    std::vector<Index> tangled() const;
+    std::vector<Index> tangled(const std::vector<Index>& faces) const;
+
+    /// The faces around some, `rings` rings wide, in groups that touch in no mobile vertex.
+    std::vector<std::vector<Index>> patches(const std::vector<Index>& faces, int rings, PatchBoundary boundary) const;
+
+    /// Minimizes on one patch, all that lies on its edge held; keeps the result if fewer of its faces are tangled and
+    /// no loop crosses itself or another.
+    /// @return whether it was kept
+    bool repair(const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
+                const ExecutionContext& context);
+
+    const Triangles& triangles() const { return surface_.triangles; }
+    Place place(Index vertex) const { return place_[vertex]; }
+    int loop_of(Index vertex) const { return loop_of_[vertex]; }
+    void set_place(Index vertex, Place place) { place_[vertex] = place; }
+
+private:
+    struct LocalPatch;
+
+    bool below_resolution(Index vertex) const;
+    bool mobile(Index vertex, PatchBoundary boundary) const;
+    VectorXd wanted_areas(const std::vector<Index>& faces, PatchShape shape) const;
+    bool loops_cross(const std::vector<Index>& moved) const;
+
+    const Vertices& vertices_;
+    const Surface& surface_;
+    const std::vector<VertexLoop>& loops_;
+    const std::vector<Circle>& circles_;
+    PlanarPoints& uv_;
+    std::vector<Place> place_;
+    std::vector<int> loop_of_;
+    std::vector<Index> begin_, faces_of_;  // faces around each vertex
+};
+
+}  // namespace koebe

@@ -1,0 +1,24 @@
+// Small tests on points of the plane.
+#pragma once
+
+#include "core/types.h"
+
+namespace koebe {
+
+/// a x b: twice the signed area of the triangle 0, a, b.
+inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
+
+/// Whether the closed segments a-b and c-d have a point in common, up to round-off.
+inline bool segments_meet(Complex a, Complex b, Complex c, Complex d)
+{
+    const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
+    const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
+    if ((c_side > 0.0 && d_side > 0.0) || (c_side < 0.0 && d_side < 0.0)) return false;
+    if ((a_side > 0.0 && b_side > 0.0) || (a_side < 0.0 && b_side < 0.0)) return false;
+    if (c_side != 0.0 || d_side != 0.0 || a_side != 0.0 || b_side != 0.0) return true;
+    const double u = ((c - a) * std::conj(b - a)).real(), v = ((d - a) * std::conj(b - a)).real();
+    const double length = std::norm(b - a);  // collinear: the intervals overlap
+    return std::max(u, v) >= 0.0 && std::min(u, v) <= length;
+}
+
+}  // namespace koebe
