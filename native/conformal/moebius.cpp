@@ -19,6 +19,14 @@ Circle Moebius::operator()(const Circle& circle) const
     return {center, std::abs((*this)(circle.center + circle.radius) - center)};
 }
 
+Moebius Moebius::operator*(const Moebius& first) const
+{
+    // The product sends first^-1(a) to 0; its turn is read off where it sends 1.
+    const Moebius product{first.inverse()(a), Complex(1.0, 0.0)};
+    const Complex one(1.0, 0.0), twist = (*this)(first(one)) / product(one);
+    return {product.a, twist / std::abs(twist)};
+}
+
 Moebius center_circle(const Circle& circle)
 {
     // The common inverse points of the two circles lie on the line through both centres at distances t and 1 / t

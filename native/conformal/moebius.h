@@ -17,6 +17,8 @@ struct Moebius {
     VectorXcd operator()(const VectorXcd& z) const;
     /// Image of a circle inside the disk; circles go to circles.
     Circle operator()(const Circle& circle) const;
+    /// This map after another.
+    Moebius operator*(const Moebius& first) const;
     Moebius inverse() const { return {-a * turn, std::conj(turn)}; }
 };
 

@@ -11,8 +11,9 @@ namespace koebe {
 
 enum class Method { gk, ck };            ///< generalized or conventional Koebe iteration (paper, section 4.4)
 enum class Engine { condensed, mesh };   ///< docs/method.md: eliminated once, or patches as real triangles
+/// automatic: the longest, but with Balance::area the one with the least area distortion.
 enum class OuterLoop { automatic, longest, vertex };
-enum class Balance { none, area };
+enum class Balance { none, area };       ///< area: the disk automorphism with the least area distortion
 
 struct UniformizeOptions {
     Method method = Method::gk;
@@ -72,6 +73,19 @@ struct Distortion {
 struct StageSeconds {
     double read = 0.0, topology = 0.0, metric = 0.0, factor = 0.0, iterate = 0.0, finish = 0.0, write = 0.0,
            total = 0.0;
+
+    StageSeconds& operator+=(const StageSeconds& other)
+    {
+        read += other.read;
+        topology += other.topology;
+        metric += other.metric;
+        factor += other.factor;
+        iterate += other.iterate;
+        finish += other.finish;
+        write += other.write;
+        total += other.total;
+        return *this;
+    }
 };
 
 struct UniformizeResult {
@@ -85,6 +99,7 @@ struct UniformizeResult {
     int sweeps = 0, steps = 0;
     std::vector<KoebeStep> history;
     Distortion distortion;
+    std::optional<AreaDistortion> unbalanced_area;  ///< before the balance, if one was asked for
     StageSeconds seconds;
     double peak_memory_mb = 0.0;
     std::vector<std::string> warnings;

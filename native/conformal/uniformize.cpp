@@ -1,5 +1,6 @@
 #include "conformal/uniformize.h"
 
+#include "conformal/area_balance.h"
 #include "conformal/boundary_angles.h"
 #include "conformal/circle_fit.h"
 #include "conformal/distortion.h"
@@ -25,6 +26,10 @@
 
 namespace koebe {
 namespace {
+
+constexpr std::size_t outer_candidates = 8;      // the longest loops, to choose the outer one from
+constexpr Eigen::Index outer_sample = 2000;      // faces to judge the choice by
+constexpr Eigen::Index balance_sample = 20000;   // faces to balance by
 
 class Stopwatch {
 public:
@@ -171,23 +176,18 @@ VectorXcd project_onto(const Circle& circle, const VectorXcd& points)
     return result;
 }
 
-/// Circles fitted, boundary put on them, interior harmonic: fills uv (of the domain's vertices) and the loop reports.
-PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domain, const KoebeOutcome& outcome,
-                        UniformizeResult& result)
+/// The images of the loops put on their circles, interior harmonic: fills the loop reports.
+PlanarPoints place_map(const CondensedLaplacian& condensed, const Domain& domain, const KoebeOutcome& outcome,
+                       const std::vector<Circle>& circles, const Moebius& moebius, UniformizeResult& result)
 {
-    std::vector<Circle> circles{Circle{}};
-    for (std::size_t k = 1; k < outcome.loops.size(); ++k)
-        circles.push_back(fit_circle_least_squares(outcome.loops[k]));
-    const Moebius moebius = normal_position(circles);
-
     std::size_t boundary_count = 0;
     for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
     MatrixXd boundary(boundary_count, 2);
     Eigen::Index row = 0;
+    result.loops.clear();
     for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
         LoopReport report;
-        report.circle = moebius(circles[k]);
-        if (k == 0) report.circle = Circle{};
+        report.circle = k == 0 ? Circle{} : moebius(circles[k]);
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
         const VectorXcd projected = project_onto(report.circle, image);
@@ -199,6 +199,33 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domai
         result.loops.push_back(std::move(report));
     }
     return condensed.extend(boundary);
+}
+
+/// Circles fitted, the map in normal position or balanced. @param outer the rank of the loop that should be the outer
+/// one: 0 unless it is to be chosen and another one balances better
+PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domain, const KoebeOutcome& outcome,
+                        const UniformizeOptions& options, UniformizeResult& result, int& outer)
+{
+    std::vector<Circle> circles{Circle{}};
+    for (std::size_t k = 1; k < outcome.loops.size(); ++k)
+        circles.push_back(fit_circle_least_squares(outcome.loops[k]));
+    const Moebius normal = normal_position(circles);
+    const PlanarPoints uv = place_map(condensed, domain, outcome, circles, normal, result);
+    if (options.balance == Balance::none) return uv;
+
+    if (options.outer == OuterLoop::automatic) {
+        std::vector<Circle> placed;
+        for (const LoopReport& report : result.loops) placed.push_back(report.circle);
+        std::vector<int> longest(std::min(placed.size(), outer_candidates));
+        std::iota(longest.begin(), longest.end(), 0);
+        outer = balanced_outer_loop(face_scales(domain.vertices, domain.surface.triangles, uv, outer_sample), placed,
+                                    longest);
+    }
+    result.unbalanced_area = measure_distortion(domain.vertices, domain.surface.triangles, uv).area;
+    double distortion = 0.0;
+    const Moebius balance = least_area_distortion(
+        face_scales(domain.vertices, domain.surface.triangles, uv, balance_sample), distortion);
+    return place_map(condensed, domain, outcome, circles, balance * normal, result);
 }
 
 void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeResult& result)
@@ -301,8 +328,20 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     result.seconds.iterate = stage.lap();
 
     context.begin_stage("finish", 0.9, 1.0);
-    PlanarPoints core_uv = finish_map(condensed, domain, outcome, result);
+    int outer = 0;
+    PlanarPoints core_uv = finish_map(condensed, domain, outcome, options, result, outer);
     context.advance(0.5);
+    if (outer != 0) {
+        UniformizeOptions chosen = options;
+        chosen.outer = OuterLoop::vertex;
+        chosen.outer_vertex = domain.original[domain.loops[outer].front()];
+        UniformizeResult better = uniformize(vertices, triangles, chosen, context);
+        better.unbalanced_area = result.unbalanced_area;
+        result.seconds.finish = stage.lap();
+        better.seconds += result.seconds;
+        better.seconds.total = total.lap();
+        return better;
+    }
     UntangleReport untangled;
     const PlanarPoints uv = without_flips(whole, cut, std::move(core_uv), result, untangled, context);
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);

@@ -38,6 +38,11 @@ Json array_json(const std::vector<T>& items, Json (*item_json)(const T&))
     return array;
 }
 
+Json area_json(const AreaDistortion& area)
+{
+    return {{"log_sd", area.log_sd}, {"log_min", area.log_min}, {"log_max", area.log_max}};
+}
+
 }  // namespace
 
 const char* to_string(Method method) noexcept { return method == Method::gk ? "gk" : "ck"; }
@@ -51,10 +56,7 @@ Json to_json(const Distortion& distortion)
               {"sd", distortion.angle_error_deg.sd},
               {"max", distortion.angle_error_deg.max}}},
             {"beltrami", {{"mean", distortion.beltrami.mean}, {"max", distortion.beltrami.max}}},
-            {"area_distortion",
-             {{"log_sd", distortion.area.log_sd},
-              {"log_min", distortion.area.log_min},
-              {"log_max", distortion.area.log_max}}},
+            {"area_distortion", area_json(distortion.area)},
             {"conformal_energy", distortion.conformal_energy},
             {"flipped", distortion.flipped.size()},
             {"below_resolution", distortion.below_resolution.size()}};
@@ -75,6 +77,7 @@ Json to_json(const UniformizeResult& result)
                 {"history", array_json(result.history, step_json)},
                 {"loops", array_json(result.loops, loop_json)}};
     report.update(to_json(result.distortion));
+    if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);
     report.update({{"seconds", seconds_json(result.seconds)},
                    {"peak_memory_mb", result.peak_memory_mb},
                    {"warnings", result.warnings}});

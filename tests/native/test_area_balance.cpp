@@ -1,0 +1,86 @@
+#include "circle_domain.h"
+#include "conformal/area_balance.h"
+#include "conformal/circle_fit.h"
+#include "conformal/uniformize.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+PlanarPoints planar(const VectorXcd& points)
+{
+    PlanarPoints uv(points.size(), 2);
+    uv << points.real(), points.imag();
+    return uv;
+}
+
+}  // namespace
+
+TEST(AreaBalance, undoes_an_automorphism_of_the_flat_disk)
+{
+    const CircleDomain domain = make_circle_domain({Circle{}}, 4000);
+    const Vertices flat = lift(domain.points, Lift::plane);
+    for (const Complex a : {Complex(0.3, -0.2), Complex(-0.7, 0.4), Complex(0.0, 0.9)}) {
+        const VectorXcd moved = Moebius{a, std::polar(1.0, 0.7)}(domain.points);
+        double distortion = 0.0;
+        const Moebius balance =
+            least_area_distortion(face_scales(flat, domain.triangles, planar(moved), 20000), distortion);
+        EXPECT_LT((balance(moved).cwiseAbs() - domain.points.cwiseAbs()).cwiseAbs().maxCoeff(), 2e-3) << a;
+        EXPECT_LT(distortion, 1e-2) << a;  // a face of 4,000 is not a point
+    }
+}
+
+TEST(AreaBalance, finds_the_outer_loop_of_a_flat_domain_again)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 4000);
+    const Vertices flat = lift(domain.points, Lift::plane);
+    const auto chosen = [&](const VectorXcd& points, const std::vector<Circle>& circles) {
+        return balanced_outer_loop(face_scales(flat, domain.triangles, planar(points), 2000), circles,
+                                   {0, 1, 2, 3, 4});
+    };
+    EXPECT_EQ(chosen(domain.points, domain.circles), 0);
+
+    // Loop 2 turned outside: it is the unit circle now, and the old outer loop a hole.
+    const Circle hole = domain.circles[2];
+    const VectorXcd turned = (hole.radius / (domain.points.array() - hole.center)).matrix();
+    std::vector<Circle> circles{Circle{}};
+    for (const int k : {0, 1, 3, 4}) {
+        VectorXcd loop(domain.loops[k].size());
+        for (Eigen::Index b = 0; b < loop.size(); ++b) loop[b] = turned[domain.loops[k][b]];
+        circles.push_back(fit_circle_least_squares(loop));
+    }
+    EXPECT_EQ(chosen(turned, circles), 1);
+}
+
+TEST(AreaBalance, lowers_the_area_distortion_and_keeps_circles_and_angles)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 4000);
+    const Vertices surface = lift(Moebius{{0.5, 0.3}, {1.0, 0.0}}(domain.points), Lift::polynomial);
+    UniformizeOptions options;
+    options.outer = OuterLoop::longest;
+    ExecutionContext context;
+    const UniformizeResult plain = uniformize(surface, domain.triangles, options, context);
+    options.balance = Balance::area;
+    const UniformizeResult balanced = uniformize(surface, domain.triangles, options, context);
+    ASSERT_TRUE(balanced.unbalanced_area);
+    EXPECT_FALSE(plain.unbalanced_area);
+    EXPECT_DOUBLE_EQ(balanced.unbalanced_area->log_sd, plain.distortion.area.log_sd);
+    EXPECT_LT(balanced.distortion.area.log_sd, plain.distortion.area.log_sd);
+    EXPECT_NEAR(balanced.distortion.angle_error_deg.mean, plain.distortion.angle_error_deg.mean, 0.05);
+    EXPECT_TRUE(balanced.distortion.flipped.empty());
+    for (std::size_t i = 0; i < 5; ++i) {
+        const LoopReport& loop = balanced.loops[i];
+        for (const Index v : loop.vertices)
+            EXPECT_NEAR(std::abs(Complex(balanced.uv(v, 0), balanced.uv(v, 1)) - loop.circle.center),
+                        loop.circle.radius, 1e-13);
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_NEAR(inversive_distance(balanced.loops[i].circle, balanced.loops[j].circle) /
+                            inversive_distance(plain.loops[i].circle, plain.loops[j].circle),
+                        1.0, 1e-9);
+    }
+}
