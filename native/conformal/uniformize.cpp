@@ -2,9 +2,11 @@
 
 #include "conformal/boundary_angles.h"
 #include "conformal/circle_fit.h"
+#include "conformal/circle_projection.h"
 #include "conformal/distortion.h"
 #include "conformal/flap_map.h"
 #include "conformal/flip_report.h"
+#include "conformal/flux_balance.h"
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
@@ -159,20 +161,8 @@ Moebius normal_position(const std::vector<Circle>& circles)
     return circles.size() == 2 ? center_circle(circles[1]) : Moebius{};
 }
 
-/// Radially onto the circle.
-VectorXcd project_onto(const Circle& circle, const VectorXcd& points)
-{
-    VectorXcd result(points.size());
-    for (Eigen::Index b = 0; b < points.size(); ++b) {
-        const Complex arm = points[b] - circle.center;
-        const double distance = std::abs(arm);
-        result[b] = circle.center + (distance > 0.0 ? circle.radius / distance * arm : Complex(circle.radius, 0.0));
-    }
-    return result;
-}
-
 /// Circles fitted, boundary put on them, interior harmonic: fills uv (of the domain's vertices) and the loop reports.
-PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domain, const KoebeOutcome& outcome,
+PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain, const KoebeOutcome& outcome,
                         UniformizeResult& result)
 {
     std::vector<Circle> circles{Circle{}};
@@ -190,7 +180,7 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domai
         if (k == 0) report.circle = Circle{};
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
-        const VectorXcd projected = project_onto(report.circle, image);
+        const VectorXcd projected = project_onto_circle(report.circle, image, k == 0 ? 1 : -1);
         report.roundness_projected = roundness(projected, report.circle);
         for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
         boundary.col(0).segment(row, projected.size()) = projected.real();
@@ -198,6 +188,9 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domai
         row += projected.size();
         result.loops.push_back(std::move(report));
     }
+    for (std::size_t k = 0; k < circles.size(); ++k) circles[k] = result.loops[k].circle;
+    balance_flux(condensed, laplacian, domain.loops, circles, boundary);
+    for (std::size_t k = 0; k < circles.size(); ++k) result.loops[k].circle = circles[k];
     return condensed.extend(boundary);
 }
 
@@ -217,7 +210,7 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
                            std::to_string(domain.surface.reoriented.front()));
     if (outcome.raised_angles > 0)
         warnings.push_back(plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
-                           " without flux: parts that hang on a loop by an edge");
+                           " without flux, kept apart by a least distance");
     if (!outcome.converged)
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
 }
@@ -301,7 +294,7 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     result.seconds.iterate = stage.lap();
 
     context.begin_stage("finish", 0.9, 1.0);
-    PlanarPoints core_uv = finish_map(condensed, domain, outcome, result);
+    PlanarPoints core_uv = finish_map(condensed, laplacian, domain, outcome, result);
     context.advance(0.5);
     UntangleReport untangled;
     const PlanarPoints uv = without_flips(whole, cut, std::move(core_uv), result, untangled, context);
