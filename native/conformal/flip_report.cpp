@@ -10,11 +10,13 @@
 namespace koebe {
 namespace {
 
+constexpr std::size_t limb = 12;  // faces: fewer are a corner where hardly any flux runs, not a limb
 constexpr double coarse = 0.25;  // inner vertices over loop vertices: with fewer, faces reach from loop to loop
 
 std::string plural(std::size_t n, const std::string& noun)
 {
-    return std::to_string(n) + " " + noun + (n == 1 ? "" : noun.ends_with("x") ? "es" : "s");
+    if (n == 1) return "1 " + noun;
+    return std::to_string(n) + " " + (noun == "vertex" ? "vertices" : noun + "s");
 }
 
 std::string figure(double value)
@@ -118,7 +120,7 @@ std::vector<std::string> flip_warnings(const MappedSurface& map, const std::vect
     if (!flaps.empty()) warnings.push_back(flap_warning(map, flaps));
     if (!untangled.freed.empty())
         warnings.push_back(plural(untangled.freed.size(), "vertex") +
-                           " freed from their circles, where no straight triangles can follow them; the first is " +
+                           " taken off the circle, where straight triangles cannot follow it; the first is " +
                            std::to_string(map.original[untangled.freed.front()]));
     for (const LostRegion& region : lost_regions(map, distortion.below_resolution))
         warnings.push_back(plural(region.faces.size(), "face") + " around vertex " +
@@ -127,7 +129,7 @@ std::vector<std::string> flip_warnings(const MappedSurface& map, const std::vect
                            figure(region.shortest) + " to " + figure(region.extent) + "), " +
                            plural(region.flipped, "face") + " of them to no area; the first is " +
                            std::to_string(*std::min_element(region.faces.begin(), region.faces.end())) +
-                           ". A long limb does this: a seam or a hole near its end helps");
+                           (region.faces.size() < limb ? "" : ". A long limb does this: a seam or a hole near its end helps"));
     if (!untangled.tangled.empty())
         warnings.push_back(plural(untangled.tangled.size(), "face") + " flipped; the first is " +
                            std::to_string(untangled.tangled.front()) + ", at vertex " +

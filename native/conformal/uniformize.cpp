@@ -3,9 +3,11 @@
 #include "conformal/area_balance.h"
 #include "conformal/boundary_angles.h"
 #include "conformal/circle_fit.h"
+#include "conformal/circle_projection.h"
 #include "conformal/distortion.h"
 #include "conformal/flap_map.h"
 #include "conformal/flip_report.h"
+#include "conformal/flux_balance.h"
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
@@ -164,68 +166,72 @@ Moebius normal_position(const std::vector<Circle>& circles)
     return circles.size() == 2 ? center_circle(circles[1]) : Moebius{};
 }
 
-/// Radially onto the circle.
-VectorXcd project_onto(const Circle& circle, const VectorXcd& points)
+/// The images of the loops in normal position, each put on its circle: (m, 2), loop after loop. Fills the loop reports.
+MatrixXd place_on_circles(const Domain& domain, const KoebeOutcome& outcome, UniformizeResult& result)
 {
-    VectorXcd result(points.size());
-    for (Eigen::Index b = 0; b < points.size(); ++b) {
-        const Complex arm = points[b] - circle.center;
-        const double distance = std::abs(arm);
-        result[b] = circle.center + (distance > 0.0 ? circle.radius / distance * arm : Complex(circle.radius, 0.0));
-    }
-    return result;
-}
+    std::vector<Circle> circles{Circle{}};
+    for (std::size_t k = 1; k < outcome.loops.size(); ++k)
+        circles.push_back(fit_circle_least_squares(outcome.loops[k]));
+    const Moebius moebius = normal_position(circles);
 
-/// The images of the loops put on their circles, interior harmonic: fills the loop reports.
-PlanarPoints place_map(const CondensedLaplacian& condensed, const Domain& domain, const KoebeOutcome& outcome,
-                       const std::vector<Circle>& circles, const Moebius& moebius, UniformizeResult& result)
-{
     std::size_t boundary_count = 0;
     for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
     MatrixXd boundary(boundary_count, 2);
     Eigen::Index row = 0;
-    result.loops.clear();
     for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
         LoopReport report;
         report.circle = k == 0 ? Circle{} : moebius(circles[k]);
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
-        const VectorXcd projected = project_onto(report.circle, image);
+        const VectorXcd projected = project_onto_circle(report.circle, image, k == 0 ? 1 : -1);
         report.roundness_projected = roundness(projected, report.circle);
         for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
-        boundary.col(0).segment(row, projected.size()) = projected.real();
-        boundary.col(1).segment(row, projected.size()) = projected.imag();
+        boundary.middleRows(row, projected.size()) << projected.real(), projected.imag();
         row += projected.size();
         result.loops.push_back(std::move(report));
     }
-    return condensed.extend(boundary);
+    return boundary;
 }
 
-/// Circles fitted, the map in normal position or balanced. @param outer the rank of the loop that should be the outer
-/// one: 0 unless it is to be chosen and another one balances better
-PlanarPoints finish_map(const CondensedLaplacian& condensed, const Domain& domain, const KoebeOutcome& outcome,
-                        const UniformizeOptions& options, UniformizeResult& result, int& outer)
+std::vector<Circle> reported_circles(const UniformizeResult& result)
 {
-    std::vector<Circle> circles{Circle{}};
-    for (std::size_t k = 1; k < outcome.loops.size(); ++k)
-        circles.push_back(fit_circle_least_squares(outcome.loops[k]));
-    const Moebius normal = normal_position(circles);
-    const PlanarPoints uv = place_map(condensed, domain, outcome, circles, normal, result);
-    if (options.balance == Balance::none) return uv;
+    std::vector<Circle> circles;
+    for (const LoopReport& report : result.loops) circles.push_back(report.circle);
+    return circles;
+}
 
-    if (options.outer == OuterLoop::automatic) {
-        std::vector<Circle> placed;
-        for (const LoopReport& report : result.loops) placed.push_back(report.circle);
-        std::vector<int> longest(std::min(placed.size(), outer_candidates));
-        std::iota(longest.begin(), longest.end(), 0);
-        outer = balanced_outer_loop(face_scales(domain.vertices, domain.surface.triangles, uv, outer_sample), placed,
-                                    longest);
+/// Circles fitted, boundary put on them, interior harmonic, the map balanced if asked for: the domain's vertices.
+/// @param outer the rank of the loop that should be the outer one: 0 unless it is to be chosen and another one is
+///        better; then the map is not balanced
+PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain,
+                        const KoebeOutcome& outcome, const UniformizeOptions& options, UniformizeResult& result,
+                        int& outer)
+{
+    MatrixXd boundary = place_on_circles(domain, outcome, result);
+    std::vector<Circle> circles = reported_circles(result);
+    balance_flux(condensed, laplacian, domain.loops, circles, boundary);
+    PlanarPoints uv = condensed.extend(boundary);
+    if (options.balance == Balance::area) {
+        if (options.outer == OuterLoop::automatic) {
+            std::vector<int> longest(std::min(circles.size(), outer_candidates));
+            std::iota(longest.begin(), longest.end(), 0);
+            outer = balanced_outer_loop(face_scales(domain.vertices, domain.surface.triangles, uv, outer_sample),
+                                        circles, longest);
+        }
+        result.unbalanced_area = measure_distortion(domain.vertices, domain.surface.triangles, uv).area;
+        if (outer != 0) return uv;
+        double distortion = 0.0;
+        const Moebius balance = least_area_distortion(
+            face_scales(domain.vertices, domain.surface.triangles, uv, balance_sample), distortion);
+        const VectorXcd moved = balance(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1));
+        boundary << moved.real(), moved.imag();
+        for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = balance(circles[k]);
+        // An annulus would be made concentric again.
+        if (circles.size() > 2) balance_flux(condensed, laplacian, domain.loops, circles, boundary);
+        uv = condensed.extend(boundary);
     }
-    result.unbalanced_area = measure_distortion(domain.vertices, domain.surface.triangles, uv).area;
-    double distortion = 0.0;
-    const Moebius balance = least_area_distortion(
-        face_scales(domain.vertices, domain.surface.triangles, uv, balance_sample), distortion);
-    return place_map(condensed, domain, outcome, circles, balance * normal, result);
+    for (std::size_t k = 0; k < circles.size(); ++k) result.loops[k].circle = circles[k];
+    return uv;
 }
 
 void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeResult& result)
@@ -244,7 +250,7 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
                            std::to_string(domain.surface.reoriented.front()));
     if (outcome.raised_angles > 0)
         warnings.push_back(plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
-                           " without flux: parts that hang on a loop by an edge");
+                           " without flux, kept apart by a least distance");
     if (!outcome.converged)
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
 }
@@ -261,9 +267,8 @@ PlanarPoints without_flips(const Domain& whole, const FlapCut& cut, PlanarPoints
         uv = std::move(whole_uv);
         off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
     }
-    std::vector<Circle> circles;
-    for (const LoopReport& report : result.loops) circles.push_back(report.circle);
-    untangled = untangle(whole.vertices, whole.surface, whole.loops, circles, off_circle, uv, context);
+    untangled =
+        untangle(whole.vertices, whole.surface, whole.loops, reported_circles(result), off_circle, uv, context);
 
     off_circle.insert(off_circle.end(), untangled.freed.begin(), untangled.freed.end());
     std::sort(off_circle.begin(), off_circle.end());
@@ -329,7 +334,7 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
 
     context.begin_stage("finish", 0.9, 1.0);
     int outer = 0;
-    PlanarPoints core_uv = finish_map(condensed, domain, outcome, options, result, outer);
+    PlanarPoints core_uv = finish_map(condensed, laplacian, domain, outcome, options, result, outer);
     context.advance(0.5);
     if (outer != 0) {
         UniformizeOptions chosen = options;

@@ -17,23 +17,28 @@ using Place = TangledMap::Place;
 
 class Untangler {
 public:
-    Untangler(TangledMap& map, const ExecutionContext& context) : map_(map), context_(context) {}
+    Untangler(TangledMap& map, const ExecutionContext& context, const UntangleOptions& options)
+        : map_(map), context_(context), options_(options)
+    {
+    }
 
     UntangleReport run()
     {
         UntangleReport report;
+        for (const Index f : map_.tangled()) report.repairs += map_.nudge(f);
         report.tangled = map_.tangled();
-        for (const PatchBoundary boundary : {PatchBoundary::held, PatchBoundary::sliding})
-            for (const int rings : ring_counts)
+        for (const int rings : ring_counts)
+            for (const PatchBoundary boundary : {PatchBoundary::held, PatchBoundary::sliding})
                 for (const PatchShape shape : shapes) {
                     if (report.tangled.empty()) return report;
+                    if (boundary == PatchBoundary::sliding && !options_.slide) continue;
                     for (const auto& patch : map_.patches(report.tangled, rings, boundary))
                         report.repairs += map_.repair(patch, shape, boundary, context_);
                     report.tangled = map_.tangled();
                 }
         for (int round = 0; round < most_rounds && !report.tangled.empty(); ++round) {
             bool progress = false;
-            for (const auto& patch : map_.patches(report.tangled, 2, PatchBoundary::sliding)) {
+            for (const auto& patch : map_.patches(report.tangled, 2, freedom())) {
                 const std::size_t before = map_.tangled(patch).size();
                 if (before == 0) continue;
                 const auto freed = free_some(patch, round);
@@ -43,11 +48,14 @@ public:
             report.tangled = map_.tangled();
             if (!progress && round >= 2) break;
         }
+        std::erase_if(report.freed, [&](Index v) { return map_.near_circle(v); });
         std::sort(report.freed.begin(), report.freed.end());
         return report;
     }
 
 private:
+    PatchBoundary freedom() const { return options_.slide ? PatchBoundary::sliding : PatchBoundary::freed; }
+
     /// Loop vertices on inner circles within some rings of the patch's tangled faces, nearest first.
     std::vector<Index> candidates(const std::vector<Index>& patch, int rings) const
     {
@@ -65,7 +73,7 @@ private:
             for (const Index v : met)
                 if (std::find(result.begin(), result.end(), v) == result.end()) result.push_back(v);
             std::vector<Index> wider;
-            for (const auto& group : map_.patches(map_.tangled(patch), ring + 1, PatchBoundary::sliding))
+            for (const auto& group : map_.patches(map_.tangled(patch), ring + 1, freedom()))
                 wider.insert(wider.end(), group.begin(), group.end());
             faces = std::move(wider);
         }
@@ -76,12 +84,12 @@ private:
     bool attempt(const std::vector<Index>& patch)
     {
         bool better = false;
-        for (const int rings : ring_counts)
+        for (const int rings : {2, 4})
             for (const PatchShape shape : shapes) {
                 const auto tangled = map_.tangled(patch);
                 if (tangled.empty()) return true;
-                for (const auto& wider : map_.patches(tangled, rings, PatchBoundary::sliding))
-                    better = map_.repair(wider, shape, PatchBoundary::sliding, context_) || better;
+                for (const auto& wider : map_.patches(tangled, rings, freedom()))
+                    better = map_.repair(wider, shape, freedom(), context_) || better;
             }
         return better;
     }
@@ -103,13 +111,14 @@ private:
 
     TangledMap& map_;
     const ExecutionContext& context_;
+    const UntangleOptions& options_;
 };
 
 }  // namespace
 
 UntangleReport untangle(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                         const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
-                        const ExecutionContext& context)
+                        const ExecutionContext& context, const UntangleOptions& options)
 {
     const auto tangled = [&](Eigen::Index f) {
         const StoredFace face(surface.triangles, uv, f);
@@ -119,7 +128,7 @@ UntangleReport untangle(const Vertices& vertices, const Surface& surface, const 
     while (f < surface.triangles.rows() && !tangled(f)) ++f;
     if (f == surface.triangles.rows()) return {};
     TangledMap map(vertices, surface, loops, circles, off_circle, uv);
-    return Untangler(map, context).run();
+    return Untangler(map, context, options).run();
 }
 
 }  // namespace koebe

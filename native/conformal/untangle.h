@@ -9,6 +9,10 @@
 
 namespace koebe {
 
+struct UntangleOptions {
+    bool slide = true;  ///< along the circles, before any vertex is freed
+};
+
 struct UntangleReport {
     int repairs = 0;              ///< neighbourhoods that were moved
     std::vector<Index> freed;     ///< loop vertices that had to leave their circles
@@ -24,6 +28,6 @@ struct UntangleReport {
 /// @param uv (V, 2) moved in place
 UntangleReport untangle(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                         const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
-                        const ExecutionContext& context);
+                        const ExecutionContext& context, const UntangleOptions& options = {});
 
 }  // namespace koebe

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -15,7 +16,9 @@ namespace koebe {
 namespace {
 
 constexpr double rounding = 3e-7;      // twice the area a face can lose by rounding, over its longest edge, disk units
+constexpr double inward = 5e-7;        // disk units: half of what counts as on the circle, four roundings of 32-bit UVs
 constexpr double least_height = 1e-2;  // of a wanted shape, over its longest edge
+constexpr double least_edge = 1e-11;    // disk units: 1e5 times the rounding of 64-bit positions
 constexpr double least_size = 1e-14;   // of a wanted shape, disk units
 
 /// Columns: edges 0-1 and 0-2 of a face with these edge lengths, scaled to an area.
@@ -71,16 +74,31 @@ std::vector<Index> TangledMap::tangled(const std::vector<Index>& faces) const
     return result;
 }
 
-bool TangledMap::below_resolution(Index vertex) const
+std::size_t TangledMap::flipped(const std::vector<Index>& faces) const
+{
+    return std::count_if(faces.begin(), faces.end(), [&](Index f) { return StoredFace(triangles(), uv_, f).flipped(); });
+}
+
+/// Whether nothing around a vertex is large enough for 64-bit positions to be moved with sense.
+bool TangledMap::collapsed(Index vertex) const
 {
     for (Index i = begin_[vertex]; i < begin_[vertex + 1]; ++i)
-        if (!StoredFace(triangles(), uv_, faces_of_[i]).below_resolution()) return false;
+        for (int k = 0; k < 3; ++k)
+            if ((uv_.row(triangles()(faces_of_[i], k)) - uv_.row(vertex)).norm() > least_edge) return false;
     return true;
 }
 
 bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
 {
-    return (place_[vertex] == Place::inside || boundary == PatchBoundary::sliding) && !below_resolution(vertex);
+    const bool may = place_[vertex] == Place::inside || boundary == PatchBoundary::sliding ||
+                     (place_[vertex] == Place::off_circle && boundary == PatchBoundary::freed);
+    return may && !collapsed(vertex);
+}
+
+bool TangledMap::near_circle(Index vertex) const
+{
+    const Circle& circle = circles_[loop_of_[vertex]];
+    return std::abs(std::abs(Complex(uv_(vertex, 0), uv_(vertex, 1)) - circle.center) - circle.radius) <= inward;
 }
 
 std::vector<std::vector<Index>> TangledMap::patches(const std::vector<Index>& faces, int rings,
@@ -175,7 +193,7 @@ VectorXd TangledMap::wanted_areas(const std::vector<Index>& faces, PatchShape sh
 bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
                         const ExecutionContext& context)
 {
-    const std::size_t tangled_before = tangled(patch).size();
+    const std::size_t tangled_before = tangled(patch).size(), flipped_before = flipped(patch);
     if (tangled_before == 0) return false;
     std::vector<Index> names;
     for (const Index f : patch)
@@ -230,8 +248,29 @@ bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, Patch
         if (problem.mobility[i] != FoldoverProblem::Mobility::held && loop_of_[names[i]] >= 0)
             moved_rim.push_back(names[i]);
     for (std::size_t i = 0; i < names.size(); ++i) uv_.row(names[i]) = problem.points.row(i);
-    if (problem.points.allFinite() && tangled(patch).size() < tangled_before && !loops_cross(moved_rim)) return true;
+    if (problem.points.allFinite() && tangled(patch).size() < tangled_before && flipped(patch) <= flipped_before &&
+        !loops_cross(moved_rim))
+        return true;
     for (std::size_t i = 0; i < names.size(); ++i) uv_.row(names[i]) = before.row(i);
+    return false;
+}
+
+bool TangledMap::nudge(Index face)
+{
+    std::array<Index, 3> v{triangles()(face, 0), triangles()(face, 1), triangles()(face, 2)};
+    for (const Index corner : v)
+        if (loop_of_[corner] != 0 || place_[corner] != Place::on_circle) return false;
+    // The middle one is opposite to the longest edge.
+    const auto opposite = [&](int k) { return (uv_.row(v[(k + 1) % 3]) - uv_.row(v[(k + 2) % 3])).squaredNorm(); };
+    const int middle = opposite(0) > std::max(opposite(1), opposite(2)) ? 0 : opposite(1) > opposite(2) ? 1 : 2;
+    std::vector<Index> around;
+    for (const int k : {(middle + 1) % 3, (middle + 2) % 3})
+        around.insert(around.end(), faces_of_.begin() + begin_[v[k]], faces_of_.begin() + begin_[v[k] + 1]);
+    const std::size_t tangled_before = tangled(around).size();
+    const PlanarPoints before = uv_(v, Eigen::all);
+    for (const int k : {(middle + 1) % 3, (middle + 2) % 3}) uv_.row(v[k]) *= (1.0 - inward) / uv_.row(v[k]).norm();
+    if (tangled(around).size() < tangled_before) return true;
+    for (int k = 0; k < 3; ++k) uv_.row(v[k]) = before.row(k);
     return false;
 }
 

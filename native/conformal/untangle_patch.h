@@ -10,7 +10,8 @@
 namespace koebe {
 
 enum class PatchShape { surface, equilateral };  ///< what the faces of a patch are drawn towards
-enum class PatchBoundary { held, sliding };      ///< what loop vertices may do: sliding ones stay on their circles
+/// What loop vertices may do: nothing; move if they are off their circles; and slide along them if they are not.
+enum class PatchBoundary { held, freed, sliding };
 
 /// A map under repair.
 class TangledMap {
@@ -34,15 +35,23 @@ public:
     bool repair(const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
                 const ExecutionContext& context);
 
+    /// A face with all three vertices on the outer loop is as thin as its arc: where that is less than 32-bit UVs
+    /// resolve, its two outer ones go inward by 5e-7, within what counts as on the circle.
+    /// @return whether fewer faces are tangled
+    bool nudge(Index face);
+
     const Triangles& triangles() const { return surface_.triangles; }
     Place place(Index vertex) const { return place_[vertex]; }
     int loop_of(Index vertex) const { return loop_of_[vertex]; }
+    /// Whether it lies on its circle, up to 1e-6 of the unit disk.
+    bool near_circle(Index vertex) const;
     void set_place(Index vertex, Place place) { place_[vertex] = place; }
 
 private:
     struct LocalPatch;
 
-    bool below_resolution(Index vertex) const;
+    bool collapsed(Index vertex) const;
+    std::size_t flipped(const std::vector<Index>& faces) const;
     bool mobile(Index vertex, PatchBoundary boundary) const;
     VectorXd wanted_areas(const std::vector<Index>& faces, PatchShape shape) const;
     bool loops_cross(const std::vector<Index>& moved) const;

@@ -1,0 +1,14 @@
+// Puts the image of a loop onto its circle without changing its order.
+#pragma once
+
+#include "conformal/result.h"
+
+namespace koebe {
+
+/// Radially onto the circle, and then along it as little as makes the points run round once in their order: angles
+/// that come too early for those before them are pooled with these (isotonic regression, Ayer et al. 1955) at a least
+/// distance. Where hardly any flux runs the image turns back on itself; no interior could follow that.
+/// @param points (n) image of a loop in order, n >= 3 @param turn +1 counter-clockwise (the outer loop), -1 clockwise
+VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int turn);
+
+}  // namespace koebe

@@ -1,0 +1,51 @@
+#include "conformal/circle_projection.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+using namespace koebe;
+
+namespace {
+
+VectorXcd ring(const Circle& circle, Index count, int turn)
+{
+    VectorXcd points(count);
+    for (Index i = 0; i < count; ++i)
+        points[i] = circle.center + std::polar(circle.radius, turn * 2.0 * std::numbers::pi * i / count);
+    return points;
+}
+
+}  // namespace
+
+TEST(CircleProjection, points_in_order_go_radially)
+{
+    const Circle circle{{0.3, -0.1}, 0.2};
+    for (const int turn : {1, -1}) {
+        VectorXcd points = ring(circle, 40, turn);
+        const VectorXcd expected = points;
+        for (Index i = 0; i < 40; ++i) points[i] += 0.05 * std::sin(3.0 * i) * (points[i] - circle.center);
+        EXPECT_LT((project_onto_circle(circle, points, turn) - expected).cwiseAbs().maxCoeff(), 1e-15);
+    }
+}
+
+TEST(CircleProjection, points_that_turn_back_are_put_in_order_and_the_others_stay)
+{
+    const Circle circle{{0.3, -0.1}, 0.2};
+    for (const int turn : {1, -1})
+        for (const Index place : {0, 17, 38}) {
+            VectorXcd points = ring(circle, 40, turn);
+            const VectorXcd even = points;
+            std::swap(points[place], points[place + 1]);
+            const VectorXcd result = project_onto_circle(circle, points, turn);
+            for (Index i = 0; i < 40; ++i) {
+                EXPECT_NEAR(std::abs(result[i] - circle.center), circle.radius, 1e-15);
+                const double step =
+                    turn * std::arg((result[(i + 1) % 40] - circle.center) / (result[i] - circle.center));
+                EXPECT_GT(step, 1e-4) << place << " " << i;
+                if (i != place && i != place + 1) {
+                    EXPECT_LT(std::abs(result[i] - even[i]), 1e-15);
+                }
+            }
+        }
+}

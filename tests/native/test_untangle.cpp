@@ -1,0 +1,151 @@
+#include "circle_domain.h"
+#include "conformal/distortion.h"
+#include "conformal/untangle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <set>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+struct Tangled {
+    explicit Tangled(CircleDomain d)
+        : domain(std::move(d)), vertices(lift(domain.points, Lift::plane)),
+          surface(require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()))),
+          uv(vertices.leftCols<2>())
+    {
+    }
+
+    UntangleReport run(const UntangleOptions& options = {})
+    {
+        return untangle(vertices, surface, domain.loops, domain.circles, {}, uv, {}, options);
+    }
+
+    CircleDomain domain;
+    Vertices vertices;
+    Surface surface;
+    PlanarPoints uv;
+};
+
+/// A hole of eight corners, five sides of which one vertex alone sees: too many for any place outside the hole, as the
+/// first and the last of them run in opposite directions.
+CircleDomain wide_fan()
+{
+    CircleDomain domain;
+    domain.circles = {Circle{}, {{0.0, 0.0}, 0.4}};
+    constexpr Index outer = 16, hole = 8;
+    domain.points.resize(outer + hole + 1);
+    for (Index i = 0; i < outer; ++i) domain.points[i] = std::polar(1.0, 2.0 * std::numbers::pi * i / outer);
+    for (Index i = 0; i < hole; ++i)
+        domain.points[outer + i] = std::polar(0.4, 2.0 * std::numbers::pi * (i - 2.5) / hole);
+    const Index w = outer + hole;  // sees hole vertices 0 to 5, at angles -112.5 to 112.5 degrees
+    domain.points[w] = 0.75;
+    std::vector<std::array<Index, 3>> faces;
+    for (Index i = 0; i < 5; ++i) faces.push_back({w, outer + i + 1, outer + i});
+    // Round the fan, each with the rim vertex where its turn begins.
+    const std::array<std::pair<Index, Index>, 5> inner = {
+        {{w, 0}, {outer + 5, 4}, {outer + 6, 6}, {outer + 7, 9}, {outer + 0, 12}}};
+    for (std::size_t s = 0; s < inner.size(); ++s) {
+        const auto [v, begin] = inner[s];
+        const auto [next, end] = inner[(s + 1) % inner.size()];
+        for (Index i = begin; i != end; i = (i + 1) % outer) faces.push_back({v, i, (i + 1) % outer});
+        faces.push_back({v, end, next});
+    }
+    domain.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f) domain.triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
+    VertexLoop rim, around;
+    for (Index i = 0; i < outer; ++i) rim.push_back(i);
+    for (Index i = 0; i < hole; ++i) around.push_back(outer + hole - 1 - i);
+    domain.loops = {rim, around};
+    return domain;
+}
+
+}  // namespace
+
+TEST(Untangle, a_map_without_flips_is_left_alone)
+{
+    Tangled map(make_circle_domain(five_circles(), 1000));
+    const PlanarPoints before = map.uv;
+    const UntangleReport report = map.run();
+    EXPECT_EQ(report.repairs, 0);
+    EXPECT_EQ((map.uv - before).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(Untangle, a_folded_vertex_comes_back_and_only_its_neighbourhood_moves)
+{
+    Tangled map(make_circle_domain(five_circles(), 2000));
+    Index folded = -1;  // an inner vertex near the middle
+    for (Eigen::Index v = 0; v < map.uv.rows(); ++v)
+        if (std::abs(map.domain.points[v] - Complex(0.05, 0.0)) < 0.05) folded = static_cast<Index>(v);
+    ASSERT_GE(folded, 0);
+    map.uv.row(folded) += Eigen::RowVector2d(0.1, 0.02);
+    const PlanarPoints before = map.uv;
+    ASSERT_FALSE(flipped_faces(map.domain.triangles, map.uv).empty());
+    const UntangleReport report = map.run();
+    EXPECT_TRUE(flipped_faces(map.domain.triangles, map.uv).empty());
+    EXPECT_TRUE(report.freed.empty());
+    EXPECT_TRUE(report.tangled.empty());
+    for (const VertexLoop& loop : map.domain.loops)
+        for (const Index v : loop) EXPECT_EQ(map.uv.row(v), before.row(v));
+    for (Eigen::Index v = 0; v < map.uv.rows(); ++v)
+        if (std::abs(map.domain.points[v] - map.domain.points[folded]) > 0.35) {
+            EXPECT_EQ(map.uv.row(v), before.row(v));
+        }
+}
+
+TEST(Untangle, loop_vertices_slide_along_their_circle_where_a_vertex_sees_more_than_half_of_it)
+{
+    Tangled map(wide_fan());
+    ASSERT_FALSE(flipped_faces(map.domain.triangles, map.uv).empty());
+    const UntangleReport report = map.run();
+    EXPECT_TRUE(flipped_faces(map.domain.triangles, map.uv).empty());
+    EXPECT_TRUE(report.freed.empty());
+    for (std::size_t k = 0; k < 2; ++k)
+        for (const Index v : map.domain.loops[k]) EXPECT_NEAR(map.uv.row(v).norm(), k == 0 ? 1.0 : 0.4, 1e-12);
+}
+
+TEST(Untangle, where_they_may_not_slide_a_few_are_freed_and_listed)
+{
+    Tangled map(wide_fan());
+    const UntangleReport report = map.run({.slide = false});
+    EXPECT_TRUE(flipped_faces(map.domain.triangles, map.uv).empty());
+    EXPECT_GE(report.freed.size(), 1u);
+    EXPECT_LE(report.freed.size(), 3u);
+    const std::set<Index> freed(report.freed.begin(), report.freed.end());
+    for (const Index v : map.domain.loops[1]) {
+        if (freed.count(v)) {
+            EXPECT_GT(std::abs(map.uv.row(v).norm() - 0.4), 1e-6);
+        } else {
+            EXPECT_NEAR(map.uv.row(v).norm(), 0.4, 1e-6);
+        }
+    }
+}
+
+TEST(Untangle, a_sliver_on_the_rim_too_thin_for_32_bits_is_kept_within_what_counts_as_on_the_circle)
+{
+    // Two corners of a disk 4e-5 apart, and one between them, turned until rounding flips their face.
+    CircleDomain domain;
+    domain.circles = {Circle{}};
+    domain.points.resize(6);
+    domain.points[5] = 0.0;
+    domain.triangles.resize(5, 3);
+    domain.triangles << 0, 1, 2, 0, 2, 5, 2, 3, 5, 3, 4, 5, 4, 0, 5;
+    domain.loops = {{0, 1, 2, 3, 4}};
+    for (double turn = 0.0; turn < 0.3; turn += 0.01) {
+        const double angles[] = {turn, turn + 2e-5, turn + 4e-5, 2.0, 4.0};
+        for (int i = 0; i < 5; ++i) domain.points[i] = std::polar(1.0, angles[i]);
+        if (!flipped_faces(domain.triangles, lift(domain.points, Lift::plane).leftCols<2>()).empty()) break;
+    }
+    Tangled map(domain);
+    ASSERT_EQ(flipped_faces(domain.triangles, map.uv), std::vector<Index>{0});
+    const UntangleReport report = map.run();
+    EXPECT_TRUE(flipped_faces(domain.triangles, map.uv).empty());
+    EXPECT_TRUE(report.freed.empty());
+    for (const Index v : domain.loops[0]) EXPECT_NEAR(map.uv.row(v).norm(), 1.0, 1e-6);
+}
