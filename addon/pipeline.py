@@ -67,8 +67,8 @@ class SurfaceOutcome:
     def corner_uv(self):
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
         corners = [outcome.island.corners for outcome in self.mapped]
-        uv = [outcome.uv()[outcome.island.corner_vertex] for outcome in self.mapped]
-        return np.concatenate(corners), np.concatenate(uv).astype(np.float32)
+        uv = [outcome.uv().astype(np.float32)[outcome.island.corner_vertex] for outcome in self.mapped]
+        return np.concatenate(corners), np.concatenate(uv)
 
 
 def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
@@ -149,8 +149,7 @@ def _keep_places(outcome):
     if outcome.task.old_uv is None:
         return False
     placements = [
-        fit_placement(one.result.uv[one.island.corner_vertex], outcome.task.old_uv[one.island.corners])
-        for one in outcome.mapped
+        fit_placement(one.result.uv, outcome.task.old_uv[one.island.some_corner()]) for one in outcome.mapped
     ]
     if any(placement is None for placement in placements):
         return False
