@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Blender with a window, driven by real clicks and keys. Needs a display, xdotool and ImageMagick."""
+
+import json
+import os
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+PICTURES = ROOT / "out" / "gui"
+WIDTH, HEIGHT = 1280, 800
+START_SECONDS = 90
+SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
+
+
+class Window:
+    """Starts Blender; `ask` looks inside, everything else is what a hand does."""
+
+    def __init__(self, package, home):
+        self.path = str(home / "socket")
+        environment = {
+            **os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "PATH": "/usr/bin:" + os.environ["PATH"],
+            "BLENDER_USER_RESOURCES": str(home), "BLENDER_USER_CONFIG": str(home / "config"),
+            "BLENDER_USER_SCRIPTS": str(home / "scripts"), "BLENDER_USER_DATAFILES": str(home / "datafiles"),
+        }  # fmt: skip
+        for folder in ("config", "scripts/addons", "datafiles", "extensions"):
+            (home / folder).mkdir(parents=True)
+        command = [os.environ.get("BLENDER", "blender"), "--factory-startup", "--window-geometry", "0", "0",
+                   str(WIDTH), str(HEIGHT), "--python-exit-code", "1", "--python", Path(__file__).with_name("inside.py"),
+                   "--", package, self.path]  # fmt: skip
+        self.log = (home / "log").open("w")
+        self.process = subprocess.Popen(command, env=environment, stdout=self.log, stderr=subprocess.STDOUT)
+        self.wait("True", START_SECONDS)
+        time.sleep(1.0)
+        PICTURES.mkdir(parents=True, exist_ok=True)
+
+    def close(self):
+        """End Blender."""
+        self.process.kill()
+        self.process.wait()
+        self.log.close()
+
+    def run(self, code):
+        """Run code inside; return what it leaves in `result`."""
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as line:
+            line.settimeout(60)
+            line.connect(self.path)
+            line.sendall(json.dumps({"code": code}).encode() + b"\n")
+            with line.makefile() as answers:
+                reply = json.loads(answers.readline())
+        assert "error" not in reply, reply["error"]
+        return reply["result"]
+
+    def ask(self, expression):
+        """Value of an expression inside."""
+        return self.run(f"result = {expression}")
+
+    def wait(self, expression, seconds=60.0):
+        """Wait until an expression is true inside."""
+        end = time.monotonic() + seconds
+        while True:
+            try:
+                if self.ask(expression):
+                    return
+            except (FileNotFoundError, ConnectionError):
+                assert self.process.poll() is None, "Blender has ended"
+            assert time.monotonic() < end, f"{expression} is not true after {seconds} s"
+            time.sleep(0.02)
+
+    # ---- what a hand does
+
+    def move(self, x, y):
+        """Bring the pointer there, from beside it: Blender looks at movements."""
+        xdotool("mousemove", x - 3, y - 2, "sleep", "0.05", "mousemove", x, y, "sleep", "0.1")
+
+    def click(self, x, y, button=1):
+        """Click there."""
+        self.move(x, y)
+        xdotool("click", button)
+        time.sleep(SETTLE)
+
+    def key(self, *keys):
+        """Press keys, one after the other."""
+        for name in keys:
+            xdotool("key", name)
+            time.sleep(SETTLE)
+
+    def picture(self, name):
+        """Keep what the screen shows as out/gui/NAME.png."""
+        time.sleep(SETTLE)
+        subprocess.run(["import", "-window", "root", str(PICTURES / f"{name}.png")], check=True)
+
+    # ---- where things are
+
+    def region(self, area, kind):
+        """x, y (from the top of the screen), width, height of a region of the first area of that type."""
+        x, y, width, height = self.ask(
+            f"[(r.x, r.y, r.width, r.height) for a in bpy.context.window_manager.windows[0].screen.areas "
+            f"if a.type == {area!r} for r in a.regions if r.type == {kind!r}][0]"
+        )
+        return x, HEIGHT - y - height, width, height
+
+    def middle(self, area):
+        """The middle of an area's main region."""
+        x, y, width, height = self.region(area, "WINDOW")
+        return x + width // 2, y + height // 2
+
+    def find_button(self, area, text, fraction=0.5, step=9):
+        """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
+        x, top, width, height = self.region(area, "UI")
+        x += int(width * fraction)
+        for y in range(top + step, top + height, step):
+            self.run("bpy.context.window_manager.clipboard = ''")
+            self.move(x, y)
+            xdotool("key", "ctrl+c", "sleep", "0.05")
+            if text in self.ask("bpy.context.window_manager.clipboard"):
+                return x, y + step // 2
+        raise AssertionError(f"no button {text!r} in the sidebar of {area}")
+
+
+def xdotool(*arguments):
+    """Run xdotool."""
+    subprocess.run(["xdotool", *map(str, arguments)], check=True)
