@@ -28,9 +28,9 @@ def _crowded_edges(surface, island):
     return np.flatnonzero((uses > 2) & ~surface.seam)
 
 
-def flipped_faces(island, uv):
-    """Faces of the surface with a triangle whose signed area, in 32-bit UVs of the vertices (n, 2), is not positive."""
-    a, b, c = np.moveaxis(uv.astype(np.float32).astype(np.float64)[island.triangles], 1, 0)
-    one, two = b - a, c - a
-    flipped = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] <= 0.0
-    return np.unique(island.triangle_face[flipped])
+def flipped_triangles(triangles, uv):
+    """Which triangles (m, 3) have a signed area, in 32-bit UVs (n, 2) of the vertices, that is not positive."""
+    u, v = (uv[:, axis].astype(np.float64) for axis in (0, 1))
+    a, b, c = (triangles[:, k] for k in range(3))
+    ua, va = u[a], v[a]
+    return np.flatnonzero((u[b] - ua) * (v[c] - va) <= (v[b] - va) * (u[c] - ua))

@@ -25,6 +25,7 @@ class Options:
     outer         "auto", "longest", "active" (the loop of the active vertex, in Edit Mode) or the index of a
                   mesh vertex on the loop which becomes the unit circle
     tolerance     change of the circles between two sweeps, in units of the disk's radius
+    upright       turn every island so that the world's up is up in the UV Editor, else as computed
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
                   "keep" (every island goes where it was before)
     margin        between islands, in units of the UV square
@@ -38,6 +39,7 @@ class Options:
     max_sweeps: int = 50
     balance: str = "none"
     threads: int = 0
+    upright: bool = True
     layer: str = "Koebe"
     placement: str = "pack"
     margin: float = 0.02

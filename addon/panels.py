@@ -46,7 +46,7 @@ class MainPanel(KoebePanel):
         layout = self.aligned_layout()
         settings = context.scene.koebe_uv
         column = layout.column()
-        for name in ("outer", "balance", "placement", "margin", "layer"):
+        for name in ("outer", "balance", "upright", "placement", "margin", "layer"):
             row = column.row()
             row.active = name != "margin" or settings.placement != "keep"
             row.prop(settings, name)

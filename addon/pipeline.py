@@ -2,11 +2,14 @@
 """From surfaces to UV coordinates of their corners: the one function behind operator and batch. No bpy."""
 
 import dataclasses
+import functools
 
 import numpy as np
 
 from .layout import Placement, fit_placement, pack_disks
+from .offenders import flipped_triangles
 from .surface import Island, Surface, cut_into_islands
+from .upright import upright_turn
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,16 +28,38 @@ class Task:
 
 @dataclasses.dataclass
 class IslandOutcome:
-    """What became of one island: a result of `koebe.uniformize` and its place, or an error."""
+    """What became of one island: a result of `koebe.uniformize`, its turn and its place, or an error.
+
+    `turn` is the complex number of modulus 1 by which the result's disk is turned about its centre.
+    """
 
     island: Island
     result: object = None
     error: Exception = None
+    turn: complex = 1.0
     placement: Placement = None
 
+    def turned(self, points):
+        """Points (n, 2) of the result's disk after the turn."""
+        if self.turn == 1.0:
+            return points
+        cos, sin = self.turn.real, self.turn.imag
+        return points @ np.array([[cos, sin], [-sin, cos]])
+
+    @functools.cached_property
+    def disk(self):
+        """The vertices (n, 2) in the turned unit disk."""
+        return self.turned(self.result.uv)
+
+    @functools.cached_property
     def uv(self):
-        """UV coordinates (n, 2) of the island's vertices."""
-        return self.placement.apply(self.result.uv)
+        """UV coordinates (n, 2) of the island's vertices, in 32 bits as Blender keeps them."""
+        return self.placement.apply(self.disk).astype(np.float32)
+
+    @functools.cached_property
+    def flipped(self):
+        """The triangles (k,) of the island whose signed area in the UVs is not positive."""
+        return flipped_triangles(self.island.triangles, self.uv)
 
 
 @dataclasses.dataclass
@@ -67,7 +92,7 @@ class SurfaceOutcome:
     def corner_uv(self):
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
         corners = [outcome.island.corners for outcome in self.mapped]
-        uv = [outcome.uv().astype(np.float32)[outcome.island.corner_vertex] for outcome in self.mapped]
+        uv = [outcome.uv[outcome.island.corner_vertex] for outcome in self.mapped]
         return np.concatenate(corners), np.concatenate(uv)
 
 
@@ -114,7 +139,8 @@ def _map_island(koebe, island, outer, options, progress, cancel):
         raise
     except koebe.KoebeError as error:
         return IslandOutcome(island, error=error)
-    return IslandOutcome(island, result=result)
+    turn = upright_turn(island.vertices, island.triangles, result.uv) if options.upright else 1.0
+    return IslandOutcome(island, result=result, turn=turn)
 
 
 def _outer_loop(island, outer):
@@ -139,7 +165,7 @@ def _pack(group, margin):
     if len(group) == 1:
         group[0].placement = Placement()
     elif group:
-        sizes = [_natural_radius(one.island, one.result.uv) for one in group]
+        sizes = [_natural_radius(one.island, one.disk) for one in group]
         for one, placement in zip(group, pack_disks(sizes, margin), strict=True):
             one.placement = placement
 
@@ -149,7 +175,7 @@ def _keep_places(outcome):
     if outcome.task.old_uv is None:
         return False
     placements = [
-        fit_placement(one.result.uv, outcome.task.old_uv[one.island.some_corner()]) for one in outcome.mapped
+        fit_placement(one.disk, outcome.task.old_uv[one.island.some_corner()]) for one in outcome.mapped
     ]
     if any(placement is None for placement in placements):
         return False

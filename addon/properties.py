@@ -64,6 +64,12 @@ class UniformizeProperties:
         default=DEFAULTS.balance,
         description="Use of the freedom that a conformal map leaves: which point becomes the centre of the disk",
     )
+    upright: BoolProperty(
+        name="Upright",
+        default=DEFAULTS.upright,
+        description="Turn every island so that the world's up (+Z, or +Y for what lies flat) is up in the UV Editor. "
+        "A conformal map leaves the turn of the disk open",
+    )
     layer: StringProperty(
         name="UV Layer",
         default=DEFAULTS.layer,

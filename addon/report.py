@@ -11,6 +11,8 @@ ADVICE = {
     "nonmanifold_vertex": "split those vertices",
     "nonorientable": "one-sided, like a Möbius strip: mark a seam across it",
 }
+# UV units: an edge below this is a dozen steps of a 32-bit number near 1 at most. As in the native report.
+RESOLUTION = 1e-6
 
 
 def result_line(outcome):
@@ -23,7 +25,7 @@ def result_line(outcome):
         _counted(max(r.sweeps for r in results), "sweep"),
         f"roundness {max(float(np.max(r.roundness)) for r in results):.1e}",
         f"angle error {angle:.2f}°",
-        _counted(sum(r.flipped for r in results), "flip"),
+        _counted(sum(len(one.flipped) for one in outcome.mapped), "flip"),
         f"{sum(r.seconds['total'] for r in results):.2f} s",
     ]
     if len(results) > 1:
@@ -72,7 +74,17 @@ def _entry(name, index, one):
     for loop in result["loops"]:
         for key in ("vertices", "off_circle"):
             loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()
+        loop["center"] = one.turned(np.array([loop["center"]]))[0].tolist()
+    result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded
+    result["below_resolution"] = _below_resolution(one)
     return {**result, **entry, "placement": one.placement.to_dict()}
+
+
+def _below_resolution(one):
+    """Flipped triangles whose longest edge in the UVs is too short to be drawn."""
+    corners = one.uv[one.island.triangles[one.flipped]].astype(np.float64)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
+    return int(np.count_nonzero(longest < RESOLUTION))
 
 
 def _counted(count, noun):

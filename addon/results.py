@@ -4,6 +4,7 @@
 import json
 
 import bpy
+import numpy as np
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
@@ -13,7 +14,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .offenders import flipped_faces, offending_elements
+from .offenders import offending_elements
 from .report import explain
 
 
@@ -73,8 +74,8 @@ def _record_result(entry, one):
     entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
     entry.angle_error = result.angle_error_deg["mean"]
     entry.roundness = float(result.roundness.max())
-    entry.flipped, entry.seconds = result.flipped, result.seconds["total"]
-    entry.flipped_faces = json.dumps(flipped_faces(one.island, one.uv()).tolist())
+    entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
+    entry.flipped_faces = json.dumps(np.unique(one.island.triangle_face[one.flipped]).tolist())
     entry.message = "; ".join(result.warnings)
     for vertices, radius, roundness in zip(result.loops, result.radii, result.roundness, strict=True):
         loop = entry.loops.add()
