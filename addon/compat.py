@@ -64,6 +64,16 @@ def enable_nodes(material):
         material.use_nodes = True
 
 
+def flat_shader(name):
+    """A built-in shader of the gpu module for points with two coordinates."""
+    import gpu
+
+    try:
+        return gpu.shader.from_builtin(name)
+    except ValueError:  # before 3.4 to 4.0 the names said how many coordinates
+        return gpu.shader.from_builtin(f"2D_{name}")
+
+
 def user_folder(package):
     """A folder for the add-on's own files, made if it is missing."""
     if package.startswith("bl_ext.") and hasattr(bpy.utils, "extension_path_user"):

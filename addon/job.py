@@ -6,7 +6,7 @@
 
 import dataclasses
 
-from . import checker, native, transfer
+from . import checker, distortion_display, native, transfer
 from .pipeline import Task, map_surfaces
 
 
@@ -78,3 +78,6 @@ class Job:
             if self.options.checker:
                 material = checker.checker_material(self.options.layer, self.options.checker_size)
                 checker.put_on(obj, material)
+            kind = distortion_display.shown(obj)
+            if kind is not None:
+                distortion_display.put_on(obj, self.options.layer, kind)

@@ -5,7 +5,8 @@ import textwrap
 
 import bpy
 
-from . import checker
+from . import checker, distortion_display
+from .distortion_display import UV_OT_koebe_distortion
 from .modes import target_objects
 from .operators import UV_OT_koebe_checker, UV_OT_koebe_uniformize
 from .presets import KOEBE_PT_presets, UV_OT_koebe_reset
@@ -58,15 +59,30 @@ class MainPanel(KoebePanel):
         run = layout.column(align=True)
         run.scale_y = 1.4
         copy_options(settings, run.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE"))
-        draw_checker_switch(layout, context, settings)
+        draw_judges(layout.column(), context, settings)
 
 
-def draw_checker_switch(layout, context, settings):
-    """The button that puts the checker on and takes it off."""
-    worn = any(checker.is_on(obj) for obj in target_objects(context))
+def draw_judges(column, context, settings):
+    """The buttons by which a map is judged: checker, distortion, circles."""
+    objects = target_objects(context)
+    worn = any(checker.is_on(obj) for obj in objects)
     text = "Take Checker Off" if worn else "Put Checker On"
-    switch = layout.operator(UV_OT_koebe_checker.bl_idname, text=text, icon="TEXTURE", depress=worn)
+    switch = column.operator(UV_OT_koebe_checker.bl_idname, text=text, icon="TEXTURE", depress=worn)
     switch.layer, switch.checker_size = settings.layer, settings.checker_size
+    shading = getattr(context.space_data, "shading", None)
+    if worn and shading is not None and shading.type in {"WIREFRAME", "SOLID"}:
+        row = column.row()
+        row.use_property_split = False
+        row.prop_enum(shading, "type", "MATERIAL", text="See It in Material Preview")
+    kind = distortion_display.shown(objects[0]) if objects else None
+    split = column.split(factor=0.32)
+    split.label(text="Distortion")
+    row = split.row(align=True)
+    for value, text in (("angle", "Angle"), ("area", "Area"), ("none", "Off")):
+        button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
+        button.kind, button.layer = value, settings.layer
+    if context.space_data.type == "IMAGE_EDITOR":
+        column.prop(context.window_manager.koebe_uv, "show_circles")
 
 
 class AccuracyPanel(KoebePanel):

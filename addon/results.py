@@ -9,6 +9,7 @@ from bpy.props import (
     BoolProperty,
     CollectionProperty,
     FloatProperty,
+    FloatVectorProperty,
     IntProperty,
     PointerProperty,
     StringProperty,
@@ -24,6 +25,8 @@ class KoebeLoopReport(bpy.types.PropertyGroup):
     vertices: StringProperty(description="Vertices of the mesh along the loop, as JSON")
     radius: FloatProperty(description="Radius of its circle in the unit disk")
     roundness: FloatProperty(description="Deviation from a circle before the last step, as in the paper")
+    uv_center: FloatVectorProperty(size=2, description="Centre of its circle in the UVs")
+    uv_radius: FloatProperty(description="Radius of its circle in the UVs")
 
 
 class KoebeIslandReport(bpy.types.PropertyGroup):
@@ -50,6 +53,11 @@ class KoebeReport(bpy.types.PropertyGroup):
 
     islands: CollectionProperty(type=KoebeIslandReport, description="Islands of the last run")
     active: IntProperty(name="Island", description="Island whose details are shown")
+    show_circles: BoolProperty(
+        name="Circles",
+        default=True,
+        description="Draw the circles of the last run over the UVs, with the numbers of the report's loops",
+    )
 
 
 def record(context, job):
@@ -77,8 +85,12 @@ def _record_result(entry, one):
     entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
     entry.flipped_faces = json.dumps(np.unique(one.island.triangle_face[one.flipped]).tolist())
     entry.message = "; ".join(result.warnings)
-    for vertices, radius, roundness in zip(result.loops, result.radii, result.roundness, strict=True):
+    centers = one.placement.apply(one.turned(result.centers))
+    for vertices, center, radius, roundness in zip(
+        result.loops, centers, result.radii, result.roundness, strict=True
+    ):
         loop = entry.loops.add()
+        loop.uv_center, loop.uv_radius = center, one.placement.scale * float(radius)
         loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
         loop.radius, loop.roundness = float(radius), float(roundness)
 
