@@ -56,6 +56,7 @@ def parse(arguments):
     parser.add_argument("--balance", choices=options.BALANCES, default=default.balance)
     parser.add_argument("--threads", type=int, default=default.threads, help="0: all cores")
     parser.add_argument("--upright", action=argparse.BooleanOptionalAction, default=default.upright)
+    parser.add_argument("--tube", choices=options.TUBES, default=default.tube)
     parser.add_argument("--layer", default=default.layer, help="UV layer to write")
     parser.add_argument("--placement", choices=options.PLACEMENTS, default=default.placement)
     parser.add_argument("--margin", type=float, default=default.margin, help="between islands, in UV units")

@@ -38,6 +38,8 @@ def draw():
     rims, holes, numbers = [], [], []
     for entry in visible_islands(context):
         for index, loop in enumerate(entry.loops):
+            if loop.uv_radius == 0.0:
+                continue
             x, y = to_region(*loop.uv_center, clip=False)
             right, _ = to_region(loop.uv_center[0] + loop.uv_radius, loop.uv_center[1], clip=False)
             strip = np.array([x, y]) + (right - x) * unit

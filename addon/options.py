@@ -8,6 +8,7 @@ METHODS = ("gk", "ck")
 ENGINES = ("condensed", "mesh")
 OUTER_LOOPS = ("auto", "longest", "active")
 BALANCES = ("none", "area")
+TUBES = ("annulus", "unroll")
 PLACEMENTS = ("pack", "together", "keep")
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
@@ -26,6 +27,7 @@ class Options:
                   mesh vertex on the loop which becomes the unit circle
     tolerance     change of the circles between two sweeps, in units of the disk's radius
     upright       turn every island so that the world's up is up in the UV Editor, else as computed
+    tube          what an island with two loops becomes: "annulus", or "unroll" (a rectangle with a wrap seam)
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
                   "keep" (every island goes where it was before)
     margin        between islands, in units of the UV square
@@ -40,6 +42,7 @@ class Options:
     balance: str = "none"
     threads: int = 0
     upright: bool = True
+    tube: str = "annulus"
     layer: str = "Koebe"
     placement: str = "pack"
     margin: float = 0.02
@@ -50,6 +53,7 @@ class Options:
         _one_of("method", self.method, METHODS)
         _one_of("engine", self.engine, ENGINES)
         _one_of("balance", self.balance, BALANCES)
+        _one_of("tube", self.tube, TUBES)
         _one_of("placement", self.placement, PLACEMENTS)
         if isinstance(self.outer, str):
             _one_of("outer", self.outer, OUTER_LOOPS)

@@ -20,6 +20,8 @@ from .select_operators import (
 
 MESSAGE_WIDTH = 34  # characters of a line of text in a sidebar of the usual width
 MAX_LOOP_BUTTONS = 40
+# Radius of an annulus's hole, in units of its rim, below which texels differ by the inverse: better unrolled.
+LONG_TUBE = 0.2
 
 
 class KoebePanel:
@@ -47,7 +49,7 @@ class MainPanel(KoebePanel):
         layout = self.aligned_layout()
         settings = context.scene.koebe_uv
         column = layout.column()
-        for name in ("outer", "balance", "upright", "placement", "margin", "layer"):
+        for name in ("outer", "balance", "tube", "upright", "placement", "margin", "layer"):
             row = column.row()
             row.active = name != "margin" or settings.placement != "keep"
             row.prop(settings, name)
@@ -136,6 +138,7 @@ class ReportPanel(KoebePanel):
             return
         if entry.mapped:
             draw_result(layout.column(), entry)
+            draw_unroll(layout, context, entry)
         for line in textwrap.wrap(entry.message, MESSAGE_WIDTH):
             layout.label(text=line)
         if not entry.mapped:
@@ -163,6 +166,14 @@ def draw_result(column, entry):
     for index in range(min(len(entry.loops), MAX_LOOP_BUTTONS)):
         text = "Rim" if index == 0 else f"{index}"
         grid.operator(UV_OT_koebe_select_loop.bl_idname, text=text).loop = index
+
+
+def draw_unroll(layout, context, entry):
+    """The offer to unroll a long tube."""
+    if len(entry.loops) == 2 and entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
+        button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")
+        copy_options(context.scene.koebe_uv, button)
+        button.tube = "unroll"
 
 
 class View3D:

@@ -9,6 +9,7 @@ import numpy as np
 from .layout import Placement, fit_placement, pack_disks
 from .offenders import flipped_triangles
 from .surface import Island, Surface, cut_into_islands
+from .tube import unroll
 from .upright import upright_turn
 
 
@@ -28,38 +29,54 @@ class Task:
 
 @dataclasses.dataclass
 class IslandOutcome:
-    """What became of one island: a result of `koebe.uniformize`, its turn and its place, or an error.
+    """What became of one island: a result of `koebe.uniformize`, its shape and its place, or an error.
 
-    `turn` is the complex number of modulus 1 by which the result's disk is turned about its centre.
+    sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
+    shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
+    turn        complex number of modulus 1 by which the shape is turned about 0
+    distortion  `koebe.distortion` of the shape, where it is not that of the result
     """
 
     island: Island
     result: object = None
     error: Exception = None
+    sheet: Island = None
+    shape: np.ndarray = None
     turn: complex = 1.0
+    distortion: dict = None
     placement: Placement = None
 
+    @property
+    def unrolled(self):
+        """Whether it is a rectangle: then its circles are not in the UVs."""
+        return self.sheet is not self.island
+
+    @property
+    def angle_error(self):
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
+        return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
+
     def turned(self, points):
-        """Points (n, 2) of the result's disk after the turn."""
+        """Points (n, 2) of the shape after the turn."""
         if self.turn == 1.0:
             return points
         cos, sin = self.turn.real, self.turn.imag
         return points @ np.array([[cos, sin], [-sin, cos]])
 
     @functools.cached_property
-    def disk(self):
-        """The vertices (n, 2) in the turned unit disk."""
-        return self.turned(self.result.uv)
+    def flat(self):
+        """The sheet's vertices (n, 2) after the turn, in the unit disk."""
+        return self.turned(self.shape)
 
     @functools.cached_property
     def uv(self):
-        """UV coordinates (n, 2) of the island's vertices, in 32 bits as Blender keeps them."""
-        return self.placement.apply(self.disk).astype(np.float32)
+        """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
+        return self.placement.apply(self.flat).astype(np.float32)
 
     @functools.cached_property
     def flipped(self):
-        """The triangles (k,) of the island whose signed area in the UVs is not positive."""
-        return flipped_triangles(self.island.triangles, self.uv)
+        """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
+        return flipped_triangles(self.sheet.triangles, self.uv)
 
 
 @dataclasses.dataclass
@@ -91,8 +108,8 @@ class SurfaceOutcome:
 
     def corner_uv(self):
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
-        corners = [outcome.island.corners for outcome in self.mapped]
-        uv = [outcome.uv[outcome.island.corner_vertex] for outcome in self.mapped]
+        corners = [outcome.sheet.corners for outcome in self.mapped]
+        uv = [outcome.uv[outcome.sheet.corner_vertex] for outcome in self.mapped]
         return np.concatenate(corners), np.concatenate(uv)
 
 
@@ -112,7 +129,10 @@ def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
         for island in islands:
             share = _share_of(progress, done, len(island.triangles), total)
             outer = _outer_loop(island, task.outer)
-            outcome.islands.append(_map_island(koebe, island, outer, options, share, cancel))
+            one = _map_island(koebe, island, outer, options, share, cancel)
+            if one.error is None:
+                _shape(koebe, task.surface, one, options)
+            outcome.islands.append(one)
             done += len(island.triangles)
         outcomes.append(outcome)
     _lay_out(outcomes, options)
@@ -139,8 +159,19 @@ def _map_island(koebe, island, outer, options, progress, cancel):
         raise
     except koebe.KoebeError as error:
         return IslandOutcome(island, error=error)
-    turn = upright_turn(island.vertices, island.triangles, result.uv) if options.upright else 1.0
-    return IslandOutcome(island, result=result, turn=turn)
+    return IslandOutcome(island, result=result)
+
+
+def _shape(koebe, surface, one, options):
+    """Give a mapped island its shape: the disk as it is or unrolled, and upright if asked."""
+    one.sheet, one.shape = one.island, one.result.uv
+    if options.tube == "unroll" and len(one.result.loops) == 2:
+        one.sheet, one.shape = unroll(surface, one.island, one.result.uv, one.result.loops)
+        one.distortion = koebe.distortion(one.sheet.vertices, one.sheet.triangles, one.shape)
+    if options.upright:
+        turn = upright_turn(one.sheet.vertices, one.sheet.triangles, one.shape)
+        # A rectangle stays level.
+        one.turn = (1.0 if turn.real >= 0.0 else -1.0 + 0.0j) if one.unrolled else turn
 
 
 def _outer_loop(island, outer):
@@ -163,11 +194,16 @@ def _lay_out(outcomes, options):
 
 def _pack(group, margin):
     if len(group) == 1:
-        group[0].placement = Placement()
+        group[0].placement = Placement(scale=0.5 / _half_size(group[0]))
     elif group:
-        sizes = [_natural_radius(one.island, one.disk) for one in group]
+        sizes = [_natural_radius(one.sheet, one.flat) for one in group]
         for one, placement in zip(group, pack_disks(sizes, margin), strict=True):
             one.placement = placement
+
+
+def _half_size(one):
+    """Half the side of the smallest square around 0 that holds an island: 1 for a disk."""
+    return float(np.abs(one.flat).max()) if one.unrolled else 1.0
 
 
 def _keep_places(outcome):
@@ -175,7 +211,7 @@ def _keep_places(outcome):
     if outcome.task.old_uv is None:
         return False
     placements = [
-        fit_placement(one.disk, outcome.task.old_uv[one.island.some_corner()]) for one in outcome.mapped
+        fit_placement(one.flat, outcome.task.old_uv[one.sheet.some_corner()]) for one in outcome.mapped
     ]
     if any(placement is None for placement in placements):
         return False

@@ -70,6 +70,16 @@ class UniformizeProperties:
         description="Turn every island so that the world's up (+Z, or +Y for what lies flat) is up in the UV Editor. "
         "A conformal map leaves the turn of the disk open",
     )
+    tube: EnumProperty(
+        name="Tube",
+        items=[
+            ("annulus", "Annulus", "A ring, nothing cut: texels get smaller towards the hole, very much so on long tubes"),
+            ("unroll", "Unrolled", "A rectangle, cut along a short path at the back (in the UVs only): even texels. "
+             "Angles stay"),
+        ],
+        default=DEFAULTS.tube,
+        description="What an island with two boundary loops becomes, such as a sleeve, a limb or a vase without a bottom",
+    )
     layer: StringProperty(
         name="UV Layer",
         default=DEFAULTS.layer,

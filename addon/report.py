@@ -19,7 +19,7 @@ def result_line(outcome):
     """One line on a surface: loops, sweeps, roundness, angle error, flips, seconds."""
     results = [one.result for one in outcome.mapped]
     triangles = np.array([len(one.island.triangles) for one in outcome.mapped], dtype=float)
-    angle = sum(r.angle_error_deg["mean"] * t for r, t in zip(results, triangles)) / triangles.sum()
+    angle = sum(one.angle_error * t for one, t in zip(outcome.mapped, triangles)) / triangles.sum()
     words = [
         _counted(sum(len(r.loops) for r in results), "loop"),
         _counted(max(r.sweeps for r in results), "sweep"),
@@ -74,7 +74,10 @@ def _entry(name, index, one):
     for loop in result["loops"]:
         for key in ("vertices", "off_circle"):
             loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()
-        loop["center"] = one.turned(np.array([loop["center"]]))[0].tolist()
+        if not one.unrolled:
+            loop["center"] = one.turned(np.array([loop["center"]]))[0].tolist()
+    result.update(one.distortion or {})
+    result["unrolled"] = one.unrolled
     result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded
     result["below_resolution"] = _below_resolution(one)
     return {**result, **entry, "placement": one.placement.to_dict()}
@@ -82,7 +85,7 @@ def _entry(name, index, one):
 
 def _below_resolution(one):
     """Flipped triangles whose longest edge in the UVs is too short to be drawn."""
-    corners = one.uv[one.island.triangles[one.flipped]].astype(np.float64)
+    corners = one.uv[one.sheet.triangles[one.flipped]].astype(np.float64)
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
     return int(np.count_nonzero(longest < RESOLUTION))
 

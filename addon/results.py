@@ -26,7 +26,7 @@ class KoebeLoopReport(bpy.types.PropertyGroup):
     radius: FloatProperty(description="Radius of its circle in the unit disk")
     roundness: FloatProperty(description="Deviation from a circle before the last step, as in the paper")
     uv_center: FloatVectorProperty(size=2, description="Centre of its circle in the UVs")
-    uv_radius: FloatProperty(description="Radius of its circle in the UVs")
+    uv_radius: FloatProperty(description="Radius of its circle in the UVs, 0 if it is no circle there")
 
 
 class KoebeIslandReport(bpy.types.PropertyGroup):
@@ -80,17 +80,18 @@ def record(context, job):
 def _record_result(entry, one):
     result = one.result
     entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
-    entry.angle_error = result.angle_error_deg["mean"]
+    entry.angle_error = one.angle_error
     entry.roundness = float(result.roundness.max())
     entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
-    entry.flipped_faces = json.dumps(np.unique(one.island.triangle_face[one.flipped]).tolist())
+    entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
     entry.message = "; ".join(result.warnings)
     centers = one.placement.apply(one.turned(result.centers))
     for vertices, center, radius, roundness in zip(
         result.loops, centers, result.radii, result.roundness, strict=True
     ):
         loop = entry.loops.add()
-        loop.uv_center, loop.uv_radius = center, one.placement.scale * float(radius)
+        loop.uv_center = center
+        loop.uv_radius = 0.0 if one.unrolled else one.placement.scale * float(radius)
         loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
         loop.radius, loop.roundness = float(radius), float(roundness)
 
