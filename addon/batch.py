@@ -62,6 +62,7 @@ def parse(arguments):
     parser.add_argument("--margin", type=float, default=default.margin, help="between islands, in UV units")
     parser.add_argument("--checker", action=argparse.BooleanOptionalAction, default=default.checker)
     parser.add_argument("--checker-size", type=float, default=default.checker_size, metavar="SQUARES")
+    parser.add_argument("--checker-even", action=argparse.BooleanOptionalAction, default=default.checker_even)
     values = vars(parser.parse_args(arguments))
     output, report_file, objects = (values.pop(name) for name in ("output", "report", "objects"))
     for file in (output, report_file):

@@ -75,9 +75,9 @@ class Job:
             if not outcome.mapped:
                 continue
             transfer.write_uv(obj, self.options.layer, *outcome.corner_uv())
-            if self.options.checker:
-                material = checker.checker_material(self.options.layer, self.options.checker_size)
-                checker.put_on(obj, material)
             kind = distortion_display.shown(obj)
             if kind is not None:
                 distortion_display.put_on(obj, self.options.layer, kind)
+        if self.options.checker:
+            mapped = [obj for obj, outcome in zip(self.objects, self.outcomes, strict=True) if outcome.mapped]
+            checker.dress(mapped, self.options.layer, self.options.checker_size, self.options.checker_even)

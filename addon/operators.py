@@ -45,7 +45,7 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
         layout.use_property_decorate = False
         for name in UniformizeProperties.__annotations__:
             row = layout.row()
-            row.active = name != "checker_size" or self.checker
+            row.active = not name.startswith("checker_") or self.checker
             row.prop(self, name)
 
     def execute(self, context):
@@ -155,6 +155,7 @@ class UV_OT_koebe_checker(bpy.types.Operator):
 
     layer: UniformizeProperties.__annotations__["layer"]
     checker_size: UniformizeProperties.__annotations__["checker_size"]
+    checker_even: UniformizeProperties.__annotations__["checker_even"]
 
     @classmethod
     def poll(cls, context):
@@ -166,9 +167,8 @@ class UV_OT_koebe_checker(bpy.types.Operator):
         for obj in wearing:
             checker.take_off(obj)
         if not wearing:
-            material = checker.checker_material(self.layer, self.checker_size)
-            for obj in objects:
-                checker.put_on(obj, material)
+            with object_mode(context):
+                checker.dress(objects, self.layer, self.checker_size, self.checker_even)
         return {"FINISHED"}
 
 

@@ -31,7 +31,8 @@ class Options:
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
                   "keep" (every island goes where it was before)
     margin        between islands, in units of the UV square
-    checker_size  squares across the UV square
+    checker_size  squares across the UV square of the first object
+    checker_even  the other objects' squares are as large in space; else as many across the UV square
     """
 
     method: str = "gk"
@@ -48,6 +49,7 @@ class Options:
     margin: float = 0.02
     checker: bool = True
     checker_size: float = 32.0
+    checker_even: bool = True
 
     def __post_init__(self):
         _one_of("method", self.method, METHODS)

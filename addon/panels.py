@@ -58,6 +58,10 @@ class MainPanel(KoebePanel):
         size = row.row()
         size.active = settings.checker
         size.prop(settings, "checker_size", text="")
+        if len(target_objects(context)) > 1:
+            even = layout.row()
+            even.active = settings.checker
+            even.prop(settings, "checker_even")
         run = layout.column(align=True)
         run.scale_y = 1.4
         copy_options(settings, run.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE"))
@@ -70,7 +74,9 @@ def draw_judges(column, context, settings):
     worn = any(checker.is_on(obj) for obj in objects)
     text = "Take Checker Off" if worn else "Put Checker On"
     switch = column.operator(UV_OT_koebe_checker.bl_idname, text=text, icon="TEXTURE", depress=worn)
-    switch.layer, switch.checker_size = settings.layer, settings.checker_size
+    switch.layer, switch.checker_size, switch.checker_even = (
+        settings.layer, settings.checker_size, settings.checker_even,
+    )  # fmt: skip
     shading = getattr(context.space_data, "shading", None)
     if worn and shading is not None and shading.type in {"WIREFRAME", "SOLID"}:
         row = column.row()

@@ -116,7 +116,13 @@ class UniformizeProperties:
         min=1.0,
         soft_max=256.0,
         max=4096.0,
-        description="Checker squares across the UV square",
+        description="Checker squares across the UV square, of the active object if there are several",
+    )
+    checker_even: BoolProperty(
+        name="Even Squares",
+        default=DEFAULTS.checker_even,
+        description="The squares are equally large on all objects. Off: equally many across each UV square, "
+        "so that their size shows the texel density",
     )
 
 

@@ -4,7 +4,7 @@
 import bmesh
 import numpy as np
 
-from . import compat
+from . import compat, distortion
 from .surface import Surface
 
 MAX_UV_LAYERS = 8  # Blender's limit
@@ -56,6 +56,13 @@ def read_uv(obj, layer_name):
     """UVs (C, 2) of the layer of that name, or else of the active one, or None. Not in Edit Mode."""
     layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
     return None if layer is None else compat.corner_uv(layer)
+
+
+def texel_density(obj, layer_name):
+    """Mean length in the UVs of a layer over length in space; 0 if there are none. Not in Edit Mode."""
+    if layer_name not in obj.data.uv_layers:
+        return 0.0
+    return distortion.texel_density(read_surface(obj, selected_only=False), read_uv(obj, layer_name))
 
 
 def active_vertex(obj):
