@@ -14,11 +14,12 @@ bl_info = {
 
 def _parts():
     """The modules with something to register. Imported late: the rest of the package needs no bpy."""
-    from . import circles, distortion_display, operators, panels, preferences, presets, properties, results
-    from . import select_operators
+    from . import circles, distortion_display, fill_operator, operators, panels, preferences, presets, properties
+    from . import results, select_operators
 
     return (
-        properties, results, operators, select_operators, distortion_display, circles, presets, panels, preferences,
+        properties, results, operators, select_operators, distortion_display, circles, fill_operator, presets, panels,
+        preferences,
     )  # fmt: skip
 
 

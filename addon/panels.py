@@ -7,6 +7,7 @@ import bpy
 
 from . import checker, distortion_display
 from .distortion_display import UV_OT_koebe_distortion
+from .fill_operator import MESH_OT_koebe_fill_holes
 from .modes import target_objects
 from .operators import UV_OT_koebe_checker, UV_OT_koebe_uniformize
 from .presets import KOEBE_PT_presets, UV_OT_koebe_reset
@@ -66,6 +67,10 @@ class MainPanel(KoebePanel):
         run.scale_y = 1.4
         copy_options(settings, run.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE"))
         draw_judges(layout.column(), context, settings)
+        fill = layout.row(align=True)
+        fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Fill Holes", icon="MESH_DATA").which = "holes"
+        if context.mode == "EDIT_MESH":
+            fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
 
 
 def draw_judges(column, context, settings):
@@ -228,6 +233,11 @@ def draw_menu(self, context):
     copy_options(context.scene.koebe_uv, layout.operator(UV_OT_koebe_uniformize.bl_idname))
 
 
+def draw_clean_up_menu(self, context):
+    """The entry beside Blender's own Fill Holes."""
+    self.layout.operator(MESH_OT_koebe_fill_holes.bl_idname)
+
+
 CLASSES = (
     KOEBE_UL_islands,
     VIEW3D_PT_koebe,
@@ -237,20 +247,24 @@ CLASSES = (
     IMAGE_PT_koebe_accuracy,
     IMAGE_PT_koebe_report,
 )
-MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
+MENUS = {
+    "VIEW3D_MT_uv_map": draw_menu,
+    "IMAGE_MT_uvs": draw_menu,
+    "VIEW3D_MT_edit_mesh_clean": draw_clean_up_menu,
+}
 
 
 def register():
     """Register the panels and append the menu entries."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    for menu in MENUS:
-        getattr(bpy.types, menu).append(draw_menu)
+    for menu, draw in MENUS.items():
+        getattr(bpy.types, menu).append(draw)
 
 
 def unregister():
     """Undo `register`."""
-    for menu in MENUS:
-        getattr(bpy.types, menu).remove(draw_menu)
+    for menu, draw in MENUS.items():
+        getattr(bpy.types, menu).remove(draw)
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
