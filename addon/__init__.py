@@ -14,8 +14,18 @@ bl_info = {
 
 def _parts():
     """The modules with something to register. Imported late: the rest of the package needs no bpy."""
-    from . import circles, distortion_display, fill_operator, operators, panels, preferences, presets, properties
-    from . import results, select_operators
+    from . import (
+        circles,
+        distortion_display,
+        fill_operator,
+        operators,
+        panels,
+        preferences,
+        presets,
+        properties,
+        results,
+        select_operators,
+    )
 
     return (
         properties, results, operators, select_operators, distortion_display, circles, fill_operator, presets, panels,

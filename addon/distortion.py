@@ -8,8 +8,12 @@ ANGLE, AREA = "angle", "area"
 ANGLE_END, AREA_END = 10.0, 2.0
 # sRGB colours at equal steps of the legend: for the angle as Blender's own stretch display, blue is good and red is
 # bad; for the area blue has few texels, red has many.
-ANGLE_RAMP = np.array([(0.11, 0.27, 0.75), (0.10, 0.66, 0.78), (0.36, 0.76, 0.30), (0.96, 0.83, 0.20), (0.85, 0.15, 0.12)])
-AREA_RAMP = np.array([(0.13, 0.30, 0.70), (0.53, 0.70, 0.90), (0.93, 0.93, 0.91), (0.95, 0.66, 0.50), (0.72, 0.12, 0.14)])
+ANGLE_RAMP = np.array(
+    [(0.11, 0.27, 0.75), (0.10, 0.66, 0.78), (0.36, 0.76, 0.30), (0.96, 0.83, 0.20), (0.85, 0.15, 0.12)]
+)
+AREA_RAMP = np.array(
+    [(0.13, 0.30, 0.70), (0.53, 0.70, 0.90), (0.93, 0.93, 0.91), (0.95, 0.66, 0.50), (0.72, 0.12, 0.14)]
+)
 NOT_MAPPED = (0.35, 0.35, 0.35)  # faces without an area in the UVs
 
 
@@ -39,7 +43,8 @@ def face_values(surface, uv, kind):
     mapped = (np.abs(in_plane) > 0.0) & (in_space > 0.0)
     if kind == ANGLE:
         corners = surface.triangle_corners[mapped]
-        difference = _angles(surface.positions[surface.corner_vertex], corners) - _angles(uv.astype(np.float64), corners)
+        on_surface = _angles(surface.positions[surface.corner_vertex], corners)
+        difference = on_surface - _angles(uv.astype(np.float64), corners)
         values[mapped] = np.degrees(np.abs(difference).mean(axis=1))
     else:
         mean = np.abs(in_plane[mapped]).sum() / max(in_space[mapped].sum(), np.finfo(float).tiny)

@@ -107,7 +107,7 @@ def show_colors(context, on):
 
 
 def draw_legend():
-    """The legend of the active object's colours, at the lower left of the 3D View."""
+    """The legend of the active object's colours, at the upper left of the 3D View."""
     context = bpy.context
     obj = context.active_object
     if obj is None or obj.type != "MESH" or not context.space_data.overlay.show_overlays:

@@ -6,6 +6,7 @@ import bpy
 SPACES = {"VIEW_3D": bpy.types.SpaceView3D, "IMAGE_EDITOR": bpy.types.SpaceImageEditor}
 TEXT = (0.92, 0.92, 0.92, 1.0)
 SHADE = (0.0, 0.0, 0.0, 0.55)
+BAR = (84, 160, 200, 12)  # left, from the top, width, height of the bar: below what Blender writes there
 TEXT_SIZE = 11  # points at a resolution scale of 1
 
 _handles = {}
@@ -62,13 +63,13 @@ def text(content, x, y, color=TEXT, centered=True):
 
 def color_bar(title, ramp, marks):
     """A horizontal bar of colours (n, 3) with a title over it and marks under it."""
-    import gpu
     from gpu_extras.batch import batch_for_shader
 
     from . import compat
 
     scale = bpy.context.preferences.system.ui_scale
-    left, bottom, width, height = (value * scale for value in (84, 74, 200, 12))
+    left, top, width, height = (value * scale for value in BAR)
+    bottom = bpy.context.region.height - top - height
     stops = [left + width * i / (len(ramp) - 1) for i in range(len(ramp))]
     points = [(x, y) for x in stops for y in (bottom, bottom + height)]
     colors = [(*map(float, color), 1.0) for color in ramp for _ in range(2)]

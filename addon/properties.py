@@ -73,12 +73,12 @@ class UniformizeProperties:
     tube: EnumProperty(
         name="Tube",
         items=[
-            ("annulus", "Annulus", "A ring, nothing cut: texels get smaller towards the hole, very much so on long tubes"),
+            ("annulus", "Annulus", "A ring, nothing cut: texels get smaller towards the hole, very much on long tubes"),
             ("unroll", "Unrolled", "A rectangle, cut along a short path at the back (in the UVs only): even texels. "
              "Angles stay"),
         ],
         default=DEFAULTS.tube,
-        description="What an island with two boundary loops becomes, such as a sleeve, a limb or a vase without a bottom",
+        description="What an island with two boundary loops becomes: a sleeve, a limb, a vase without a bottom",
     )
     layer: StringProperty(
         name="UV Layer",

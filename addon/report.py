@@ -3,13 +3,13 @@
 
 import numpy as np
 
-# What an artist can do about each kind of `koebe.TopologyError`.
-ADVICE = {
-    "closed": "mark a seam or delete a face, so that it has a boundary",
-    "genus": "mark a seam along each handle, so that it opens",
-    "nonmanifold_edge": "delete the surplus faces or mark those edges as seams",
-    "nonmanifold_vertex": "split those vertices",
-    "nonorientable": "one-sided, like a Möbius strip: mark a seam across it",
+# What is wrong, and what an artist can do about it, by the kind of `koebe.TopologyError`.
+REASONS = {
+    "closed": "the surface is closed: mark a seam or delete a face, so that it has a boundary",
+    "genus": "the surface has a handle ({detail}): mark a seam along it, so that it opens",
+    "nonmanifold_edge": "{pairs} with more than two faces: delete the surplus faces or mark those edges as seams",
+    "nonmanifold_vertex": "{vertices} where separate parts of it touch: split them",
+    "nonorientable": "the surface is one-sided, like a Möbius strip: mark a seam across it",
 }
 # UV units: an edge below this is a dozen steps of a 32-bit number near 1 at most. As in the native report.
 RESOLUTION = 1e-6
@@ -51,8 +51,14 @@ def failure_line(outcome):
 
 def explain(error):
     """Why the solver refused, and what to do about it."""
-    advice = ADVICE.get(getattr(error, "kind", None))
-    return str(error) if advice is None else f"{error} ({advice})"
+    reason = REASONS.get(getattr(error, "kind", None))
+    if reason is None:
+        return str(error)
+    return reason.format(
+        detail=str(error).split(":")[0],
+        pairs=_counted(len(error.elements) // 2, "edge"),
+        vertices=_counted(len(error.elements), "vertex", "vertices"),
+    )
 
 
 def entries(outcome):
@@ -90,5 +96,5 @@ def _below_resolution(one):
     return int(np.count_nonzero(longest < RESOLUTION))
 
 
-def _counted(count, noun):
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+def _counted(count, noun, plural=None):
+    return f"{count} {noun if count == 1 else plural or noun + 's'}"

@@ -66,7 +66,7 @@ def test_borders_are_straight_and_level():
 
 
 def test_the_angle_error_stays():
-    obj = add_tube(rings=60, height=4, radius=lambda z: 1 + 0.3 * np.sin(2 * z))
+    add_tube(rings=60, height=4, radius=lambda z: 1 + 0.3 * np.sin(2 * z))
     bpy.ops.uv.koebe_uniformize()
     (ring,) = bpy.context.window_manager.koebe_uv.islands
     before = ring.angle_error

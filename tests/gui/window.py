@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PICTURES = ROOT / "out" / "gui"
 WIDTH, HEIGHT = 1280, 800
 START_SECONDS = 90
+TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
 SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
 
 
@@ -27,9 +28,11 @@ class Window:
         }  # fmt: skip
         for folder in ("config", "scripts/addons", "datafiles", "extensions"):
             (home / folder).mkdir(parents=True)
-        command = [os.environ.get("BLENDER", "blender"), "--factory-startup", "--window-geometry", "0", "0",
-                   str(WIDTH), str(HEIGHT), "--python-exit-code", "1", "--python", Path(__file__).with_name("inside.py"),
-                   "--", package, self.path]  # fmt: skip
+        command = [
+            os.environ.get("BLENDER", "blender"), "--factory-startup",
+            "--window-geometry", "0", "0", str(WIDTH), str(HEIGHT),
+            "--python-exit-code", "1", "--python", Path(__file__).with_name("inside.py"), "--", package, self.path,
+        ]  # fmt: skip
         self.log = (home / "log").open("w")
         self.process = subprocess.Popen(command, env=environment, stdout=self.log, stderr=subprocess.STDOUT)
         self.wait("True", START_SECONDS)
@@ -89,6 +92,7 @@ class Window:
 
     def picture(self, name):
         """Keep what the screen shows as out/gui/NAME.png."""
+        xdotool("mousemove_relative", "1", "0")  # what has changed is drawn with the next event
         time.sleep(SETTLE)
         subprocess.run(["import", "-window", "root", str(PICTURES / f"{name}.png")], check=True)
 
@@ -107,7 +111,21 @@ class Window:
         x, y, width, height = self.region(area, "WINDOW")
         return x + width // 2, y + height // 2
 
-    def find_button(self, area, text, fraction=0.5, step=9):
+    def open_tab(self, area):
+        """Open the sidebar of an area at the tab Koebe, which is the last one."""
+        if self.region(area, "UI")[2] <= 1:
+            self.move(*self.middle(area))
+            self.key("n")
+        x, top, width, _ = self.region(area, "UI")
+        self.click(x + width - 12, top + TAB[area])
+
+    def workspace(self, name):
+        """Show a workspace, and wait until it is there."""
+        self.run(f"bpy.context.window_manager.windows[0].workspace = bpy.data.workspaces[{name!r}]")
+        self.wait(f"bpy.context.window_manager.windows[0].workspace.name == {name!r}")
+        time.sleep(SETTLE)
+
+    def find_button(self, area, text, fraction=0.5, step=14):
         """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
         x, top, width, height = self.region(area, "UI")
         x += int(width * fraction)
