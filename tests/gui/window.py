@@ -72,6 +72,12 @@ class Window:
             assert time.monotonic() < end, f"{expression} is not true after {seconds} s"
             time.sleep(0.02)
 
+    def settle(self):
+        """Wait until what was done has had its effect, and is drawn."""
+        time.sleep(SETTLE)
+        for _ in range(3):  # an answer comes once in a turn of Blender's main loop, which ends with drawing
+            self.ask("True")
+
     # ---- what a hand does
 
     def move(self, x, y):
@@ -82,18 +88,18 @@ class Window:
         """Click there."""
         self.move(x, y)
         xdotool("click", button)
-        time.sleep(SETTLE)
+        self.settle()
 
     def key(self, *keys):
         """Press keys, one after the other."""
         for name in keys:
             xdotool("key", name)
-            time.sleep(SETTLE)
+            self.settle()
 
     def picture(self, name):
         """Keep what the screen shows as out/gui/NAME.png."""
         xdotool("mousemove_relative", "1", "0")  # what has changed is drawn with the next event
-        time.sleep(SETTLE)
+        self.settle()
         subprocess.run(["import", "-window", "root", str(PICTURES / f"{name}.png")], check=True)
 
     # ---- where things are
@@ -123,7 +129,7 @@ class Window:
         """Show a workspace, and wait until it is there."""
         self.run(f"bpy.context.window_manager.windows[0].workspace = bpy.data.workspaces[{name!r}]")
         self.wait(f"bpy.context.window_manager.windows[0].workspace.name == {name!r}")
-        time.sleep(SETTLE)
+        self.settle()
 
     def find_button(self, area, text, fraction=0.5, step=14):
         """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
