@@ -43,7 +43,7 @@ class Job:
             vertex = transfer.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
         self.objects.append(obj)
-        self.tasks.append(Task(obj.name, surface, outer))
+        self.tasks.append(Task(obj.name, surface, outer, mirrored=obj.matrix_world.determinant() < 0.0))
 
     def compute(self, progress=None):
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""

@@ -138,7 +138,7 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.converged else {"WARNING"}, report.result_line(outcome))
-            for warning in (text for one in outcome.mapped for text in one.result.warnings):
+            for warning in dict.fromkeys(text for one in outcome.mapped for text in report.warnings(outcome.task, one)):
                 self.report({"WARNING"}, f"{outcome.name}: {warning}")
         if failures:
             select_offenders(context, job)

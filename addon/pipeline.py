@@ -18,12 +18,13 @@ class Task:
     """A surface to map.
 
     `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `old_uv` (C, 2) are
-    the UVs of its corners that the placement "keep" goes by.
+    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is negative.
     """
 
     name: str
     surface: Surface
     outer: object = "auto"
+    mirrored: bool = False
     old_uv: np.ndarray = None
 
 

@@ -11,6 +11,7 @@ REASONS = {
     "nonmanifold_vertex": "{vertices} where separate parts of it touch: split them",
     "nonorientable": "the surface is one-sided, like a Möbius strip: mark a seam across it",
 }
+MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
 # UV units: an edge below this is a dozen steps of a 32-bit number near 1 at most. As in the native report.
 RESOLUTION = 1e-6
 
@@ -61,13 +62,18 @@ def explain(error):
     )
 
 
+def warnings(task, one):
+    """What to watch out for in a mapped island."""
+    return [*one.result.warnings, *([MIRRORED] if task.mirrored else [])]
+
+
 def entries(outcome):
     """One dict per island: `result.to_dict()` in the mesh's vertex numbers, or the error."""
-    return [_entry(outcome.name, index, one) for index, one in enumerate(outcome.islands)]
+    return [_entry(outcome.task, index, one) for index, one in enumerate(outcome.islands)]
 
 
-def _entry(name, index, one):
-    entry = {"object": name, "island": index, "island_faces": len(one.island.faces)}
+def _entry(task, index, one):
+    entry = {"object": task.name, "island": index, "island_faces": len(one.island.faces)}
     if one.error is not None:
         error = {"name": type(one.error).__name__, "reason": str(one.error)}
         kind = getattr(one.error, "kind", None)
@@ -84,6 +90,7 @@ def _entry(name, index, one):
             loop["center"] = one.turned(np.array([loop["center"]]))[0].tolist()
     result.update(one.distortion or {})
     result["unrolled"] = one.unrolled
+    result["warnings"] = warnings(task, one)
     result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded
     result["below_resolution"] = _below_resolution(one)
     return {**result, **entry, "placement": one.placement.to_dict()}

@@ -16,7 +16,7 @@ from bpy.props import (
 )
 
 from .offenders import offending_elements
-from .report import explain
+from .report import explain, warnings
 
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
@@ -70,21 +70,21 @@ def record(context, job):
             entry = report.islands.add()
             entry.object_name, entry.island, entry.layer = obj.name, index, job.options.layer
             if one.error is None:
-                _record_result(entry, one)
+                _record_result(entry, task, one)
             else:
                 entry.message = explain(one.error)
                 kind, elements = offending_elements(task.surface, one)
                 entry.offenders = json.dumps([kind, elements.tolist()])
 
 
-def _record_result(entry, one):
+def _record_result(entry, task, one):
     result = one.result
     entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
     entry.angle_error = one.angle_error
     entry.roundness = float(result.roundness.max())
     entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
     entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
-    entry.message = "; ".join(result.warnings)
+    entry.message = "; ".join(warnings(task, one))
     centers = one.placement.apply(one.turned(result.centers))
     for vertices, center, radius, roundness in zip(
         result.loops, centers, result.radii, result.roundness, strict=True

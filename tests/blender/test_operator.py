@@ -128,6 +128,8 @@ def test_a_mirrored_object_has_the_same_map_not_flipped():
     bpy.ops.uv.koebe_uniformize()
     scenes.assert_circle_domain(mirrored)
     assert np.abs(scenes.corner_uv(obj.data, "Koebe") - scenes.corner_uv(mirrored.data, "Koebe")).max() < 1e-5
+    plain, warned = bpy.context.window_manager.koebe_uv.islands
+    assert "negative" in warned.message and not plain.message
 
 
 def test_ngons_and_quads_and_triangles_together():

@@ -55,10 +55,11 @@ def test_checker_and_distortion(window, open_sample):
     x, y = window.find_button("VIEW_3D", "koebe_distortion", fraction=0.42)
     window.click(x, y)
     window.picture("07_angle")
-    window.click(x + 40, y)
+    window.click(x + 28, y)
     window.picture("08_area")
+    assert window.ask("bpy.context.active_object.data['koebe_distortion']['kind']") == "area"
     assert window.ask("[a.name for a in bpy.context.active_object.data.color_attributes]") == ["Koebe Distortion"]
-    window.click(x + 78, y)
+    window.click(x + 68, y)
     assert window.ask("len(bpy.context.active_object.data.color_attributes)") == 0
 
 

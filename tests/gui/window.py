@@ -81,8 +81,9 @@ class Window:
     # ---- what a hand does
 
     def move(self, x, y):
-        """Bring the pointer there, from beside it: Blender looks at movements."""
-        xdotool("mousemove", x - 3, y - 2, "sleep", "0.05", "mousemove", x, y, "sleep", "0.1")
+        """Bring the pointer there, from beside it: Blender looks at movements, and a button wakes at the second one."""
+        for step in (6, 3, 0):
+            xdotool("mousemove", x - step, y, "sleep", "0.07")
 
     def click(self, x, y, button=1):
         """Click there."""
