@@ -3,6 +3,8 @@
 
 import numpy as np
 
+from .surface import areas, signed_areas
+
 ANGLE, AREA = "angle", "area"
 # What the ends of the legend stand for: degrees from 0, and doublings of the texel density to either side of 0.
 ANGLE_END, AREA_END = 10.0, 2.0
@@ -17,18 +19,16 @@ AREA_RAMP = np.array(
 NOT_MAPPED = (0.35, 0.35, 0.35)  # faces without an area in the UVs
 
 
-def areas(surface, uv):
+def both_areas(surface, uv):
     """Area in space and signed area in the UVs (C, 2) of each triangle (T,)."""
-    one, two = _edges(surface.positions[surface.corner_vertex], surface.triangle_corners)
-    plane_one, plane_two = _edges(uv.astype(np.float64), surface.triangle_corners)
-    in_space = 0.5 * np.linalg.norm(np.cross(one, two), axis=1)
-    return in_space, 0.5 * (plane_one[:, 0] * plane_two[:, 1] - plane_one[:, 1] * plane_two[:, 0])
+    in_space = areas(surface.positions, surface.corner_vertex[surface.triangle_corners])
+    return in_space, signed_areas(uv.astype(np.float64), surface.triangle_corners)
 
 
 def texel_density(surface, uv):
     """Lengths in the UVs (C, 2) over lengths in space, in the mean over the selected faces' area; 0 without UVs."""
     chosen = surface.selected[surface.triangle_face]
-    in_space, in_plane = (values[chosen].sum() for values in areas(surface, uv))
+    in_space, in_plane = (values[chosen].sum() for values in both_areas(surface, uv))
     return float(np.sqrt(abs(in_plane) / in_space)) if in_space > 0.0 else 0.0
 
 
@@ -38,7 +38,7 @@ def face_values(surface, uv, kind):
     ANGLE: the mean difference, in degrees, of the triangles' angles on the surface and in the UVs (C, 2).
     AREA: the logarithm to base 2 of the texel density over its mean, so that 1 means twice as many texels per length.
     """
-    in_space, in_plane = areas(surface, uv)
+    in_space, in_plane = both_areas(surface, uv)
     values = np.full(len(in_space), np.nan)
     mapped = (np.abs(in_plane) > 0.0) & (in_space > 0.0)
     if kind == ANGLE:
@@ -72,11 +72,6 @@ def legend(kind):
     if kind == ANGLE:
         return "Angle error", [(0.0, "0°"), (0.5, f"{ANGLE_END / 2:.0f}°"), (1.0, f"{ANGLE_END:.0f}°")]
     return "Texel density", [(0.0, "1/4"), (0.25, "1/2"), (0.5, "1"), (0.75, "2"), (1.0, "4")]
-
-
-def _edges(points, corners):
-    start = points[corners[:, 0]]
-    return points[corners[:, 1]] - start, points[corners[:, 2]] - start
 
 
 def _angles(points, corners):

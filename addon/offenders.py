@@ -3,6 +3,8 @@
 
 import numpy as np
 
+from .surface import signed_areas
+
 VERTICES, EDGES, FACES = "vertices", "edges", "faces"
 # Kinds of `koebe.TopologyError` whose elements are vertices worth showing.
 SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus")
@@ -30,7 +32,4 @@ def _crowded_edges(surface, island):
 
 def flipped_triangles(triangles, uv):
     """Which triangles (m, 3) have a signed area, in 32-bit UVs (n, 2) of the vertices, that is not positive."""
-    u, v = (uv[:, axis].astype(np.float64) for axis in (0, 1))
-    a, b, c = (triangles[:, k] for k in range(3))
-    ua, va = u[a], v[a]
-    return np.flatnonzero((u[b] - ua) * (v[c] - va) <= (v[b] - va) * (u[c] - ua))
+    return np.flatnonzero(signed_areas(uv.astype(np.float64), triangles) <= 0.0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from .layout import Placement, fit_placement, pack_disks
 from .offenders import flipped_triangles
-from .surface import Island, Surface, cut_into_islands
+from .surface import Island, Surface, cut_into_islands, signed_areas
 from .tube import unroll
 from .upright import upright_turn
 
@@ -131,10 +131,9 @@ def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
             share = _share_of(progress, done, len(island.triangles), total)
             outer = _outer_loop(island, task.outer)
             one = _map_island(koebe, island, outer, options, share, cancel)
-            if one.error is None:
-                _shape(koebe, task.surface, one, options)
             outcome.islands.append(one)
             done += len(island.triangles)
+        _shape(koebe, outcome, options)
         outcomes.append(outcome)
     _lay_out(outcomes, options)
     return outcomes
@@ -163,14 +162,18 @@ def _map_island(koebe, island, outer, options, progress, cancel):
     return IslandOutcome(island, result=result)
 
 
-def _shape(koebe, surface, one, options):
-    """Give a mapped island its shape: the disk as it is or unrolled, and upright if asked."""
-    one.sheet, one.shape = one.island, one.result.uv
-    if options.tube == "unroll" and len(one.result.loops) == 2:
-        one.sheet, one.shape = unroll(surface, one.island, one.result.uv, one.result.loops)
-        one.distortion = koebe.distortion(one.sheet.vertices, one.sheet.triangles, one.shape)
-    if options.upright:
-        turn = upright_turn(one.sheet.vertices, one.sheet.triangles, one.shape)
+def _shape(koebe, outcome, options):
+    """Give the mapped islands of a surface their shapes: disks as they are or unrolled, and upright if asked."""
+    for one in outcome.mapped:
+        one.sheet, one.shape = one.island, one.result.uv
+    tubes = [one for one in outcome.mapped if options.tube == "unroll" and len(one.result.loops) == 2]
+    if tubes:
+        cases = [(one.island, one.result.uv, one.result.loops) for one in tubes]
+        for one, (sheet, shape) in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
+            one.sheet, one.shape = sheet, shape
+            one.distortion = koebe.distortion(sheet.vertices, sheet.triangles, shape)
+    for one in outcome.mapped if options.upright else ():
+        turn = upright_turn(one.sheet, one.shape)
         # A rectangle stays level.
         one.turn = (1.0 if turn.real >= 0.0 else -1.0 + 0.0j) if one.unrolled else turn
 
@@ -223,10 +226,5 @@ def _keep_places(outcome):
 
 def _natural_radius(island, uv):
     """Radius of the disk at which the island's mean texel density is one."""
-    space = island.vertices[island.triangles].astype(np.float64)
-    cross = np.cross(space[:, 1] - space[:, 0], space[:, 2] - space[:, 0])
-    plane = uv[island.triangles]
-    one, two = plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0]
-    in_space = np.linalg.norm(cross, axis=1).sum()
-    in_disk = np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()
-    return float(np.sqrt(in_space / in_disk))
+    in_disk = np.abs(signed_areas(uv, island.triangles)).sum()
+    return float(np.sqrt(island.areas.sum() / in_disk))

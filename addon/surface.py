@@ -5,6 +5,7 @@ Words: a *corner* is one vertex of one face (Blender calls it a loop; here a loo
 """
 
 import dataclasses
+import functools
 
 import numpy as np
 
@@ -61,11 +62,31 @@ class Island:
     corner_vertex: np.ndarray
     faces: np.ndarray
 
+    @functools.cached_property
+    def areas(self):
+        """Area (t,) of each triangle."""
+        return areas(self.vertices, self.triangles)
+
     def some_corner(self):
         """One corner (n,) of the surface for each vertex."""
         corner = np.empty(len(self.source_vertex), dtype=np.int32)
         corner[self.corner_vertex] = self.corners
         return corner
+
+
+def areas(positions, triangles):
+    """Area (t,) of triangles in space."""
+    a, b, c = (positions[triangles[:, k]].T for k in range(3))
+    (x, y, z), (s, t, u) = b - a, c - a
+    return 0.5 * np.sqrt((y * u - z * t) ** 2 + (z * s - x * u) ** 2 + (x * t - y * s) ** 2)
+
+
+def signed_areas(points, triangles):
+    """Area (t,) of triangles in the plane, positive if counter-clockwise."""
+    x, y = points[:, 0], points[:, 1]
+    a, b, c = (triangles[:, k] for k in range(3))
+    xa, ya = x[a], y[a]
+    return 0.5 * ((x[b] - xa) * (y[c] - ya) - (y[b] - ya) * (x[c] - xa))
 
 
 def cut_into_islands(surface):

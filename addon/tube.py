@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Unrolls an annulus to a conformal rectangle, with a wrap seam in the UVs only. No bpy."""
+"""Unrolls annuli to conformal rectangles, with a wrap seam in the UVs only. No bpy."""
 
 import dataclasses
 import heapq
@@ -10,29 +10,46 @@ from .components import connected_components
 from .surface import cut_into_islands
 
 
-def unroll(surface, island, uv, loops):
-    """The island cut open along a short path of edges between its two loops, and the rectangle (n, 2) it becomes.
+def unroll(surface, tubes):
+    """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes.
 
-    `uv` (·, 2) maps the island to the unit disk with a round hole; `loops` are its outer and inner loop. A Moebius map
-    makes the annulus concentric, and z -> i log z takes it to a rectangle: around is along u, from loop to loop is
-    along v. Both are conformal, so angles stay. A vertex on the cut comes out once for either side. The path begins at
-    the back, where y is largest. The rectangle is centred at 0 and lies in the unit disk.
+    A tube is (island, uv, loops): `uv` maps the island to the unit disk with a round hole; `loops` are its outer and
+    inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: around is along u,
+    from loop to loop is along v. Both are conformal, so angles stay. The cut runs along a short path of edges from
+    loop to loop, which begins at the back, where y is largest; a vertex on it comes out once for either side. The
+    rectangle is centred at 0 and lies in the unit disk.
     """
-    z = concentric(uv @ np.array([1.0, 1j]), loops[1])
-    log = np.log(z)
-    edges, ends = _edges(surface, island)
-    start = loops[0][np.argmax(island.vertices[loops[0], 1])]
-    path = _shortest_path(ends, _wrapped_distance(log[ends[:, 0]], log[ends[:, 1]]), start, set(loops[1].tolist()))
-    seam, selected = surface.seam.copy(), np.zeros_like(surface.selected)
-    seam[edges[path]], selected[island.faces] = True, True
-    (sheet,) = cut_into_islands(dataclasses.replace(surface, seam=seam, selected=selected))
+    following = np.arange(1, len(surface.corner_vertex) + 1)
+    following[surface.face_start + surface.face_size - 1] = surface.face_start
+    vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
+    seam, selected, logs = surface.seam.copy(), np.zeros_like(surface.selected), []
+    for island, uv, loops in tubes:
+        log = np.log(concentric(uv @ np.array([1.0, 1j]), loops[1]))
+        vertex[island.corners] = island.corner_vertex
+        edges, first = np.unique(surface.corner_edge[island.corners], return_index=True)
+        corners = island.corners[first]
+        ends = np.stack([vertex[corners], vertex[following[corners]]], axis=1)
+        start = loops[0][np.argmax(island.vertices[loops[0], 1])]
+        length = _wrapped_distance(log[ends[:, 0]], log[ends[:, 1]])
+        seam[edges[_shortest_path(ends, length, start, set(loops[1].tolist()))]] = True
+        selected[island.faces] = True
+        logs.append(log)
+    # Both lists are in the order of the islands' first faces.
+    sheets = cut_into_islands(dataclasses.replace(surface, seam=seam, selected=selected))
+    return [
+        (sheet, _rectangle(sheet, island, log)) for sheet, (island, _, _), log in zip(sheets, tubes, logs, strict=True)
+    ]
+
+
+def _rectangle(sheet, island, log):
+    """Points (n, 2) of the sheet in the plane of i log z, in the unit disk."""
     whole = np.empty(len(sheet.source_vertex), dtype=np.int64)  # vertex of the island for each one of the sheet
     whole[sheet.corner_vertex] = island.corner_vertex
     log = log[whole]
     flat = 1j * (log + 2j * np.pi * _branches(log, sheet.triangles))
     points = np.stack([flat.real, flat.imag], axis=1)
     low, high = points.min(axis=0), points.max(axis=0)
-    return sheet, (points - 0.5 * (low + high)) / (0.5 * np.linalg.norm(high - low))
+    return (points - 0.5 * (low + high)) / (0.5 * np.linalg.norm(high - low))
 
 
 def concentric(z, inner):
@@ -47,17 +64,6 @@ def concentric(z, inner):
         return z
     a = (1.0 + near * far - np.sqrt((1.0 - near**2) * (1.0 - far**2))) / (near + far) * center / distance
     return (z - a) / (1.0 - np.conj(a) * z)
-
-
-def _edges(surface, island):
-    """Edges (k,) of the surface that an island has, and their two vertices (k, 2) in the island."""
-    vertex = np.zeros(len(surface.corner_vertex), dtype=np.int64)
-    vertex[island.corners] = island.corner_vertex
-    following = np.arange(1, len(surface.corner_vertex) + 1)
-    following[surface.face_start + surface.face_size - 1] = surface.face_start
-    edges, first = np.unique(surface.corner_edge[island.corners], return_index=True)
-    corners = island.corners[first]
-    return edges, np.stack([vertex[corners], vertex[following[corners]]], axis=1)
 
 
 def _wrapped_distance(one, two):
