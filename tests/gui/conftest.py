@@ -22,7 +22,8 @@ def window(tmp_path_factory):
 
 @pytest.fixture
 def open_sample(window):
-    """A function that opens a .blend file with its mesh selected, seen from the front in the workspace Layout, and the tab Koebe open."""
+    """A function that opens a .blend file in the workspace Layout: its mesh selected, seen from the front, and the tab
+    Koebe open."""
 
     def opened(name, folder=SAMPLES):
         window.run(f"bpy.ops.wm.open_mainfile(filepath={str(Path(folder) / (name + '.blend'))!r}, load_ui=False)")
