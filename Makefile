@@ -19,7 +19,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SECONDARY:
-.PHONY: help build native wheel package test test-native test-python test-blender test-asan \
+.PHONY: help build native wheel package test test-native test-python test-blender test-gui test-asan \
         demo bench samples clean distclean
 
 help: ## this list
@@ -66,6 +66,11 @@ test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
 
 test-bpy-%: package build/venv-bpy-%/.done
 	scripts/blender_tests.sh build/venv-bpy-$*/bin/python
+
+# Not in `make test`: it wants a machine that does nothing else, and knows where 3.4's sidebar has its tabs.
+test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys in Blender's window: out/gui/
+	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1280x800x24' \
+	    $(PYTHON) -m pytest -p no:cacheprovider -rA tests/gui
 
 test-asan: $(VENV)/.done ## the native tests under the address and undefined behaviour sanitizers
 	$(ccache) cmake --preset asan

@@ -14,9 +14,23 @@ bl_info = {
 
 def _parts():
     """The modules with something to register. Imported late: the rest of the package needs no bpy."""
-    from . import operators, panels, preferences, presets, properties, results, select_operators
+    from . import (
+        circles,
+        distortion_display,
+        fill_operator,
+        operators,
+        panels,
+        preferences,
+        presets,
+        properties,
+        results,
+        select_operators,
+    )
 
-    return properties, results, operators, select_operators, presets, panels, preferences
+    return (
+        properties, results, operators, select_operators, distortion_display, circles, fill_operator, presets, panels,
+        preferences,
+    )  # fmt: skip
 
 
 def register():

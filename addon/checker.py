@@ -8,10 +8,11 @@ a custom property of the object. An object without slots gets one.
 
 import bpy
 
-from . import compat
+from . import compat, transfer
 
 NAME = "Koebe Checker"
 LAYER_KEY = "koebe_checker_layer"  # on the material: the UV layer that it shows
+SIZE_KEY = "koebe_checker_size"  # on the material: its squares across the UV square
 MEMORY_KEY = "koebe_checker_slots"  # on the object: what its slots were
 
 PAPER = (0.80, 0.76, 0.68, 1.0)
@@ -21,16 +22,39 @@ COARSE = 4.0
 COARSE_SHADE = (0.68, 0.68, 0.68, 1.0)
 
 
+def dress(objects, layer, size, even):
+    """Put the checker of a UV layer on objects, `size` squares across the UV square of the first one.
+
+    With `even` the squares of the others are as large in space as those of the first; else all have the same number,
+    and the squares' size shows where texels are dense. Objects must not be in Edit Mode if `even`.
+    """
+    for obj in objects:
+        if is_on(obj):
+            take_off(obj)
+    sizes = [size] * len(objects)
+    if even and len(objects) > 1:
+        density = [transfer.texel_density(obj, layer) for obj in objects]
+        sizes = [size * density[0] / one if density[0] * one > 0.0 else size for one in density]
+    materials = {}
+    for obj, own_size in zip(objects, sizes, strict=True):
+        key = f"{own_size:.3g}"  # sizes that cannot be told apart share a material
+        if key not in materials:
+            materials[key] = checker_material(layer, own_size)
+        put_on(obj, materials[key])
+
+
 def checker_material(layer, size):
-    """The checker of a UV layer, `size` squares across the UV square; made if there is none."""
+    """The checker of a UV layer, `size` squares across the UV square: one that nobody wears, or else a new one."""
     for material in bpy.data.materials:
-        if material.get(LAYER_KEY) == layer and material.library is None and material.node_tree:
+        mine = material.get(LAYER_KEY) == layer and material.library is None and material.node_tree
+        if mine and (material.users == 0 or material.get(SIZE_KEY) == size):
             break
     else:
         material = bpy.data.materials.new(NAME)
         material[LAYER_KEY] = layer
         compat.enable_nodes(material)
         _build(material.node_tree, layer)
+    material[SIZE_KEY] = size
     _set_size(material.node_tree, size)
     return material
 

@@ -25,10 +25,53 @@ def _uv_collection(layer):
     return layer.data, "uv"
 
 
+def read(collection, name, dtype, width=1):
+    """One property of all items of a collection, as an array (n,) or (n, width)."""
+    values = np.empty(len(collection) * width, dtype=dtype)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def read_indices(collection, name, width=1):
+    """Like `read`, for indices, as int32.
+
+    Blender copies them in one go into unsigned integers only; into signed ones it takes each by itself.
+    """
+    return read(collection, name, np.uint32, width).view(np.int32)
+
+
+def corner_indices(mesh):
+    """Vertex (C,) and edge (C,) of each corner. The mesh must not be in Edit Mode."""
+    names = (".corner_vert", ".corner_edge")
+    if all(name in mesh.attributes for name in names):  # 3.6 on, and much faster there
+        return tuple(read(mesh.attributes[name].data, "value", np.int32) for name in names)
+    return read_indices(mesh.loops, "vertex_index"), read_indices(mesh.loops, "edge_index")
+
+
+def seam_edges(mesh):
+    """Whether each edge (E,) is a seam. The mesh must not be in Edit Mode."""
+    if ".edge_verts" not in mesh.attributes:  # before 3.6 an edge holds its flags
+        return read(mesh.edges, "use_seam", bool)
+    for name in ("uv_seam", ".uv_seam"):
+        if name in mesh.attributes:
+            return read(mesh.attributes[name].data, "value", bool)
+    return np.zeros(len(mesh.edges), dtype=bool)
+
+
 def enable_nodes(material):
     """Give a new material its node tree (5.0 on it has one from the start)."""
     if material.node_tree is None:
         material.use_nodes = True
+
+
+def flat_shader(name):
+    """A built-in shader of the gpu module for points with two coordinates."""
+    import gpu
+
+    try:
+        return gpu.shader.from_builtin(name)
+    except ValueError:  # before 3.4 to 4.0 the names said how many coordinates
+        return gpu.shader.from_builtin(f"2D_{name}")
 
 
 def user_folder(package):

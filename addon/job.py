@@ -6,7 +6,7 @@
 
 import dataclasses
 
-from . import checker, native, transfer
+from . import checker, distortion_display, native, transfer
 from .pipeline import Task, map_surfaces
 
 
@@ -43,7 +43,7 @@ class Job:
             vertex = transfer.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
         self.objects.append(obj)
-        self.tasks.append(Task(obj.name, surface, outer))
+        self.tasks.append(Task(obj.name, surface, outer, mirrored=obj.matrix_world.determinant() < 0.0))
 
     def compute(self, progress=None):
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
@@ -75,6 +75,9 @@ class Job:
             if not outcome.mapped:
                 continue
             transfer.write_uv(obj, self.options.layer, *outcome.corner_uv())
-            if self.options.checker:
-                material = checker.checker_material(self.options.layer, self.options.checker_size)
-                checker.put_on(obj, material)
+            kind = distortion_display.shown(obj)
+            if kind is not None:
+                distortion_display.put_on(obj, self.options.layer, kind)
+        if self.options.checker:
+            mapped = [obj for obj, outcome in zip(self.objects, self.outcomes, strict=True) if outcome.mapped]
+            checker.dress(mapped, self.options.layer, self.options.checker_size, self.options.checker_even)

@@ -8,7 +8,7 @@ import numpy as np
 # Halvings of the interval of scales: the packing is within 2⁻¹² of the largest this packer finds.
 BISECTIONS = 12
 # Above this many disks all candidate places of all pairs become slow; shelves waste little then.
-MAX_NESTED_DISKS = 24
+MAX_NESTED_DISKS = 16
 # UV units: an island that was smaller had no place of its own, as in a layer that was never unwrapped.
 SMALLEST_PLACE = 1e-6
 

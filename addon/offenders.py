@@ -3,6 +3,8 @@
 
 import numpy as np
 
+from .surface import signed_areas
+
 VERTICES, EDGES, FACES = "vertices", "edges", "faces"
 # Kinds of `koebe.TopologyError` whose elements are vertices worth showing.
 SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus")
@@ -28,9 +30,6 @@ def _crowded_edges(surface, island):
     return np.flatnonzero((uses > 2) & ~surface.seam)
 
 
-def flipped_faces(island, uv):
-    """Faces of the surface with a triangle whose signed area, in 32-bit UVs of the vertices (n, 2), is not positive."""
-    a, b, c = np.moveaxis(uv.astype(np.float32).astype(np.float64)[island.triangles], 1, 0)
-    one, two = b - a, c - a
-    flipped = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] <= 0.0
-    return np.unique(island.triangle_face[flipped])
+def flipped_triangles(triangles, uv):
+    """Which triangles (m, 3) have a signed area, in 32-bit UVs (n, 2) of the vertices, that is not positive."""
+    return np.flatnonzero(signed_areas(uv.astype(np.float64), triangles) <= 0.0)

@@ -45,7 +45,7 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
         layout.use_property_decorate = False
         for name in UniformizeProperties.__annotations__:
             row = layout.row()
-            row.active = name != "checker_size" or self.checker
+            row.active = not name.startswith("checker_") or self.checker
             row.prop(self, name)
 
     def execute(self, context):
@@ -68,6 +68,7 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
             return {"CANCELLED"}
         self._running = job
         self._worker = Worker(job.compute)
+        self._shown = None
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
         self._show_progress(context)
@@ -75,7 +76,10 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
 
     def modal(self, context, event):
         if event.type == "ESC" and event.value == "PRESS":
-            self._running.cancel_token.cancel()
+            # The thread has arrays of its own and ends at its next checkpoint: nobody has to wait for it.
+            self.cancel(context)
+            self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
+            return {"CANCELLED"}
         if event.type == "TIMER":
             self._show_progress(context)
             if not self._worker.running:
@@ -83,17 +87,13 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
         return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
 
     def cancel(self, context):
-        """Blender ends the operator, as when it quits."""
+        """Give up: by Esc, or when Blender ends the operator, as when it quits."""
         self._running.cancel_token.cancel()
         self._stop_polling(context)
 
     def _end(self, context):
         self._stop_polling(context)
-        try:
-            self._worker.result()
-        except self._running.koebe.Cancelled:
-            self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
-            return {"CANCELLED"}
+        self._worker.result()
         return self._finish(context, self._running)
 
     def _stop_polling(self, context):
@@ -101,10 +101,10 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
         context.workspace.status_text_set(None)
 
     def _show_progress(self, context):
-        worker = self._worker
-        context.workspace.status_text_set(
-            f"Koebe UV: {100 * worker.fraction:.0f} %  {worker.stage}      Esc: Cancel"
-        )
+        text = f"Koebe UV: {100 * self._worker.fraction:.0f} %  {self._worker.stage}      Esc: Cancel"
+        if text != self._shown:  # every change draws the window again
+            context.workspace.status_text_set(text)
+            self._shown = text
 
     def _job(self, context):
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
@@ -138,7 +138,7 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.converged else {"WARNING"}, report.result_line(outcome))
-            for warning in (text for one in outcome.mapped for text in one.result.warnings):
+            for warning in dict.fromkeys(text for one in outcome.mapped for text in report.warnings(outcome.task, one)):
                 self.report({"WARNING"}, f"{outcome.name}: {warning}")
         if failures:
             select_offenders(context, job)
@@ -155,6 +155,7 @@ class UV_OT_koebe_checker(bpy.types.Operator):
 
     layer: UniformizeProperties.__annotations__["layer"]
     checker_size: UniformizeProperties.__annotations__["checker_size"]
+    checker_even: UniformizeProperties.__annotations__["checker_even"]
 
     @classmethod
     def poll(cls, context):
@@ -166,9 +167,8 @@ class UV_OT_koebe_checker(bpy.types.Operator):
         for obj in wearing:
             checker.take_off(obj)
         if not wearing:
-            material = checker.checker_material(self.layer, self.checker_size)
-            for obj in objects:
-                checker.put_on(obj, material)
+            with object_mode(context):
+                checker.dress(objects, self.layer, self.checker_size, self.checker_even)
         return {"FINISHED"}
 
 

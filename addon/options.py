@@ -8,6 +8,7 @@ METHODS = ("gk", "ck")
 ENGINES = ("condensed", "mesh")
 OUTER_LOOPS = ("auto", "longest", "active")
 BALANCES = ("none", "area")
+TUBES = ("annulus", "unroll")
 PLACEMENTS = ("pack", "together", "keep")
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
@@ -25,10 +26,13 @@ class Options:
     outer         "auto", "longest", "active" (the loop of the active vertex, in Edit Mode) or the index of a
                   mesh vertex on the loop which becomes the unit circle
     tolerance     change of the circles between two sweeps, in units of the disk's radius
+    upright       turn every island so that the world's up is up in the UV Editor, else as computed
+    tube          what an island with two loops becomes: "annulus", or "unroll" (a rectangle with a wrap seam)
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
                   "keep" (every island goes where it was before)
     margin        between islands, in units of the UV square
-    checker_size  squares across the UV square
+    checker_size  squares across the UV square of the first object
+    checker_even  the other objects' squares are as large in space; else as many across the UV square
     """
 
     method: str = "gk"
@@ -36,18 +40,22 @@ class Options:
     outer: object = "auto"
     tolerance: float = 1e-6
     max_sweeps: int = 50
-    balance: str = "none"
+    balance: str = "area"
     threads: int = 0
+    upright: bool = True
+    tube: str = "annulus"
     layer: str = "Koebe"
     placement: str = "pack"
     margin: float = 0.02
     checker: bool = True
     checker_size: float = 32.0
+    checker_even: bool = True
 
     def __post_init__(self):
         _one_of("method", self.method, METHODS)
         _one_of("engine", self.engine, ENGINES)
         _one_of("balance", self.balance, BALANCES)
+        _one_of("tube", self.tube, TUBES)
         _one_of("placement", self.placement, PLACEMENTS)
         if isinstance(self.outer, str):
             _one_of("outer", self.outer, OUTER_LOOPS)

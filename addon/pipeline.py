@@ -2,11 +2,15 @@
 """From surfaces to UV coordinates of their corners: the one function behind operator and batch. No bpy."""
 
 import dataclasses
+import functools
 
 import numpy as np
 
 from .layout import Placement, fit_placement, pack_disks
-from .surface import Island, Surface, cut_into_islands
+from .offenders import flipped_triangles
+from .surface import Island, Surface, cut_into_islands, signed_areas
+from .tube import unroll
+from .upright import upright_turn
 
 
 @dataclasses.dataclass(frozen=True)
@@ -14,27 +18,66 @@ class Task:
     """A surface to map.
 
     `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `old_uv` (C, 2) are
-    the UVs of its corners that the placement "keep" goes by.
+    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is negative.
     """
 
     name: str
     surface: Surface
     outer: object = "auto"
+    mirrored: bool = False
     old_uv: np.ndarray = None
 
 
 @dataclasses.dataclass
 class IslandOutcome:
-    """What became of one island: a result of `koebe.uniformize` and its place, or an error."""
+    """What became of one island: a result of `koebe.uniformize`, its shape and its place, or an error.
+
+    sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
+    shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
+    turn        complex number of modulus 1 by which the shape is turned about 0
+    distortion  `koebe.distortion` of the shape, where it is not that of the result
+    """
 
     island: Island
     result: object = None
     error: Exception = None
+    sheet: Island = None
+    shape: np.ndarray = None
+    turn: complex = 1.0
+    distortion: dict = None
     placement: Placement = None
 
+    @property
+    def unrolled(self):
+        """Whether it is a rectangle: then its circles are not in the UVs."""
+        return self.sheet is not self.island
+
+    @property
+    def angle_error(self):
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
+        return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
+
+    def turned(self, points):
+        """Points (n, 2) of the shape after the turn."""
+        if self.turn == 1.0:
+            return points
+        cos, sin = self.turn.real, self.turn.imag
+        return points @ np.array([[cos, sin], [-sin, cos]])
+
+    @functools.cached_property
+    def flat(self):
+        """The sheet's vertices (n, 2) after the turn, in the unit disk."""
+        return self.turned(self.shape)
+
+    @functools.cached_property
     def uv(self):
-        """UV coordinates (n, 2) of the island's vertices."""
-        return self.placement.apply(self.result.uv)
+        """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
+        return self.placement.apply(self.flat).astype(np.float32)
+
+    @functools.cached_property
+    def flipped(self):
+        """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
+        return flipped_triangles(self.sheet.triangles, self.uv)
 
 
 @dataclasses.dataclass
@@ -66,9 +109,9 @@ class SurfaceOutcome:
 
     def corner_uv(self):
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
-        corners = [outcome.island.corners for outcome in self.mapped]
-        uv = [outcome.uv()[outcome.island.corner_vertex] for outcome in self.mapped]
-        return np.concatenate(corners), np.concatenate(uv).astype(np.float32)
+        corners = [outcome.sheet.corners for outcome in self.mapped]
+        uv = [outcome.uv[outcome.sheet.corner_vertex] for outcome in self.mapped]
+        return np.concatenate(corners), np.concatenate(uv)
 
 
 def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
@@ -87,8 +130,10 @@ def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
         for island in islands:
             share = _share_of(progress, done, len(island.triangles), total)
             outer = _outer_loop(island, task.outer)
-            outcome.islands.append(_map_island(koebe, island, outer, options, share, cancel))
+            one = _map_island(koebe, island, outer, options, share, cancel)
+            outcome.islands.append(one)
             done += len(island.triangles)
+        _shape(koebe, outcome, options)
         outcomes.append(outcome)
     _lay_out(outcomes, options)
     return outcomes
@@ -117,6 +162,22 @@ def _map_island(koebe, island, outer, options, progress, cancel):
     return IslandOutcome(island, result=result)
 
 
+def _shape(koebe, outcome, options):
+    """Give the mapped islands of a surface their shapes: disks as they are or unrolled, and upright if asked."""
+    for one in outcome.mapped:
+        one.sheet, one.shape = one.island, one.result.uv
+    tubes = [one for one in outcome.mapped if options.tube == "unroll" and len(one.result.loops) == 2]
+    if tubes:
+        cases = [(one.island, one.result.uv, one.result.loops) for one in tubes]
+        for one, (sheet, shape) in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
+            one.sheet, one.shape = sheet, shape
+            one.distortion = koebe.distortion(sheet.vertices, sheet.triangles, shape)
+    for one in outcome.mapped if options.upright else ():
+        turn = upright_turn(one.sheet, one.shape)
+        # A rectangle stays level.
+        one.turn = (1.0 if turn.real >= 0.0 else -1.0 + 0.0j) if one.unrolled else turn
+
+
 def _outer_loop(island, outer):
     """The solver's `outer` for this island: a vertex counts only for the island that has it."""
     if isinstance(outer, str):
@@ -137,11 +198,16 @@ def _lay_out(outcomes, options):
 
 def _pack(group, margin):
     if len(group) == 1:
-        group[0].placement = Placement()
+        group[0].placement = Placement(scale=0.5 / _half_size(group[0]))
     elif group:
-        sizes = [_natural_radius(one.island, one.result.uv) for one in group]
+        sizes = [_natural_radius(one.sheet, one.flat) for one in group]
         for one, placement in zip(group, pack_disks(sizes, margin), strict=True):
             one.placement = placement
+
+
+def _half_size(one):
+    """Half the side of the smallest square around 0 that holds an island: 1 for a disk."""
+    return float(np.abs(one.flat).max()) if one.unrolled else 1.0
 
 
 def _keep_places(outcome):
@@ -149,8 +215,7 @@ def _keep_places(outcome):
     if outcome.task.old_uv is None:
         return False
     placements = [
-        fit_placement(one.result.uv[one.island.corner_vertex], outcome.task.old_uv[one.island.corners])
-        for one in outcome.mapped
+        fit_placement(one.flat, outcome.task.old_uv[one.sheet.some_corner()]) for one in outcome.mapped
     ]
     if any(placement is None for placement in placements):
         return False
@@ -161,10 +226,5 @@ def _keep_places(outcome):
 
 def _natural_radius(island, uv):
     """Radius of the disk at which the island's mean texel density is one."""
-    space = island.vertices[island.triangles].astype(np.float64)
-    cross = np.cross(space[:, 1] - space[:, 0], space[:, 2] - space[:, 0])
-    plane = uv[island.triangles]
-    one, two = plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0]
-    in_space = np.linalg.norm(cross, axis=1).sum()
-    in_disk = np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()
-    return float(np.sqrt(in_space / in_disk))
+    in_disk = np.abs(signed_areas(uv, island.triangles)).sum()
+    return float(np.sqrt(island.areas.sum() / in_disk))

@@ -64,6 +64,22 @@ class UniformizeProperties:
         default=DEFAULTS.balance,
         description="Use of the freedom that a conformal map leaves: which point becomes the centre of the disk",
     )
+    upright: BoolProperty(
+        name="Upright",
+        default=DEFAULTS.upright,
+        description="Turn every island so that the world's up (+Z, or +Y for what lies flat) is up in the UV Editor. "
+        "A conformal map leaves the turn of the disk open",
+    )
+    tube: EnumProperty(
+        name="Tube",
+        items=[
+            ("annulus", "Annulus", "A ring, nothing cut: texels get smaller towards the hole, very much on long tubes"),
+            ("unroll", "Unrolled", "A rectangle, cut along a short path at the back (in the UVs only): even texels. "
+             "Angles stay"),
+        ],
+        default=DEFAULTS.tube,
+        description="What an island with two boundary loops becomes: a sleeve, a limb, a vase without a bottom",
+    )
     layer: StringProperty(
         name="UV Layer",
         default=DEFAULTS.layer,
@@ -100,7 +116,13 @@ class UniformizeProperties:
         min=1.0,
         soft_max=256.0,
         max=4096.0,
-        description="Checker squares across the UV square",
+        description="Checker squares across the UV square, of the active object if there are several",
+    )
+    checker_even: BoolProperty(
+        name="Even Squares",
+        default=DEFAULTS.checker_even,
+        description="The squares are equally large on all objects. Off: equally many across each UV square, "
+        "so that their size shows the texel density",
     )
 
 

@@ -3,27 +3,30 @@
 
 import numpy as np
 
-# What an artist can do about each kind of `koebe.TopologyError`.
-ADVICE = {
-    "closed": "mark a seam or delete a face, so that it has a boundary",
-    "genus": "mark a seam along each handle, so that it opens",
-    "nonmanifold_edge": "delete the surplus faces or mark those edges as seams",
-    "nonmanifold_vertex": "split those vertices",
-    "nonorientable": "one-sided, like a Möbius strip: mark a seam across it",
+# What is wrong, and what an artist can do about it, by the kind of `koebe.TopologyError`.
+REASONS = {
+    "closed": "the surface is closed: mark a seam or delete a face, so that it has a boundary",
+    "genus": "the surface has a handle ({detail}): mark a seam along it, so that it opens",
+    "nonmanifold_edge": "{pairs} with more than two faces: delete the surplus faces or mark those edges as seams",
+    "nonmanifold_vertex": "{vertices} where separate parts of it touch: split them",
+    "nonorientable": "the surface is one-sided, like a Möbius strip: mark a seam across it",
 }
+MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
+# UV units: an edge below this is a dozen steps of a 32-bit number near 1 at most. As in the native report.
+RESOLUTION = 1e-6
 
 
 def result_line(outcome):
     """One line on a surface: loops, sweeps, roundness, angle error, flips, seconds."""
     results = [one.result for one in outcome.mapped]
     triangles = np.array([len(one.island.triangles) for one in outcome.mapped], dtype=float)
-    angle = sum(r.angle_error_deg["mean"] * t for r, t in zip(results, triangles)) / triangles.sum()
+    angle = sum(one.angle_error * t for one, t in zip(outcome.mapped, triangles)) / triangles.sum()
     words = [
         _counted(sum(len(r.loops) for r in results), "loop"),
         _counted(max(r.sweeps for r in results), "sweep"),
         f"roundness {max(float(np.max(r.roundness)) for r in results):.1e}",
         f"angle error {angle:.2f}°",
-        _counted(sum(r.flipped for r in results), "flip"),
+        _counted(sum(len(one.flipped) for one in outcome.mapped), "flip"),
         f"{sum(r.seconds['total'] for r in results):.2f} s",
     ]
     if len(results) > 1:
@@ -49,17 +52,28 @@ def failure_line(outcome):
 
 def explain(error):
     """Why the solver refused, and what to do about it."""
-    advice = ADVICE.get(getattr(error, "kind", None))
-    return str(error) if advice is None else f"{error} ({advice})"
+    reason = REASONS.get(getattr(error, "kind", None))
+    if reason is None:
+        return str(error)
+    return reason.format(
+        detail=str(error).split(":")[0],
+        pairs=_counted(len(error.elements) // 2, "edge"),
+        vertices=_counted(len(error.elements), "vertex", "vertices"),
+    )
+
+
+def warnings(task, one):
+    """What to watch out for in a mapped island."""
+    return [*one.result.warnings, *([MIRRORED] if task.mirrored else [])]
 
 
 def entries(outcome):
     """One dict per island: `result.to_dict()` in the mesh's vertex numbers, or the error."""
-    return [_entry(outcome.name, index, one) for index, one in enumerate(outcome.islands)]
+    return [_entry(outcome.task, index, one) for index, one in enumerate(outcome.islands)]
 
 
-def _entry(name, index, one):
-    entry = {"object": name, "island": index, "island_faces": len(one.island.faces)}
+def _entry(task, index, one):
+    entry = {"object": task.name, "island": index, "island_faces": len(one.island.faces)}
     if one.error is not None:
         error = {"name": type(one.error).__name__, "reason": str(one.error)}
         kind = getattr(one.error, "kind", None)
@@ -72,8 +86,22 @@ def _entry(name, index, one):
     for loop in result["loops"]:
         for key in ("vertices", "off_circle"):
             loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()
+        if not one.unrolled:
+            loop["center"] = one.turned(np.array([loop["center"]]))[0].tolist()
+    result.update(one.distortion or {})
+    result["unrolled"] = one.unrolled
+    result["warnings"] = warnings(task, one)
+    result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded
+    result["below_resolution"] = _below_resolution(one)
     return {**result, **entry, "placement": one.placement.to_dict()}
 
 
-def _counted(count, noun):
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+def _below_resolution(one):
+    """Flipped triangles whose longest edge in the UVs is too short to be drawn."""
+    corners = one.uv[one.sheet.triangles[one.flipped]].astype(np.float64)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)
+    return int(np.count_nonzero(longest < RESOLUTION))
+
+
+def _counted(count, noun, plural=None):
+    return f"{count} {noun if count == 1 else plural or noun + 's'}"

@@ -4,17 +4,19 @@
 import json
 
 import bpy
+import numpy as np
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
     FloatProperty,
+    FloatVectorProperty,
     IntProperty,
     PointerProperty,
     StringProperty,
 )
 
-from .offenders import flipped_faces, offending_elements
-from .report import explain
+from .offenders import offending_elements
+from .report import explain, warnings
 
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
@@ -23,6 +25,8 @@ class KoebeLoopReport(bpy.types.PropertyGroup):
     vertices: StringProperty(description="Vertices of the mesh along the loop, as JSON")
     radius: FloatProperty(description="Radius of its circle in the unit disk")
     roundness: FloatProperty(description="Deviation from a circle before the last step, as in the paper")
+    uv_center: FloatVectorProperty(size=2, description="Centre of its circle in the UVs")
+    uv_radius: FloatProperty(description="Radius of its circle in the UVs, 0 if it is no circle there")
 
 
 class KoebeIslandReport(bpy.types.PropertyGroup):
@@ -49,6 +53,11 @@ class KoebeReport(bpy.types.PropertyGroup):
 
     islands: CollectionProperty(type=KoebeIslandReport, description="Islands of the last run")
     active: IntProperty(name="Island", description="Island whose details are shown")
+    show_circles: BoolProperty(
+        name="Circles",
+        default=True,
+        description="Draw the circles of the last run over the UVs, with the numbers of the report's loops",
+    )
 
 
 def record(context, job):
@@ -61,23 +70,28 @@ def record(context, job):
             entry = report.islands.add()
             entry.object_name, entry.island, entry.layer = obj.name, index, job.options.layer
             if one.error is None:
-                _record_result(entry, one)
+                _record_result(entry, task, one)
             else:
                 entry.message = explain(one.error)
                 kind, elements = offending_elements(task.surface, one)
                 entry.offenders = json.dumps([kind, elements.tolist()])
 
 
-def _record_result(entry, one):
+def _record_result(entry, task, one):
     result = one.result
     entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
-    entry.angle_error = result.angle_error_deg["mean"]
+    entry.angle_error = one.angle_error
     entry.roundness = float(result.roundness.max())
-    entry.flipped, entry.seconds = result.flipped, result.seconds["total"]
-    entry.flipped_faces = json.dumps(flipped_faces(one.island, one.uv()).tolist())
-    entry.message = "; ".join(result.warnings)
-    for vertices, radius, roundness in zip(result.loops, result.radii, result.roundness, strict=True):
+    entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
+    entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
+    entry.message = "; ".join(warnings(task, one))
+    centers = one.placement.apply(one.turned(result.centers))
+    for vertices, center, radius, roundness in zip(
+        result.loops, centers, result.radii, result.roundness, strict=True
+    ):
         loop = entry.loops.add()
+        loop.uv_center = center
+        loop.uv_radius = 0.0 if one.unrolled else one.placement.scale * float(radius)
         loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
         loop.radius, loop.roundness = float(radius), float(roundness)
 

@@ -5,6 +5,7 @@ Words: a *corner* is one vertex of one face (Blender calls it a loop; here a loo
 """
 
 import dataclasses
+import functools
 
 import numpy as np
 
@@ -61,6 +62,32 @@ class Island:
     corner_vertex: np.ndarray
     faces: np.ndarray
 
+    @functools.cached_property
+    def areas(self):
+        """Area (t,) of each triangle."""
+        return areas(self.vertices, self.triangles)
+
+    def some_corner(self):
+        """One corner (n,) of the surface for each vertex."""
+        corner = np.empty(len(self.source_vertex), dtype=np.int32)
+        corner[self.corner_vertex] = self.corners
+        return corner
+
+
+def areas(positions, triangles):
+    """Area (t,) of triangles in space."""
+    a, b, c = (positions[triangles[:, k]].T for k in range(3))
+    (x, y, z), (s, t, u) = b - a, c - a
+    return 0.5 * np.sqrt((y * u - z * t) ** 2 + (z * s - x * u) ** 2 + (x * t - y * s) ** 2)
+
+
+def signed_areas(points, triangles):
+    """Area (t,) of triangles in the plane, positive if counter-clockwise."""
+    x, y = points[:, 0], points[:, 1]
+    a, b, c = (triangles[:, k] for k in range(3))
+    xa, ya = x[a], y[a]
+    return 0.5 * ((x[b] - xa) * (y[c] - ya) - (y[b] - ya) * (x[c] - xa))
+
 
 def cut_into_islands(surface):
     """Islands of the selected faces, cut along seams, in the order of their first faces.
@@ -114,14 +141,15 @@ def _same_vertex(corner_vertex, next_corner, here, there):
 
 
 def _split(surface, corners, corner_face, corner_root, face_root):
-    roots = np.flatnonzero(np.bincount(corner_root[corners], minlength=len(corner_root)))
-    islands, face_island = np.unique(face_root[surface.selected], return_inverse=True)
-    island_of_face = np.full(len(face_root), -1)
-    island_of_face[surface.selected] = face_island
+    faces = np.flatnonzero(surface.selected)
+    roots, islands = _distinct(corner_root[corners]), _distinct(face_root[faces])
+    rank_of_root = np.zeros(len(face_root), dtype=np.int32)
+    rank_of_root[islands] = np.arange(len(islands), dtype=np.int32)
+    island_of_face = rank_of_root[face_root]
 
     root_island = island_of_face[corner_face[roots]]
     root_vertex = surface.corner_vertex[roots]
-    order = np.lexsort((roots, root_vertex, root_island))
+    order = np.lexsort((root_vertex, root_island))  # stable: equal ones stay in the order of their roots
     roots, root_island, root_vertex = roots[order], root_island[order], root_vertex[order]
     rank = np.zeros(len(corner_root), dtype=np.int32)
     rank[roots] = np.arange(len(roots), dtype=np.int32)
@@ -131,7 +159,6 @@ def _split(surface, corners, corner_face, corner_root, face_root):
     triangles = np.flatnonzero(surface.selected[surface.triangle_face])
     triangle_groups = _groups(island_of_face[surface.triangle_face[triangles]], triangles, count)
     corner_groups = _groups(island_of_face[corner_face[corners]], corners, count)
-    faces = np.flatnonzero(surface.selected)
     face_groups = _groups(island_of_face[faces], faces, count)
     first_vertex = np.searchsorted(root_island, np.arange(count + 1))
 
@@ -151,6 +178,11 @@ def _split(surface, corners, corner_face, corner_root, face_root):
             )
         )
     return result
+
+
+def _distinct(labels):
+    """The labels that occur, in order."""
+    return np.flatnonzero(np.bincount(labels))
 
 
 def _groups(keys, values, count):

@@ -4,7 +4,7 @@
 import bmesh
 import numpy as np
 
-from . import compat
+from . import compat, distortion
 from .surface import Surface
 
 MAX_UV_LAYERS = 8  # Blender's limit
@@ -26,41 +26,43 @@ def read_surface(obj, selected_only):
     mesh = obj.data
     mesh.calc_loop_triangles()
     triangles = mesh.loop_triangles
+    vertex, edge = compat.corner_indices(mesh)
     return Surface(
         positions=_world_positions(obj),
-        corner_vertex=_read(mesh.loops, "vertex_index", np.int32),
-        corner_edge=_read(mesh.loops, "edge_index", np.int32),
-        face_start=_read(mesh.polygons, "loop_start", np.int32),
-        face_size=_read(mesh.polygons, "loop_total", np.int32),
-        seam=_read(mesh.edges, "use_seam", bool),
+        corner_vertex=vertex,
+        corner_edge=edge,
+        face_start=compat.read_indices(mesh.polygons, "loop_start"),
+        face_size=compat.read_indices(mesh.polygons, "loop_total"),
+        seam=compat.seam_edges(mesh),
         selected=_selected_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
-        triangle_corners=_read(triangles, "loops", np.int32, 3),
-        triangle_face=_read(triangles, "polygon_index", np.int32),
+        triangle_corners=compat.read_indices(triangles, "loops", 3),
+        triangle_face=compat.read_indices(triangles, "polygon_index"),
     )
 
 
 def _selected_faces(mesh):
-    return _read(mesh.polygons, "select", bool) & ~_read(mesh.polygons, "hide", bool)
+    return compat.read(mesh.polygons, "select", bool) & ~compat.read(mesh.polygons, "hide", bool)
 
 
 def _world_positions(obj):
-    positions = _read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
+    positions = compat.read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
     to_world = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
     if np.array_equal(to_world, np.eye(3)):
         return positions
     return positions @ to_world.T
 
 
-def _read(collection, name, dtype, width=1):
-    values = np.empty(len(collection) * width, dtype=dtype)
-    collection.foreach_get(name, values)
-    return values.reshape(-1, width) if width > 1 else values
-
-
 def read_uv(obj, layer_name):
     """UVs (C, 2) of the layer of that name, or else of the active one, or None. Not in Edit Mode."""
     layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
     return None if layer is None else compat.corner_uv(layer)
+
+
+def texel_density(obj, layer_name):
+    """Mean length in the UVs of a layer over length in space; 0 if there are none. Not in Edit Mode."""
+    if layer_name not in obj.data.uv_layers:
+        return 0.0
+    return distortion.texel_density(read_surface(obj, selected_only=False), read_uv(obj, layer_name))
 
 
 def active_vertex(obj):

@@ -5,14 +5,17 @@ import threading
 
 
 class Worker:
-    """Runs `compute(progress)` on a thread. Poll `running`; when it is false call `result`."""
+    """Runs `compute(progress)` on a thread. Poll `running`; when it is false call `result`.
+
+    Python waits for the thread when it ends: to be cut off in native code could bring the program down.
+    """
 
     def __init__(self, compute):
         self.fraction = 0.0
         self.stage = ""
         self._compute = compute
         self._error = None
-        self._thread = threading.Thread(target=self._run, name="koebe", daemon=True)
+        self._thread = threading.Thread(target=self._run, name="koebe")
         self._thread.start()
 
     @property

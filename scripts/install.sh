@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install the Debian packages that are missing.
-# Usage: scripts/install.sh build|blender ...        LIST=1 prints the names and installs nothing.
+# Usage: scripts/install.sh build|blender|gui ...       LIST=1 prints the names and installs nothing.
 set -euo pipefail
 
 declare -A groups=(
@@ -10,6 +10,7 @@ declare -A groups=(
         nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev
         python3-dev python3-venv python3-numpy python3-pytest ca-certificates"
     # Blender, what the bpy wheels link, and a screen with software OpenGL for windows and renders
+    [gui]="xdotool imagemagick"
     [blender]="blender libgl1 libsm6 libxfixes3 libxi6 libxkbcommon0 libxrender1
         libegl1 libgl1-mesa-dri xvfb xauth"
 )

@@ -12,7 +12,6 @@ import bpy
 
 # isort: split
 import addon_utils  # bpy brings it
-import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -40,6 +39,8 @@ def validate(package: str) -> None:
 
 
 def main() -> None:
+    import pytest
+
     arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:]
     package, *options = arguments
     module = install(package)
@@ -51,4 +52,5 @@ def main() -> None:
     os._exit(code)  # pytest's line stays the last one; what Blender does when it closes is not under test
 
 
-main()
+if __name__ == "__main__":
+    main()

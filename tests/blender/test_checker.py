@@ -137,3 +137,24 @@ def test_a_render_with_cycles_shows_both_colours(tmp_path):
     red = np.array(image.pixels[:]).reshape(64, 64, 4)[2:62, 2:62, 0]
     assert (red > 0.65).mean() > 0.2
     assert (red < 0.55).mean() > 0.2
+
+
+def squares_in_space(obj):
+    """Mean side of a checker square on the surface."""
+    mesh = obj.data
+    to_world = np.array(obj.matrix_world)[:3, :3]
+    vertices, _ = scenes.triangles(mesh)
+    points = (scenes.read(mesh.vertices, "co", np.float32, 3) @ to_world.T)[vertices]
+    in_space = 0.5 * np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]), axis=1).sum()
+    fine = obj.material_slots[0].material.node_tree.nodes["Fine"].inputs["Scale"].default_value
+    return np.sqrt(in_space / scenes.signed_areas(mesh, "Koebe").sum()) / fine
+
+
+@pytest.mark.parametrize("even", [True, False])
+def test_squares_are_even_over_objects_if_asked(even):
+    one, two = scenes.add_panel("One"), scenes.add_panel("Two")
+    two.scale = (3, 3, 3)
+    scenes.select(one, two)
+    bpy.ops.uv.koebe_uniformize(checker_even=even, checker_size=20)
+    assert one.material_slots[0].material.node_tree.nodes["Fine"].inputs["Scale"].default_value == 20
+    assert squares_in_space(two) / squares_in_space(one) == pytest.approx(1 if even else 3, rel=1e-3)

@@ -15,7 +15,7 @@ def test_a_panel_with_holes_becomes_a_circle_domain():
 
 def test_the_operator_writes_what_the_native_package_computes(koebe):
     obj = scenes.add_panel()
-    bpy.ops.uv.koebe_uniformize(outer="longest", tolerance=1e-5)
+    bpy.ops.uv.koebe_uniformize(outer="longest", tolerance=1e-5, upright=False)
     vertices = scenes.read(obj.data.vertices, "co", np.float32, 3)
     triangles, _ = scenes.triangles(obj.data)
     result = koebe.uniformize(vertices, triangles, outer="longest", tolerance=float(np.float32(1e-5)))
@@ -117,7 +117,7 @@ def test_rotation_and_uniform_scale_change_nothing_to_speak_of():
     obj, moved = scenes.add_panel("Here"), scenes.add_panel("There")
     moved.location, moved.rotation_euler, moved.scale = (9, 8, 7), (0.4, 1.2, -2.0), (3, 3, 3)
     scenes.select(obj, moved)
-    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.uv.koebe_uniformize(upright=False)
     assert np.abs(scenes.corner_uv(obj.data, "Koebe") - scenes.corner_uv(moved.data, "Koebe")).max() < 1e-5
 
 
@@ -128,6 +128,8 @@ def test_a_mirrored_object_has_the_same_map_not_flipped():
     bpy.ops.uv.koebe_uniformize()
     scenes.assert_circle_domain(mirrored)
     assert np.abs(scenes.corner_uv(obj.data, "Koebe") - scenes.corner_uv(mirrored.data, "Koebe")).max() < 1e-5
+    plain, warned = bpy.context.window_manager.koebe_uv.islands
+    assert "negative" in warned.message and not plain.message
 
 
 def test_ngons_and_quads_and_triangles_together():

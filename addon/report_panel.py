@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The part of the panel that shows the last run, island by island."""
+
+import textwrap
+
+import bpy
+
+from .operators import UV_OT_koebe_uniformize
+from .properties import copy_options
+from .select_operators import (
+    UV_OT_koebe_select_flipped,
+    UV_OT_koebe_select_loop,
+    UV_OT_koebe_select_offenders,
+    active_entry,
+)
+
+MESSAGE_WIDTH = 28  # characters of a line of text in a sidebar of the usual width
+MAX_LOOP_BUTTONS = 40
+# Radius of an annulus's hole, in units of its rim, below which texels differ by the inverse: better unrolled.
+LONG_TUBE = 0.2
+
+
+class KoebePanel:
+    """What the panels have in common; mixed into one class per editor."""
+
+    bl_region_type = "UI"
+    bl_category = "Koebe"
+
+    def aligned_layout(self):
+        """The layout with names on the left and without keyframe dots."""
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout
+
+
+class KOEBE_UL_islands(bpy.types.UIList):
+    """The islands of the last run, one a line."""
+
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property):
+        row = layout.row(align=True)
+        row.label(text=f"{item.object_name} {item.island + 1}", icon=island_icon(item))
+        if item.mapped:
+            row.label(text=f"{item.angle_error:.2f}°")
+            row.label(text=f"{item.flipped} flips" if item.flipped else "no flips")
+        else:
+            row.label(text="not mapped")
+
+
+def island_icon(entry):
+    """Good, to be looked at, or not mapped."""
+    if not entry.mapped:
+        return "CANCEL"
+    return "CHECKMARK" if entry.converged and not entry.flipped and not entry.message else "ERROR"
+
+
+class ReportPanel(KoebePanel):
+    """The last run, island by island."""
+
+    bl_label = "Report"
+
+    def draw(self, context):
+        layout = self.layout
+        report = context.window_manager.koebe_uv
+        if not report.islands:
+            layout.label(text="No run yet")
+        if len(report.islands) > 1:
+            layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
+        entry = active_entry(context)
+        if entry is None:
+            return
+        if entry.mapped:
+            draw_result(layout.column(), entry)
+            draw_unroll(layout, context, entry)
+        lines = layout.column(align=True)
+        lines.scale_y = 0.8
+        for line in textwrap.wrap(entry.message, MESSAGE_WIDTH):
+            lines.label(text=line)
+        if not entry.mapped:
+            layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
+
+
+def draw_result(column, entry):
+    """Figures of a mapped island, and buttons that select its loops and its flipped faces."""
+    column.label(text=f"{entry.object_name}, island {entry.island + 1}", icon=island_icon(entry))
+    table = column.column(align=True)
+    for name, value in (
+        ("Angle error", f"{entry.angle_error:.2f}°"),
+        ("Roundness", f"{entry.roundness:.1e}"),
+        ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged"),
+        ("Flipped", f"{entry.flipped}"),
+        ("Time", f"{entry.seconds:.2f} s"),
+    ):
+        split = table.split(factor=0.45)
+        split.label(text=name)
+        split.label(text=value)
+    if entry.flipped:
+        column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
+    column.label(text="Select Loop")
+    grid = column.grid_flow(row_major=True, columns=4, even_columns=True, align=True)
+    for index in range(min(len(entry.loops), MAX_LOOP_BUTTONS)):
+        text = "Rim" if index == 0 else f"{index}"
+        grid.operator(UV_OT_koebe_select_loop.bl_idname, text=text).loop = index
+
+
+def draw_unroll(layout, context, entry):
+    """The offer to unroll a long tube."""
+    if len(entry.loops) == 2 and entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
+        button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")
+        copy_options(context.scene.koebe_uv, button)
+        button.tube = "unroll"

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the add-on costs beside the native call: seconds per 100,000 faces, as a Markdown table and JSON.
+
+    blender -b [IN.blend] --factory-startup --python-exit-code 1 -P bench/addon_overhead.py -- [--faces N] [--runs N]
+    python bench/addon_overhead.py -- [options]                                  (with the bpy module)
+
+Every mesh object of the file, or without one a bent panel of quads with holes, goes through the operator: the time
+of the operator less the time inside the native call, median of the runs. The bound is on the main thread's processor
+time, which other work on the machine does not change. Exit code 1 if a row of Object Mode is over it; in Edit Mode
+most of the time is Blender's own change of mode, there and back.
+"""
+
+import argparse
+import importlib.util
+import json
+import os
+import sys
+import time
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+BOUND = 0.15  # seconds per 100,000 faces
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tests" / "blender"))
+
+
+def parse():
+    """The options after "--"."""
+    given = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    parser = argparse.ArgumentParser(prog="addon_overhead.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--faces", type=int, default=150_000)
+    parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--profile", action="store_true", help="also where the time goes")
+    return parser.parse_args(given)
+
+
+def registered_addon():
+    """The add-on of this checkout, registered."""
+    spec = importlib.util.spec_from_file_location(
+        "koebe_uv", ROOT / "addon" / "__init__.py", submodule_search_locations=[str(ROOT / "addon")]
+    )
+    package = importlib.util.module_from_spec(spec)
+    sys.modules["koebe_uv"] = package
+    spec.loader.exec_module(package)
+    package.register()
+    return importlib.import_module("koebe_uv.native").load()
+
+
+def made_panel(faces):
+    """A panel with about so many faces."""
+    import scenes
+
+    return scenes.add_panel(size=round((faces / 0.94) ** 0.5))
+
+
+def now():
+    """Seconds on the wall and of this thread's processor time."""
+    return np.array([time.perf_counter(), time.thread_time()])
+
+
+class NativeClock:
+    """Counts the seconds inside `koebe.uniformize`."""
+
+    def __init__(self, koebe):
+        self.seconds = np.zeros(2)
+        self._call = koebe.uniformize
+        koebe.uniformize = self
+
+    def __call__(self, *arguments, **options):
+        start = now()
+        try:
+            return self._call(*arguments, **options)
+        finally:
+            self.seconds += now() - start
+
+
+def overhead(clock, runs, **options):
+    """Medians over the runs: wall and processor seconds beside the native call, wall seconds of the native call."""
+    beside, native = [], []
+    for _ in range(runs):
+        clock.seconds[:] = 0.0
+        start = now()
+        bpy.ops.uv.koebe_uniformize(tolerance=1e-4, **options)
+        beside.append(now() - start - clock.seconds)
+        native.append(clock.seconds[0])
+    return *np.median(beside, axis=0), np.median(native)
+
+
+def measure(obj, clock, runs):
+    """Rows for one object: in Object Mode, with the islands kept in place, and in Edit Mode."""
+    for other in bpy.context.view_layer.objects:
+        other.select_set(other == obj)
+    bpy.context.view_layer.objects.active = obj
+    faces = len(obj.data.polygons)
+    rows = []
+    for mode, placement in (("OBJECT", "pack"), ("OBJECT", "keep"), ("EDIT", "pack")):
+        bpy.ops.object.mode_set(mode=mode)
+        if mode == "EDIT":
+            bpy.ops.mesh.select_all(action="SELECT")
+        wall, cpu, native = overhead(clock, runs, placement=placement)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        rows.append(
+            {"object": obj.name, "faces": faces, "mode": mode, "placement": placement, "native": native,
+             "wall": wall, "cpu": cpu, "wall_per_100k": wall * 1e5 / faces, "cpu_per_100k": cpu * 1e5 / faces}
+        )  # fmt: skip
+    return rows
+
+
+def main():
+    options = parse()
+    clock = NativeClock(registered_addon())
+    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"] if bpy.data.filepath else []
+    rows = [row for obj in meshes or [made_panel(options.faces)] for row in measure(obj, clock, options.runs)]
+    print("| object | faces | mode | placement | native s | beside s per 100,000 faces | of them processor s |")
+    print("|" + " --- |" * 7)
+    line = "| {object} | {faces:,} | {mode} | {placement} | {native:.2f} | {wall_per_100k:.3f} | {cpu_per_100k:.3f} |"
+    for row in rows:
+        print(line.format(**row))
+    out = ROOT / "out" / "bench" / "addon_overhead.json"
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(json.dumps({"blender": bpy.app.version_string, "bound": BOUND, "rows": rows}, indent=1) + "\n")
+    if options.profile:
+        profile()
+    return int(any(row["cpu_per_100k"] > BOUND for row in rows if row["mode"] == "OBJECT"))
+
+
+def profile():
+    """The functions beside the native call that take longest."""
+    import cProfile
+    import pstats
+
+    profiler = cProfile.Profile()
+    profiler.runcall(bpy.ops.uv.koebe_uniformize, tolerance=1e-4)
+    pstats.Stats(profiler).sort_stats("tottime").print_stats(18)
+
+
+if __name__ == "__main__":
+    code = main()
+    sys.stdout.flush()
+    os._exit(code)  # the bpy module may wait for ever in its own clean-up

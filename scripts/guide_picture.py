@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The guide's picture of a textured model: the vase, unrolled, in a pattern that repeats around it.
+
+    blender -b blend_samples/vase.blend --factory-startup --python-exit-code 1 -P scripts/guide_picture.py -- OUT.jpg
+
+The vase is mapped as `addon/batch.py --tube unroll` maps it; the pattern is computed here, so no file goes with it.
+"""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+PIXELS = 256
+REPEATS = 12.0  # of the pattern around the vase: a whole number, so that it meets itself at the cut
+PAPER, INK = (0.93, 0.90, 0.82), (0.05, 0.13, 0.36)
+sys.dont_write_bytecode = True
+
+
+def addon_module(name):
+    """A module of this checkout's add-on."""
+    if "koebe_uv" not in sys.modules:
+        spec = importlib.util.spec_from_file_location(
+            "koebe_uv", ROOT / "addon" / "__init__.py", submodule_search_locations=[str(ROOT / "addon")]
+        )
+        sys.modules["koebe_uv"] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(sys.modules["koebe_uv"])
+    return importlib.import_module(f"koebe_uv.{name}")
+
+
+def pattern():
+    """One repeat as an image: a flower in a diamond."""
+    s, t = np.meshgrid(*2 * [np.linspace(-1, 1, PIXELS, endpoint=False)])
+    r, angle, diamond = np.hypot(s, t), np.arctan2(t, s), np.abs(s) + np.abs(t)
+    petals = (r < 0.62 * np.abs(np.cos(2 * angle)) ** 0.6) & (r > 0.1)
+    ink = petals | (np.abs(diamond - 0.96) < 0.05) | (np.hypot(np.abs(s) - 1, np.abs(t) - 1) < 0.2) | (r < 0.06)
+    image = bpy.data.images.new("pattern", PIXELS, PIXELS)
+    pixels = np.ones((PIXELS, PIXELS, 4), np.float32)
+    pixels[..., :3] = np.where(ink[..., None], INK, PAPER)
+    image.pixels.foreach_set(pixels.ravel())
+    image.pack()
+    return image
+
+
+def textured(image):
+    """A glazed material that shows the image by the layer Koebe."""
+    material = bpy.data.materials.new("glaze")
+    if material.node_tree is None:
+        material.use_nodes = True
+    nodes, link = material.node_tree.nodes, material.node_tree.links.new
+    surface = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    surface.inputs["Roughness"].default_value = 0.25
+    uv, scale, texture = (nodes.new(f"ShaderNode{kind}") for kind in ("UVMap", "VectorMath", "TexImage"))
+    uv.uv_map, scale.operation, texture.image = "Koebe", "SCALE", image
+    scale.inputs["Scale"].default_value = REPEATS
+    link(uv.outputs["UV"], scale.inputs[0])
+    link(scale.outputs[0], texture.inputs["Vector"])
+    link(texture.outputs["Color"], surface.inputs["Base Color"])
+    return material
+
+
+def light_from_all_sides(scene):
+    """A light grey world."""
+    scene.world = bpy.data.worlds.new("world")
+    if scene.world.node_tree is None:
+        scene.world.use_nodes = True
+    background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (0.75, 0.76, 0.78, 1.0)
+    background.inputs["Strength"].default_value = 0.7
+
+
+def main():
+    output = Path(sys.argv[sys.argv.index("--") + 1]).absolute()
+    scene = bpy.context.scene
+    obj = next(obj for obj in scene.objects if obj.type == "MESH")
+    job = addon_module("job").Job([obj], addon_module("options").Options(tube="unroll", checker=False))
+    job.compute()
+    job.write()
+    obj.data.materials.append(textured(pattern()))
+    for polygon in obj.data.polygons:
+        polygon.use_smooth = True
+    light_from_all_sides(scene)
+    render = scene.render
+    render.engine = "CYCLES"
+    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", 64, False
+    scene.view_settings.view_transform = "Standard"
+    render.resolution_x, render.resolution_y, render.resolution_percentage = 560, 560, 100
+    render.image_settings.file_format, render.image_settings.quality = "JPEG", 85
+    render.filepath = str(output)
+    bpy.ops.render.render(write_still=True)
+
+
+main()

@@ -1,0 +1,82 @@
+"""While a map of 150,000 faces is computed the window answers, and Esc ends it."""
+
+import subprocess
+import sys
+import time
+
+import pytest
+from window import ROOT, xdotool
+
+STALL = 0.1  # seconds, beside the time that Blender takes to draw its window once
+ESCAPE = 0.2
+FOLDER = ROOT / "out" / "samples"
+# The operator's own account: what came in, what it answered, when.
+WATCH = """
+import sys, time
+name = next(n for n in sys.modules if n.endswith('koebe_uv.operators'))
+operator = sys.modules[name].UV_OT_koebe_uniformize
+if not hasattr(heart, 'answers'):
+    inner = operator.modal
+    def modal(self, context, event):
+        answer = inner(self, context, event)
+        heart.answers.append((event.type, sorted(answer)[0], time.time()))
+        return answer
+    operator.modal = modal
+heart.answers = []
+"""
+
+
+@pytest.fixture
+def dense(open_sample):
+    """The sample with 150,520 faces, made if it is missing."""
+    if not (FOLDER / "face_dense.blend").is_file():
+        make = [ROOT / "blend_samples" / "make_samples.py", "--", "--output", FOLDER, "--only", "face_dense"]
+        subprocess.run(["blender", "-b", "--factory-startup", "-P", *map(str, make)], check=True)
+    return open_sample("face_dense", FOLDER)
+
+
+DRAW = """
+import time
+with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+    start = time.perf_counter()
+    bpy.ops.wm.redraw_timer(type='DRAW_WIN_SWAP', iterations=5)
+    result = (time.perf_counter() - start) / 5
+"""
+
+
+def start(window):
+    """Click the button and wait for the thread."""
+    window.click(*window.button)
+    window.wait("heart.computing or len(bpy.context.window_manager.koebe_uv.islands) > 0")
+
+
+def test_escape_and_no_stall(window, dense):
+    window.run(WATCH)
+    window.button = window.find_button("VIEW_3D", "koebe_uniformize")
+    waits = []
+    for delay in (0.0, 0.4, 0.8):
+        start(window)
+        time.sleep(delay)
+        pressed = time.time()
+        xdotool("key", "Escape")
+        window.wait("any(answer == 'CANCELLED' for _, answer, _ in heart.answers)")
+        waits.append(window.ask("heart.answers[-1][2]") - pressed)
+        assert window.ask("len(bpy.context.view_layer.objects.active.data.uv_layers)") == 0
+        assert window.ask("len(bpy.context.window_manager.koebe_uv.islands)") == 0
+        window.wait("not heart.computing")
+        window.run("heart.answers.clear()")
+    window.picture("20_cancelled")
+
+    drawing = window.run(DRAW)
+    time.sleep(1.0)
+    window.run("heart.silences.clear()")
+    start(window)
+    window.picture("21_running")
+    window.wait("not heart.computing")
+    silences = window.ask("heart.silences")
+    window.wait("len(bpy.context.window_manager.koebe_uv.islands) > 0")
+    window.picture("22_done")
+    print(f"Esc after {', '.join(f'{wait:.3f}' for wait in waits)} s; {len(silences)} beats in {sum(silences):.1f} s, "
+          f"longest silence {max(silences):.3f} s, drawing the window {drawing:.3f} s", file=sys.stderr)  # fmt: skip
+    assert max(waits) <= ESCAPE
+    assert max(silences) <= STALL + drawing

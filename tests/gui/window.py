@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Blender with a window, driven by real clicks and keys. Needs a display, xdotool and ImageMagick."""
+
+import json
+import os
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+PICTURES = ROOT / "out" / "gui"
+WIDTH, HEIGHT = 1280, 800
+START_SECONDS = 90
+TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
+SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
+
+
+class Window:
+    """Starts Blender; `ask` looks inside, everything else is what a hand does."""
+
+    def __init__(self, package, home):
+        self.path = str(home / "socket")
+        environment = {
+            **os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "PATH": "/usr/bin:" + os.environ["PATH"],
+            "BLENDER_USER_RESOURCES": str(home), "BLENDER_USER_CONFIG": str(home / "config"),
+            "BLENDER_USER_SCRIPTS": str(home / "scripts"), "BLENDER_USER_DATAFILES": str(home / "datafiles"),
+        }  # fmt: skip
+        for folder in ("config", "scripts/addons", "datafiles", "extensions"):
+            (home / folder).mkdir(parents=True)
+        command = [
+            os.environ.get("BLENDER", "blender"), "--factory-startup",
+            "--window-geometry", "0", "0", str(WIDTH), str(HEIGHT),
+            "--python-exit-code", "1", "--python", Path(__file__).with_name("inside.py"), "--", package, self.path,
+        ]  # fmt: skip
+        self.log = (home / "log").open("w")
+        self.process = subprocess.Popen(command, env=environment, stdout=self.log, stderr=subprocess.STDOUT)
+        self.wait("True", START_SECONDS)
+        time.sleep(1.0)
+        PICTURES.mkdir(parents=True, exist_ok=True)
+
+    def close(self):
+        """End Blender."""
+        self.process.kill()
+        self.process.wait()
+        self.log.close()
+
+    def run(self, code):
+        """Run code inside; return what it leaves in `result`."""
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as line:
+            line.settimeout(60)
+            line.connect(self.path)
+            line.sendall(json.dumps({"code": code}).encode() + b"\n")
+            with line.makefile() as answers:
+                reply = json.loads(answers.readline())
+        assert "error" not in reply, reply["error"]
+        return reply["result"]
+
+    def ask(self, expression):
+        """Value of an expression inside."""
+        return self.run(f"result = {expression}")
+
+    def wait(self, expression, seconds=60.0):
+        """Wait until an expression is true inside."""
+        end = time.monotonic() + seconds
+        while True:
+            try:
+                if self.ask(expression):
+                    return
+            except (FileNotFoundError, ConnectionError):
+                assert self.process.poll() is None, "Blender has ended"
+            assert time.monotonic() < end, f"{expression} is not true after {seconds} s"
+            time.sleep(0.02)
+
+    def settle(self):
+        """Wait until what was done has had its effect, and is drawn."""
+        time.sleep(SETTLE)
+        for _ in range(3):  # an answer comes once in a turn of Blender's main loop, which ends with drawing
+            self.ask("True")
+
+    # ---- what a hand does
+
+    def move(self, x, y):
+        """Bring the pointer there, from beside it: Blender looks at movements, and a button wakes at the second one."""
+        for step in (6, 3, 0):
+            xdotool("mousemove", x - step, y, "sleep", "0.07")
+
+    def click(self, x, y, button=1):
+        """Click there."""
+        self.move(x, y)
+        xdotool("click", button)
+        self.settle()
+
+    def key(self, *keys):
+        """Press keys, one after the other."""
+        for name in keys:
+            xdotool("key", name)
+            self.settle()
+
+    def picture(self, name):
+        """Keep what the screen shows as out/gui/NAME.png."""
+        xdotool("mousemove_relative", "1", "0")  # what has changed is drawn with the next event
+        self.settle()
+        subprocess.run(["import", "-window", "root", str(PICTURES / f"{name}.png")], check=True)
+
+    # ---- where things are
+
+    def region(self, area, kind):
+        """x, y (from the top of the screen), width, height of a region of the first area of that type."""
+        x, y, width, height = self.ask(
+            f"[(r.x, r.y, r.width, r.height) for a in bpy.context.window_manager.windows[0].screen.areas "
+            f"if a.type == {area!r} for r in a.regions if r.type == {kind!r}][0]"
+        )
+        return x, HEIGHT - y - height, width, height
+
+    def middle(self, area):
+        """The middle of an area's main region."""
+        x, y, width, height = self.region(area, "WINDOW")
+        return x + width // 2, y + height // 2
+
+    def open_tab(self, area):
+        """Open the sidebar of an area at the tab Koebe, which is the last one."""
+        if self.region(area, "UI")[2] <= 1:
+            self.move(*self.middle(area))
+            self.key("n")
+        x, top, width, _ = self.region(area, "UI")
+        self.click(x + width - 12, top + TAB[area])
+
+    def workspace(self, name):
+        """Show a workspace, and wait until it is there."""
+        self.run(f"bpy.context.window_manager.windows[0].workspace = bpy.data.workspaces[{name!r}]")
+        self.wait(f"bpy.context.window_manager.windows[0].workspace.name == {name!r}")
+        self.settle()
+
+    def find_button(self, area, text, fraction=0.5, step=14):
+        """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
+        x, top, width, height = self.region(area, "UI")
+        x += int(width * fraction)
+        for y in range(top + step, top + height, step):
+            self.run("bpy.context.window_manager.clipboard = ''")
+            self.move(x, y)
+            xdotool("key", "ctrl+c", "sleep", "0.05")
+            if text in self.ask("bpy.context.window_manager.clipboard"):
+                return x, y + step // 2
+        raise AssertionError(f"no button {text!r} in the sidebar of {area}")
+
+
+def xdotool(*arguments):
+    """Run xdotool."""
+    subprocess.run(["xdotool", *map(str, arguments)], check=True)
