@@ -18,7 +18,9 @@ def test_the_operator_writes_what_the_native_package_computes(koebe):
     bpy.ops.uv.koebe_uniformize(outer="longest", tolerance=1e-5, upright=False)
     vertices = scenes.read(obj.data.vertices, "co", np.float32, 3)
     triangles, _ = scenes.triangles(obj.data)
-    result = koebe.uniformize(vertices, triangles, outer="longest", tolerance=float(np.float32(1e-5)))
+    result = koebe.uniformize(
+        vertices, triangles, outer="longest", tolerance=float(np.float32(1e-5)), balance="area"
+    )
     expected = ((1.0 + result.uv) / 2.0).astype(np.float32)
     corner_vertex = scenes.read(obj.data.loops, "vertex_index", np.int32)
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected[corner_vertex])

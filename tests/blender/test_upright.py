@@ -78,7 +78,7 @@ def test_without_it_the_map_is_as_the_native_package_computes_it(koebe):
     obj = scenes.add_panel()
     bpy.ops.uv.koebe_uniformize(upright=False)
     vertices = scenes.read(obj.data.vertices, "co", np.float32, 3)
-    uv = koebe.uniformize(vertices, scenes.triangles(obj.data)[0]).uv
+    uv = koebe.uniformize(vertices, scenes.triangles(obj.data)[0], balance="area").uv
     used = scenes.read(obj.data.loops, "vertex_index", np.int32)
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), ((1 + uv) / 2).astype(np.float32)[used])
 
