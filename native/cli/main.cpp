@@ -25,7 +25,8 @@ int run_guarded(const Subcommand& command)
     try {
         return command.run();
     } catch (const koebe::Cancelled& error) {
-        return fail(error_line(error), interrupted);
+        fail(error_line(error), interrupted);
+        std::_Exit(interrupted);  // an ordinary exit waits for the computation's next checkpoint
     } catch (const koebe::KoebeError& error) {
         return fail(error_line(error), cannot_be_mapped);
     } catch (const std::bad_alloc&) {

@@ -12,6 +12,7 @@
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
 #include "conformal/untangle.h"
+#include "core/detachable_run.h"
 #include "core/topology.h"
 #include "geometry/dense_spd.h"
 #include "geometry/flaps.h"
@@ -284,10 +285,8 @@ PlanarPoints without_flips(const Domain& whole, const FlapCut& cut, PlanarPoints
     return uv;
 }
 
-}  // namespace
-
-UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
-                            ExecutionContext& context)
+UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
+                              ExecutionContext& context)
 {
     UniformizeResult result;
     result.method = options.method;
@@ -340,7 +339,7 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
         UniformizeOptions chosen = options;
         chosen.outer = OuterLoop::vertex;
         chosen.outer_vertex = domain.original[domain.loops[outer].front()];
-        UniformizeResult better = uniformize(vertices, triangles, chosen, context);
+        UniformizeResult better = run_pipeline(vertices, triangles, chosen, context);
         better.unbalanced_area = result.unbalanced_area;
         result.seconds.finish = stage.lap();
         better.seconds += result.seconds;
@@ -361,6 +360,17 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     result.peak_memory_mb = peak_memory_mb();
     context.advance(1.0);
     return result;
+}
+
+}  // namespace
+
+UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
+                            ExecutionContext& context)
+{
+    return run_detachable<UniformizeResult>(
+        context, [vertices, triangles, options](ExecutionContext& own) {
+            return run_pipeline(vertices, triangles, options, own);
+        });
 }
 
 }  // namespace koebe

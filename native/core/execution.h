@@ -49,6 +49,12 @@ public:
         checkpoint();
     }
 
+    /// Passes on what another context has reported of the whole.
+    void report(double overall, const std::string& stage)
+    {
+        begin_stage(stage, overall, overall);
+    }
+
     /// Opens a stage that covers [begin, end] of the whole.
     void begin_stage(std::string stage, double begin, double end)
     {

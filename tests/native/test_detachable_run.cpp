@@ -1,0 +1,64 @@
+#include "core/detachable_run.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+using namespace koebe;
+using namespace std::chrono_literals;
+
+TEST(DetachableRun, passes_on_the_result_and_the_progress_on_the_calling_thread)
+{
+    std::vector<double> fractions;
+    const auto caller = std::this_thread::get_id();
+    ExecutionContext context(
+        [&](double fraction, const std::string& stage) {
+            EXPECT_EQ(std::this_thread::get_id(), caller);
+            EXPECT_EQ(stage, "work");
+            fractions.push_back(fraction);
+        },
+        {});
+    const int result = run_detachable<int>(context, [caller](ExecutionContext& own) {
+        EXPECT_NE(std::this_thread::get_id(), caller);
+        own.begin_stage("work", 0.0, 1.0);
+        own.advance(0.5);
+        return 7;
+    });
+    EXPECT_EQ(result, 7);
+    EXPECT_EQ(fractions, (std::vector<double>{0.0, 0.5}));
+}
+
+TEST(DetachableRun, passes_on_exceptions_of_both_sides)
+{
+    ExecutionContext plain;
+    EXPECT_THROW(run_detachable<int>(plain, [](ExecutionContext&) -> int { throw InputError("bad"); }), InputError);
+    ExecutionContext throwing([](double, const std::string&) { throw std::runtime_error("stop"); }, {});
+    EXPECT_THROW(run_detachable<int>(throwing,
+                                     [](ExecutionContext& own) {
+                                         own.advance(0.5);
+                                         return 1;
+                                     }),
+                 std::runtime_error);
+}
+
+TEST(DetachableRun, a_cancel_is_answered_while_the_computation_does_not_ask)
+{
+    const auto finished = std::make_shared<std::atomic<bool>>(false);
+    CancelToken token;
+    ExecutionContext context({}, token);
+    std::thread user([token]() mutable {
+        std::this_thread::sleep_for(30ms);
+        token.cancel();
+    });
+    EXPECT_THROW(run_detachable<int>(context,
+                                     [finished](ExecutionContext&) {
+                                         std::this_thread::sleep_for(2s);
+                                         *finished = true;
+                                         return 1;
+                                     }),
+                 Cancelled);
+    EXPECT_FALSE(*finished);  // 2 s later it would be
+    user.join();
+}
