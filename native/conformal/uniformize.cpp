@@ -10,6 +10,7 @@
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
+#include "conformal/rim_room.h"
 #include "conformal/untangle.h"
 #include "core/topology.h"
 #include "geometry/dense_spd.h"
@@ -162,8 +163,8 @@ Moebius normal_position(const std::vector<Circle>& circles)
 }
 
 /// Circles fitted, boundary put on them, interior harmonic: fills uv (of the domain's vertices) and the loop reports.
-PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain, const KoebeOutcome& outcome,
-                        UniformizeResult& result)
+PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain, const FlapCut& cut,
+                        const KoebeOutcome& outcome, UniformizeResult& result)
 {
     std::vector<Circle> circles{Circle{}};
     for (std::size_t k = 1; k < outcome.loops.size(); ++k)
@@ -180,7 +181,10 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix&
         if (k == 0) report.circle = Circle{};
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
-        const VectorXcd projected = project_onto_circle(report.circle, image, k == 0 ? 1 : -1);
+        const VectorXcd projected = k == 0 ? project_onto_circle(report.circle, image, 1,
+                                                                  rim_room(domain.surface, domain.loops[0], cut.flaps,
+                                                                           cut.vertices))
+                                            : project_onto_circle(report.circle, image, -1);
         report.roundness_projected = roundness(projected, report.circle);
         for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
         boundary.col(0).segment(row, projected.size()) = projected.real();
@@ -294,7 +298,7 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     result.seconds.iterate = stage.lap();
 
     context.begin_stage("finish", 0.9, 1.0);
-    PlanarPoints core_uv = finish_map(condensed, laplacian, domain, outcome, result);
+    PlanarPoints core_uv = finish_map(condensed, laplacian, domain, cut, outcome, result);
     context.advance(0.5);
     UntangleReport untangled;
     const PlanarPoints uv = without_flips(whole, cut, std::move(core_uv), result, untangled, context);
