@@ -36,7 +36,7 @@ public:
     bool empty() const { return small_.empty(); }
     const VectorXcd& points() const { return points_; }
 
-    /// One loop: its centre where no flux runs, then a Moebius map that makes it concentric, until nothing moves.
+    /// Two loops: the inner one's centre where no flux runs, then a Moebius map that makes it concentric, until nothing moves.
     void center_annulus()
     {
         MatrixXd indicator = MatrixXd::Zero(points_.size(), 1);
@@ -45,15 +45,16 @@ public:
         for (int step = 0; step < most_steps; ++step) {
             // By symmetry the flux of z through the loop is the sum of z times the flux of its indicator's extension.
             const Complex offset = -flux.cwiseProduct(points_).sum() / flux.tail(size(1)).sum();
-            if (!(std::abs(offset) > concentric * circles_[1].radius) || std::abs(offset) + circles_[1].radius >= 1.0)
-                return;
+            const Complex center = circles_[1].center + offset;
+            if (!(std::abs(center) + circles_[1].radius < 1.0)) return;
             points_.tail(size(1)).array() += offset;
-            circles_[1].center = offset;
+            circles_[1].center = center;
             const Moebius moebius = center_circle(circles_[1]);
             circles_[1] = {Complex(0.0, 0.0), moebius(circles_[1]).radius};
             points_ = moebius(points_);
             for (Eigen::Index b = 0; b < points_.size(); ++b)
                 points_[b] *= (b < begin_[1] ? 1.0 : circles_[1].radius) / std::abs(points_[b]);
+            if (std::abs(offset) <= concentric * circles_[1].radius) return;
         }
     }
 
