@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <climits>
 #include <cstdlib>
 #include <string_view>
 
@@ -18,7 +19,9 @@ void restart_with_fast_kernels(char** arguments)
     const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     setenv(choice, wide ? "SKYLAKEX" : "HASWELL", 1);
-    execv("/proc/self/exe", arguments);  // returns only where there is no /proc: the slow kernels do it then
+    char program[PATH_MAX] = {};  // by its own name, which is what the process is then called
+    if (readlink("/proc/self/exe", program, sizeof program - 1) > 0) execv(program, arguments);
+    // Still here only where there is no /proc: the slow kernels do it then.
 #else
     (void)arguments;
 #endif

@@ -71,7 +71,7 @@ int run(const Request& request)
     const auto begin = std::chrono::steady_clock::now();
     const CancelToken token = cancel_on_signal();
     require_writable(request.output);
-    const MeshInput input = read_mesh_input(request.input);
+    const MeshInput input = read_mesh_input(request.input, token);
     const FilledSurface filled =
         with_filed_faces(input, [&] {
             return fill_holes(input.polygons.vertices, input.triangulation.triangles,

@@ -1,5 +1,6 @@
 #include "cli/mesh_input.h"
 
+#include "core/detachable_run.h"
 #include "core/errors.h"
 #include "io/mesh_reader.h"
 
@@ -8,7 +9,9 @@
 
 namespace koebe::cli {
 
-MeshInput read_mesh_input(const std::filesystem::path& path)
+namespace {
+
+MeshInput read_and_triangulate(const std::filesystem::path& path)
 {
     const auto begin = std::chrono::steady_clock::now();
     MeshInput input;
@@ -23,6 +26,14 @@ MeshInput read_mesh_input(const std::filesystem::path& path)
         throw InputError("no face has three different vertices", collapsed);
     input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return input;
+}
+
+}  // namespace
+
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token)
+{
+    ExecutionContext context({}, token);
+    return run_detachable<MeshInput>(context, [path](ExecutionContext&) { return read_and_triangulate(path); });
 }
 
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/errors.h"
+#include "core/execution.h"
 #include "io/polygon_mesh.h"
 #include "io/polygon_triangulation.h"
 
@@ -18,8 +19,8 @@ struct MeshInput {
     double seconds = 0.0;  ///< to read and triangulate
 };
 
-/// @throws FileError, InputError
-MeshInput read_mesh_input(const std::filesystem::path& path);
+/// @throws FileError, InputError, Cancelled
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token);
 
 /// Faces of the triangulation to faces of the file, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);

@@ -94,7 +94,7 @@ int run(const Request& request)
     const auto begin = Clock::now();
     const CancelToken token = cancel_on_signal();
     require_writable_files(request);
-    const MeshInput input = read_mesh_input(request.input);
+    const MeshInput input = read_mesh_input(request.input, token);
     UniformizeResult result;
     {
         ProgressLine progress(request.quiet);

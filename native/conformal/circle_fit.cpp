@@ -8,6 +8,7 @@ namespace koebe {
 namespace {
 
 constexpr int gauss_newton_steps = 20;       // converges quadratically near a circle: four or five are used
+constexpr double least_cosine = 0.92387953;  // of a sixteenth of a turn, to either side of the mean
 constexpr double gauss_newton_stop = 1e-15;  // relative to the radius
 
 /// Least squares on |v|^2 - 2 v.c + (|c|^2 - r^2) = 0, centred and scaled first.
@@ -30,6 +31,17 @@ bool fit_circle_algebraic(const VectorXcd& points, Circle& circle)
     const double radius_squared = x[2] + std::norm(center);
     if (!(radius_squared > 0.0)) return false;
     circle = {mean + scale * center, scale * std::sqrt(radius_squared)};
+    return true;
+}
+
+/// Whether all points lie within an eighth of a turn of the circle: no loop goes round it.
+bool spans_an_arc_only(const VectorXcd& points, const Circle& circle)
+{
+    const Complex direction = points.mean() - circle.center;
+    for (const Complex& point : points) {
+        const Complex arm = point - circle.center;
+        if (!((arm * std::conj(direction)).real() > least_cosine * std::abs(arm) * std::abs(direction))) return false;
+    }
     return true;
 }
 
@@ -87,7 +99,7 @@ Circle fit_circle_least_squares(const VectorXcd& points)
         circle.radius += change[2];
         if (change.norm() <= gauss_newton_stop * std::abs(circle.radius)) break;
     }
-    return circle.radius > 0.0 ? circle : fit_circle_paper(points);
+    return circle.radius > 0.0 && !spans_an_arc_only(points, circle) ? circle : fit_circle_paper(points);
 }
 
 double roundness(const VectorXcd& points, const Circle& circle)

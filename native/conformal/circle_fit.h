@@ -22,7 +22,8 @@ Circle fit_circle_paper(const VectorXcd& points);
 
 /// The circle of least squared distance: minimizes sum (|v_i - c| - r)^2 over c and r, every point alike. Algebraic
 /// start (Kasa 1976), then Gauss-Newton on the distances. Exact for points of a circle, however they are spaced.
-/// Points of a line, or fewer than three, fall back to fit_circle_paper.
+/// Points of a line, within an eighth of a turn, or fewer than three, fall back to fit_circle_paper: a loop that has
+/// collapsed for want of flux is no part of a large circle.
 Circle fit_circle_least_squares(const VectorXcd& points);
 
 /// e(gamma_k) of the paper (section 5), read as the root of the length-weighted mean square of the relative

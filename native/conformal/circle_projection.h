@@ -9,6 +9,7 @@ namespace koebe {
 /// that come too early for those before them are pooled with these (isotonic regression, Ayer et al. 1955) at a least
 /// distance. Where hardly any flux runs the image turns back on itself; no interior could follow that.
 /// @param points (n) image of a loop in order, n >= 3 @param turn +1 counter-clockwise (the outer loop), -1 clockwise
-VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int turn);
+/// @param least (n) radians from each point to the next, of sum below 2 pi; 1e-3 of the mean if it is empty
+VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int turn, const VectorXd& least = {});
 
 }  // namespace koebe

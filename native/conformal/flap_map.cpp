@@ -14,6 +14,7 @@ namespace {
 
 constexpr double flatter[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.15};  // heights tried over the natural one
 constexpr int lens_level = static_cast<int>(std::size(flatter));
+constexpr double least_share = 0.3;  // of the mean edge along a rim
 constexpr double lens_reach = 0.9;   // of the way from the hinge to the middle of the hole
 constexpr double lens_aspect = 1.0;  // height of the lens's control point over the hinge's length
 
@@ -53,7 +54,7 @@ struct HangingFlap {
         VectorXd edges(rim + 1);
         for (Index i = 0; i <= rim; ++i)
             edges[i] = (vertices.row(steps[i + 1]) - vertices.row(steps[i])).stableNorm();
-        edges = edges.array().max(1e-3 * edges.maxCoeff());  // coinciding vertices need a place of their own
+        edges = edges.array().max(least_share * edges.mean());  // coinciding vertices need a place of their own
         double sum = 0.0;
         for (Index i = 0; i < rim; ++i) walked[i] = (sum += edges[i]) / edges.sum();
         return walked;

@@ -11,6 +11,7 @@
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
+#include "conformal/rim_room.h"
 #include "conformal/untangle.h"
 #include "core/detachable_run.h"
 #include "core/topology.h"
@@ -168,7 +169,8 @@ Moebius normal_position(const std::vector<Circle>& circles)
 }
 
 /// The images of the loops in normal position, each put on its circle: (m, 2), loop after loop. Fills the loop reports.
-MatrixXd place_on_circles(const Domain& domain, const KoebeOutcome& outcome, UniformizeResult& result)
+MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeOutcome& outcome,
+                          UniformizeResult& result)
 {
     std::vector<Circle> circles{Circle{}};
     for (std::size_t k = 1; k < outcome.loops.size(); ++k)
@@ -184,7 +186,10 @@ MatrixXd place_on_circles(const Domain& domain, const KoebeOutcome& outcome, Uni
         report.circle = k == 0 ? Circle{} : moebius(circles[k]);
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
-        const VectorXcd projected = project_onto_circle(report.circle, image, k == 0 ? 1 : -1);
+        const VectorXcd projected = k == 0 ? project_onto_circle(report.circle, image, 1,
+                                                                  rim_room(domain.surface, domain.loops[0], cut.flaps,
+                                                                           cut.vertices))
+                                            : project_onto_circle(report.circle, image, -1);
         report.roundness_projected = roundness(projected, report.circle);
         for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
         boundary.middleRows(row, projected.size()) << projected.real(), projected.imag();
@@ -205,10 +210,10 @@ std::vector<Circle> reported_circles(const UniformizeResult& result)
 /// @param outer the rank of the loop that should be the outer one: 0 unless it is to be chosen and another one is
 ///        better; then the map is not balanced
 PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain,
-                        const KoebeOutcome& outcome, const UniformizeOptions& options, UniformizeResult& result,
-                        int& outer)
+                        const FlapCut& cut, const KoebeOutcome& outcome, const UniformizeOptions& options,
+                        UniformizeResult& result, int& outer)
 {
-    MatrixXd boundary = place_on_circles(domain, outcome, result);
+    MatrixXd boundary = place_on_circles(domain, cut, outcome, result);
     std::vector<Circle> circles = reported_circles(result);
     balance_flux(condensed, laplacian, domain.loops, circles, boundary);
     PlanarPoints uv = condensed.extend(boundary);
@@ -333,7 +338,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 
     context.begin_stage("finish", 0.9, 1.0);
     int outer = 0;
-    PlanarPoints core_uv = finish_map(condensed, laplacian, domain, outcome, options, result, outer);
+    PlanarPoints core_uv = finish_map(condensed, laplacian, domain, cut, outcome, options, result, outer);
     context.advance(0.5);
     if (outer != 0) {
         UniformizeOptions chosen = options;

@@ -193,7 +193,7 @@ VectorXd TangledMap::wanted_areas(const std::vector<Index>& faces, PatchShape sh
 bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
                         const ExecutionContext& context)
 {
-    const std::size_t tangled_before = tangled(patch).size(), flipped_before = flipped(patch);
+    const std::size_t tangled_before = tangled(patch).size(), lost_before = flipped(patch) - tangled_before;
     if (tangled_before == 0) return false;
     std::vector<Index> names;
     for (const Index f : patch)
@@ -237,8 +237,11 @@ bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, Patch
             longest = std::max(longest, (uv_.row(a) - uv_.row(b)).norm());
         }
         problem.reference.push_back(shaped(lengths[0], lengths[1], lengths[2], areas[i]));
-        if (!StoredFace(triangles(), uv_, f).below_resolution())
+        // Safe from rounding; a face that is right as stored, however thin, may lose half of what it has.
+        const StoredFace face(triangles(), uv_, f);
+        if (!face.below_resolution())
             problem.floor[i] = rounding * std::max(longest, 1.5 * std::sqrt(areas[i])) / (2.0 * areas[i]);
+        if (!face.flipped()) problem.floor[i] = std::min(problem.floor[i], 0.5 * 4.0 * face.area() / areas[i]);
     }
     minimize_foldover_free(problem, context);
 
@@ -248,7 +251,8 @@ bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, Patch
         if (problem.mobility[i] != FoldoverProblem::Mobility::held && loop_of_[names[i]] >= 0)
             moved_rim.push_back(names[i]);
     for (std::size_t i = 0; i < names.size(); ++i) uv_.row(names[i]) = problem.points.row(i);
-    if (problem.points.allFinite() && tangled(patch).size() < tangled_before && flipped(patch) <= flipped_before &&
+    const std::size_t tangled_now = tangled(patch).size();
+    if (problem.points.allFinite() && tangled_now < tangled_before && flipped(patch) - tangled_now <= lost_before &&
         !loops_cross(moved_rim))
         return true;
     for (std::size_t i = 0; i < names.size(); ++i) uv_.row(names[i]) = before.row(i);

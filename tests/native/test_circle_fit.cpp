@@ -98,6 +98,14 @@ TEST(CircleFit, inversive_distance_is_kept_by_moebius_maps)
     EXPECT_NEAR(inversive_distance(map(a), map(unit)), inversive_distance(a, unit), 1e-12);
 }
 
+TEST(CircleFit, a_loop_that_lies_on_a_short_arc_is_no_part_of_its_circle)
+{
+    const VectorXcd arc = points_on({{0.0, 0.0}, 1.0}, 1000).head(20);
+    const Circle found = fit_circle_least_squares(arc);
+    EXPECT_LT(found.radius, std::abs(arc[19] - arc[0]));
+    EXPECT_LT(std::abs(found.center - arc.mean()), std::abs(arc[19] - arc[0]));
+}
+
 TEST(CircleFit, degenerate_loops_give_finite_circles)
 {
     VectorXcd line(4);

@@ -8,32 +8,74 @@
 using namespace koebe;
 using namespace koebe::test;
 
+namespace {
+
+/// A domain in its own place, which the balance may then disturb.
+struct Balanced {
+    explicit Balanced(CircleDomain d)
+        : domain(std::move(d)), laplacian(plane_laplacian(domain)), condensed(laplacian, order(domain), Ordering::amd),
+          circles(domain.circles), boundary(lift(domain.points, Lift::plane)(order(domain), {0, 1}))
+    {
+    }
+
+    static SparseMatrix plane_laplacian(const CircleDomain& domain)
+    {
+        const EdgeLengths lengths = edge_lengths(lift(domain.points, Lift::plane), domain.triangles);
+        return cotan_laplacian(domain.triangles, half_cotangents(lengths), static_cast<Index>(domain.points.size()));
+    }
+
+    static std::vector<Index> order(const CircleDomain& domain)
+    {
+        std::vector<Index> result;
+        for (const VertexLoop& loop : domain.loops) result.insert(result.end(), loop.begin(), loop.end());
+        return result;
+    }
+
+    CircleDomain domain;
+    SparseMatrix laplacian;
+    CondensedLaplacian condensed;
+    std::vector<Circle> circles;
+    MatrixXd boundary;
+};
+
+}  // namespace
+
 TEST(FluxBalance, a_hole_put_beside_its_limb_comes_back_to_where_no_flux_runs_to_it)
 {
     const double inner = 1e-4;
-    const CircleDomain domain = make_round_annulus(inner, 16, 24);
-    const Index vertex_count = static_cast<Index>(domain.points.size());
-    const EdgeLengths lengths = edge_lengths(lift(domain.points, Lift::plane), domain.triangles);
-    const SparseMatrix laplacian = cotan_laplacian(domain.triangles, half_cotangents(lengths), vertex_count);
-    std::vector<Index> order;
-    for (const VertexLoop& loop : domain.loops) order.insert(order.end(), loop.begin(), loop.end());
-    const CondensedLaplacian condensed(laplacian, order, Ordering::amd);
-
-    MatrixXd boundary(order.size(), 2);
-    for (std::size_t b = 0; b < order.size(); ++b)
-        boundary.row(b) << domain.points[order[b]].real(), domain.points[order[b]].imag();
+    Balanced map(make_round_annulus(inner, 16, 24));
     // Off by little in the disk, by much more than the hole.
-    std::vector<Circle> circles = domain.circles;
-    circles[1].center = {5e-3, 0.0};
-    boundary.bottomRows(16).col(0).array() += 5e-3;
-    EXPECT_FALSE(flipped_faces(domain.triangles, condensed.extend(boundary)).empty());
+    map.circles[1].center = {5e-3, 0.0};
+    map.boundary.bottomRows(16).col(0).array() += 5e-3;
+    EXPECT_FALSE(flipped_faces(map.domain.triangles, map.condensed.extend(map.boundary)).empty());
 
-    balance_flux(condensed, laplacian, domain.loops, circles, boundary);
-    const PlanarPoints uv = condensed.extend(boundary);
-    EXPECT_TRUE(flipped_faces(domain.triangles, uv).empty());
-    const MatrixXd flux = laplacian * uv;
-    for (int c = 0; c < 2; ++c) EXPECT_LT(std::abs(flux(domain.loops[1], c).sum()), 1e-6 * inner);
-    EXPECT_LT(std::abs(circles[1].center), 1e-6 * inner);
-    for (std::size_t b = 0; b < order.size(); ++b)
-        EXPECT_NEAR(boundary.row(b).norm(), b < 16 ? 1.0 : circles[1].radius, 1e-12);
+    balance_flux(map.condensed, map.laplacian, map.domain.loops, map.circles, map.boundary);
+    const PlanarPoints uv = map.condensed.extend(map.boundary);
+    EXPECT_TRUE(flipped_faces(map.domain.triangles, uv).empty());
+    const MatrixXd flux = map.laplacian * uv;
+    for (int c = 0; c < 2; ++c) EXPECT_LT(std::abs(flux(map.domain.loops[1], c).sum()), 1e-6 * inner);
+    EXPECT_LT(std::abs(map.circles[1].center), 1e-6 * inner);
+    for (Eigen::Index b = 0; b < 32; ++b)
+        EXPECT_NEAR(map.boundary.row(b).norm(), b < 16 ? 1.0 : map.circles[1].radius, 1e-12);
+}
+
+TEST(FluxBalance, a_small_hole_finds_its_place_turn_and_size)
+{
+    std::vector<Circle> circles = five_circles();
+    circles.push_back({{0.05, 0.1}, 8e-4});
+    Balanced map(make_circle_domain(circles, 4000));
+    const Eigen::Index count = static_cast<Eigen::Index>(map.domain.loops[5].size());
+    auto hole = map.boundary.bottomRows(count);
+    const MatrixXd expected = map.boundary;
+    for (Eigen::Index b = 0; b < count; ++b) {
+        const Complex arm = Complex(hole(b, 0), hole(b, 1)) - circles[5].center;
+        const Complex image = Complex(0.06, 0.09) + 0.1 * std::polar(1.0, 2.0) * arm;
+        hole.row(b) << image.real(), image.imag();
+    }
+    map.circles[5] = {{0.06, 0.09}, 8e-5};
+    balance_flux(map.condensed, map.laplacian, map.domain.loops, map.circles, map.boundary);
+    EXPECT_LT((map.boundary - expected).cwiseAbs().maxCoeff(), 0.1 * circles[5].radius);
+    EXPECT_NEAR(map.circles[5].radius, circles[5].radius, 0.1 * circles[5].radius);
+    for (Eigen::Index b = 0; b < count; ++b)
+        EXPECT_NEAR(std::abs(Complex(hole(b, 0), hole(b, 1)) - map.circles[5].center), map.circles[5].radius, 1e-15);
 }
