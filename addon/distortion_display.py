@@ -17,13 +17,20 @@ def shown(obj):
     return None if memory is None or ATTRIBUTE not in obj.data.attributes else memory["kind"]
 
 
-def put_on(obj, layer_name, kind):
-    """Colour the object's faces by the distortion of a UV layer. Raises TransferError. Not in Edit Mode."""
+def check(obj, layer_name):
+    """Raise TransferError unless `put_on` can be done."""
     mesh = obj.data
+    if mesh.library is not None:
+        raise transfer.TransferError(f"{obj.name}: its mesh is linked from another file: make it local first")
     if layer_name not in mesh.uv_layers:
         raise transfer.TransferError(f"{obj.name}: it has no UV layer {layer_name!r}: map it first")
     if shown(obj) is None and ATTRIBUTE in mesh.attributes:
         raise transfer.TransferError(f"{obj.name}: it has an attribute {ATTRIBUTE!r} of its own: rename that")
+
+
+def put_on(obj, layer_name, kind):
+    """Colour the object's faces by the distortion of a UV layer; call `check` first. Not in Edit Mode."""
+    mesh = obj.data
     surface = transfer.read_surface(obj, selected_only=False)
     values = distortion.face_values(surface, transfer.read_uv(obj, layer_name), kind)
     take_off(obj)
@@ -81,6 +88,8 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
     def execute(self, context):
         objects = target_objects(context)
         try:
+            for obj in objects if self.kind != "none" else ():
+                check(obj, self.layer)
             with object_mode(context):
                 for obj in objects:
                     if self.kind == "none":

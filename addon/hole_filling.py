@@ -96,6 +96,8 @@ def filling(mesh, loop):
     corners = loop[::-1]  # seen from the patch the boundary runs the other way
     vertices = [corner.link_loop_next.vert for corner in corners]
     positions = np.array([vertex.co for vertex in vertices], dtype=np.float64)
+    if not np.ptp(positions, axis=0).max() > 0.0:  # NaN too
+        raise FillError("a hole has no extent: merge its doubled vertices")
     disk = patch.triangulated_disk(patch.rim_by_length(positions))
     inner = patch.faired(disk, positions, *_surroundings(vertices))
     uvs = {layer.name: _continued_uv(layer, corners, disk) for layer in mesh.loops.layers.uv.values()}

@@ -13,6 +13,7 @@ from mathutils.geometry import delaunay_2d_cdt
 
 GROWTH = 1.15  # of the edges from ring to ring towards the middle (dimensionless)
 ROW = 0.87  # height of an equilateral triangle over its side
+SHORTEST = 1e-2  # edge of a hole's rim in the disk, of the mean one (dimensionless)
 MAX_INNER = 1500  # new vertices; the equations are dense
 FAIRINGS = 4  # solutions; each one takes its weights from the shape of the one before
 MAX_COTANGENT = 20.0  # of the weights (dimensionless): angles down to 3 degrees count as they are
@@ -56,8 +57,9 @@ def _rings(count, growth):
 
 
 def rim_by_length(positions):
-    """Points of the unit circle spaced as the vertices (n, 3) of a closed polygon are."""
+    """Points of the unit circle spaced as the vertices (n, 3) of a closed polygon are; doubled ones come apart."""
     length = np.linalg.norm(np.roll(positions, -1, axis=0) - positions, axis=1)
+    length = np.maximum(length, SHORTEST * length.mean())
     start = np.concatenate([[0.0], np.cumsum(length)[:-1]])
     return np.exp(2j * np.pi * start / length.sum())
 

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 import pytest
 import scenes
+from test_tube import add_tube
 
 
 @pytest.fixture
@@ -63,6 +64,20 @@ def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
     assert {frozenset(loop["vertices"]) for loop in entry["loops"]} == {
         frozenset(loop) for loop in scenes.boundary_loops(obj.data)
     }
+
+
+@pytest.mark.parametrize("options", [{"tube": "unroll"}, {"upright": False}], ids=str)
+def test_shapes_are_those_of_the_operator(batch, tmp_path, options):
+    obj = add_tube()
+    words = {"tube": ("--tube", "unroll"), "upright": ("--no-upright",)}[next(iter(options))]
+    done = batch("--output", "out.blend", "--report", "out.json", *words)
+    assert done.returncode == 0, done.stderr
+    bpy.ops.uv.koebe_uniformize(**options)
+    expected = scenes.corner_uv(obj.data, "Koebe").copy()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Tube"].data, "Koebe"), expected)
+    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    assert entry["unrolled"] is (options.get("tube") == "unroll") and entry["flipped"] == 0
 
 
 def test_loops_are_reported_in_the_numbers_of_the_mesh(batch, tmp_path):

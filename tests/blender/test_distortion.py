@@ -95,7 +95,9 @@ def test_an_attribute_of_the_artists_is_not_taken():
     assert obj.data.attributes[NAME].data_type == "FLOAT"
 
 
-def test_without_the_layer_it_says_so():
-    scenes.add_panel()
-    with pytest.raises(RuntimeError, match="no UV layer"):
+def test_one_without_the_layer_and_none_is_coloured():
+    good, bad = add_grid(lambda x, y: (x, y)), scenes.add_panel()
+    scenes.select(good, bad)
+    with pytest.raises(RuntimeError, match="Panel: it has no UV layer"):
         bpy.ops.uv.koebe_distortion()
+    assert NAME not in good.data.attributes and not good.data.keys()

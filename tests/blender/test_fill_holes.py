@@ -137,6 +137,26 @@ def test_material_and_shading_are_those_beside():
     assert scenes.read(obj.data.polygons, "use_smooth", bool).all()
 
 
+def test_doubled_vertices_on_the_rim_are_joined_all_the_same():
+    obj = scenes.add_panel()
+    loop = min(scenes.boundary_loops(obj.data), key=len)
+    obj.data.vertices[loop[1]].co = obj.data.vertices[loop[0]].co
+    bpy.ops.mesh.koebe_fill_holes()
+    assert [len(loop) for loop in scenes.boundary_loops(obj.data)] == [52] and consistent(obj)
+    assert np.isfinite(points(obj)).all()
+
+
+def test_a_hole_without_extent_is_said_and_nothing_is_changed():
+    obj = scenes.add_panel()
+    loop = min(scenes.boundary_loops(obj.data), key=len)
+    for v in loop:
+        obj.data.vertices[v].co = obj.data.vertices[loop[0]].co
+    before = scenes.mesh_state(obj.data)
+    with pytest.raises(RuntimeError, match="no extent"):
+        bpy.ops.mesh.koebe_fill_holes()
+    assert scenes.mesh_state(obj.data) == before
+
+
 @pytest.mark.parametrize("which, reason", [("holes", "no hole"), ("selected", "no boundary loop is selected")])
 def test_nothing_to_fill_says_so(which, reason):
     scenes.add_panel(holes=())

@@ -114,3 +114,5 @@ def test_a_tube_unrolled(window, open_sample):
         window.key("n")
     window.key("Home")
     window.picture("14_unrolled")
+    assert window.ask(ISLANDS) == [["vase", True, 2]]
+    assert window.ask("bpy.context.window_manager.koebe_uv.islands[0].loops[1].uv_radius") == 0  # no circle any more

@@ -29,7 +29,7 @@ class Window:
         for folder in ("config", "scripts/addons", "datafiles", "extensions"):
             (home / folder).mkdir(parents=True)
         command = [
-            os.environ.get("BLENDER", "blender"), "--factory-startup",
+            os.environ.get("BLENDER", "blender"), *os.environ.get("BLENDER_OPTIONS", "").split(), "--factory-startup",
             "--window-geometry", "0", "0", str(WIDTH), str(HEIGHT),
             "--python-exit-code", "1", "--python", Path(__file__).with_name("inside.py"), "--", package, self.path,
         ]  # fmt: skip
