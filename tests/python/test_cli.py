@@ -3,8 +3,8 @@
 The command is build/koebe, or what the environment variable KOEBE_COMMAND names.
 """
 
-import json
 import contextlib
+import json
 import os
 import pty
 import re
