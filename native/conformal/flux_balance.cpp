@@ -10,19 +10,22 @@
 namespace koebe {
 namespace {
 
-constexpr double small_radius = 1e-3;  // unit disk: about what the meshes resolve
-constexpr std::size_t most_small = 24; // each costs three back-substitutions
-constexpr double noticeable = 0.05;    // offset over the radius: the fit is as good as the energy below that
+constexpr double small_radius = 1e-3;      // unit disk: about what the meshes resolve
+constexpr std::size_t most_small = 24;     // each costs three back-substitutions
+constexpr double noticeable = 0.05;        // offset over the radius: the fit is as good as the energy below that
 constexpr double noticeable_scale = 0.25;  // change of the complex radius over the radius
 constexpr int most_steps = 30;
 constexpr int most_halvings = 16;
-constexpr double concentric = 1e-6;    // of the inner radius
+constexpr double concentric = 1e-6;  // of the inner radius
 
 class SmallCircles {
 public:
     SmallCircles(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
                  const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary)
-        : condensed_(condensed), laplacian_(laplacian), loops_(loops), circles_(circles),
+        : condensed_(condensed),
+          laplacian_(laplacian),
+          loops_(loops),
+          circles_(circles),
           points_(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1))
     {
         for (const VertexLoop& loop : loops) begin_.push_back(begin_.back() + static_cast<Eigen::Index>(loop.size()));
@@ -36,7 +39,8 @@ public:
     bool empty() const { return small_.empty(); }
     const VectorXcd& points() const { return points_; }
 
-    /// Two loops: the inner one's centre where no flux runs, then a Moebius map that makes it concentric, until nothing moves.
+    /// Two loops: the inner one's centre where no flux runs, then a Moebius map that makes it concentric, until nothing
+    /// moves.
     void center_annulus()
     {
         MatrixXd indicator = MatrixXd::Zero(points_.size(), 1);

@@ -4,14 +4,13 @@
 #include "conformal/circle_fit.h"
 #include "conformal/circle_projection.h"
 #include "conformal/distortion.h"
-#include "conformal/flap_map.h"
+#include "conformal/flip_removal.h"
 #include "conformal/flip_report.h"
 #include "conformal/flux_balance.h"
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
 #include "conformal/rim_room.h"
-#include "conformal/untangle.h"
 #include "core/topology.h"
 #include "geometry/dense_spd.h"
 #include "geometry/flaps.h"
@@ -163,8 +162,8 @@ Moebius normal_position(const std::vector<Circle>& circles)
 }
 
 /// Circles fitted, boundary put on them, interior harmonic: fills uv (of the domain's vertices) and the loop reports.
-PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain, const FlapCut& cut,
-                        const KoebeOutcome& outcome, UniformizeResult& result)
+PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain,
+                        const FlapCut& cut, const KoebeOutcome& outcome, UniformizeResult& result)
 {
     std::vector<Circle> circles{Circle{}};
     for (std::size_t k = 1; k < outcome.loops.size(); ++k)
@@ -181,10 +180,10 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix&
         if (k == 0) report.circle = Circle{};
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
-        const VectorXcd projected = k == 0 ? project_onto_circle(report.circle, image, 1,
-                                                                  rim_room(domain.surface, domain.loops[0], cut.flaps,
-                                                                           cut.vertices))
-                                            : project_onto_circle(report.circle, image, -1);
+        const VectorXcd projected =
+            k == 0 ? project_onto_circle(report.circle, image, 1,
+                                         rim_room(domain.surface, domain.loops[0], cut.flaps, cut.vertices))
+                   : project_onto_circle(report.circle, image, -1);
         report.roundness_projected = roundness(projected, report.circle);
         for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
         boundary.col(0).segment(row, projected.size()) = projected.real();
@@ -217,36 +216,6 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
                            " without flux, kept apart by a least distance");
     if (!outcome.converged)
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
-}
-
-/// The map of the whole surface from that of its core: flaps hung back, flipped faces turned back.
-PlanarPoints without_flips(const Domain& whole, const FlapCut& cut, PlanarPoints core_uv, UniformizeResult& result,
-                           UntangleReport& untangled, const ExecutionContext& context)
-{
-    PlanarPoints uv = std::move(core_uv);
-    std::vector<Index> off_circle;
-    if (!cut.flaps.empty()) {
-        PlanarPoints whole_uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
-        whole_uv(cut.vertices, Eigen::all) = uv;
-        uv = std::move(whole_uv);
-        off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
-    }
-    std::vector<Circle> circles;
-    for (const LoopReport& report : result.loops) circles.push_back(report.circle);
-    untangled = untangle(whole.vertices, whole.surface, whole.loops, circles, off_circle, uv, context);
-
-    off_circle.insert(off_circle.end(), untangled.freed.begin(), untangled.freed.end());
-    std::sort(off_circle.begin(), off_circle.end());
-    for (std::size_t k = 0; k < whole.loops.size(); ++k) {
-        LoopReport& report = result.loops[k];
-        report.vertices.clear();
-        for (const Index v : whole.loops[k]) {
-            report.vertices.push_back(whole.original[v]);
-            if (std::binary_search(off_circle.begin(), off_circle.end(), v))
-                report.off_circle.push_back(whole.original[v]);
-        }
-    }
-    return uv;
 }
 
 }  // namespace
@@ -299,14 +268,14 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
 
     context.begin_stage("finish", 0.9, 1.0);
     PlanarPoints core_uv = finish_map(condensed, laplacian, domain, cut, outcome, result);
-    context.advance(0.5);
     UntangleReport untangled;
-    const PlanarPoints uv = without_flips(whole, cut, std::move(core_uv), result, untangled, context);
+    const PlanarPoints uv = remove_flips({whole.vertices, whole.surface, whole.loops, whole.original}, cut,
+                                         std::move(core_uv), result.loops, untangled, context);
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
     result.uv = PlanarPoints::Zero(vertices.rows(), 2);
     result.uv(whole.original, Eigen::all) = uv;
     add_warnings(whole, outcome, result);
-    const auto flip_sentences = flip_warnings({whole.vertices, whole.surface, whole.loops, whole.original, uv},
+    const auto flip_sentences = flip_warnings({whole.vertices, whole.surface, whole.loops, whole.original}, uv,
                                               cut.flaps, untangled, result.distortion);
     result.warnings.insert(result.warnings.end(), flip_sentences.begin(), flip_sentences.end());
     result.seconds.finish = stage.lap();
