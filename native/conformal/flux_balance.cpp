@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace koebe {
 namespace {
 
 constexpr double small_radius = 1e-3;      // unit disk: about what the meshes resolve
-constexpr std::size_t most_small = 24;     // each costs three back-substitutions
-constexpr double noticeable = 0.05;        // offset over the radius: the fit is as good as the energy below that
+constexpr std::size_t most_small = 12;     // each costs three back-substitutions
+constexpr double noticeable = 0.5;         // offset over the radius: the fit is as good as the energy below that
 constexpr double noticeable_scale = 0.25;  // change of the complex radius over the radius
 constexpr int most_steps = 30;
 constexpr int most_halvings = 16;
@@ -64,6 +65,7 @@ public:
 
     void minimize_energy()
     {
+        if (!any_flux()) return;
         // Columns 3 i, 3 i + 1, 3 i + 2: the indicator of small loop i, and cosine and sine along it.
         const Eigen::Index count = static_cast<Eigen::Index>(small_.size());
         MatrixXd patterns = MatrixXd::Zero(points_.size(), 3 * count);
@@ -114,6 +116,20 @@ public:
     }
 
 private:
+    /// Whether as much flux runs to a small circle as a noticeable offset would cause.
+    bool any_flux() const
+    {
+        MatrixXd parts(points_.size(), 2);
+        parts << points_.real(), points_.imag();
+        const Eigen::MatrixXcd flux = flux_of(parts);
+        return std::any_of(small_.begin(), small_.end(), [&](std::size_t k) {
+            // Flux over offset: that between concentric circles of radii r and 1.
+            const double capacity = 2.0 * std::numbers::pi / std::log(1.0 / circles_[k].radius);
+            return flux.middleRows(begin_[k], size(k)).colwise().sum().norm() >
+                   noticeable * capacity * circles_[k].radius;
+        });
+    }
+
     Eigen::Index size(std::size_t k) const { return begin_[k + 1] - begin_[k]; }
     Eigen::VectorBlock<VectorXcd> segment(VectorXcd& values, std::size_t k) const
     {
