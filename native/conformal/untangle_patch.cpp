@@ -5,6 +5,8 @@
 #include "conformal/stored_uv.h"
 #include "geometry/planar_predicates.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +29,7 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
       circles_(circles),
       uv_(uv),
       place_(surface.vertex_count, Place::inside),
+      flap_(surface.vertex_count, 0),
       loop_of_(surface.vertex_count, -1),
       begin_(surface.vertex_count + 1, 0),
       faces_of_(surface.triangles.size())
@@ -36,7 +39,10 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
             loop_of_[v] = static_cast<int>(k);
             place_[v] = Place::on_circle;
         }
-    for (const Index v : off_circle) place_[v] = Place::off_circle;
+    for (const Index v : off_circle) {
+        place_[v] = Place::off_circle;
+        flap_[v] = 1;
+    }
     const Triangles& triangles = surface.triangles;
     for (Eigen::Index i = 0; i < triangles.size(); ++i) ++begin_[triangles.data()[i] + 1];
     for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
@@ -82,6 +88,12 @@ bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
     const bool may = place_[vertex] == Place::inside || boundary == PatchBoundary::sliding ||
                      (place_[vertex] == Place::off_circle && boundary == PatchBoundary::freed);
     return may && !collapsed(vertex);
+}
+
+bool TangledMap::hangs(Index face) const
+{
+    return std::any_of(triangles().row(face).begin(), triangles().row(face).end(),
+                       [&](Index v) { return flap_[v] != 0; });
 }
 
 bool TangledMap::near_circle(Index vertex) const
@@ -174,14 +186,19 @@ bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, Patch
     problem.floor = VectorXd::Zero(static_cast<Eigen::Index>(faces.size()));
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const Index f = faces[i];
-        const double area = wanted.areas[i];
+        double area = wanted.areas[i];
         double longest = 1.5 * std::sqrt(area);
         for (int k = 0; k < 3; ++k) {
             problem.triangles(i, k) = rank(triangles()(f, k));
             longest = std::max(longest, (uv_.row(triangles()(f, k)) - uv_.row(triangles()(f, (k + 1) % 3))).norm());
         }
-        // Safe from rounding; a face that is right as stored, however thin, may lose half of what it has.
         const StoredFace face(triangles(), uv_, f);
+        if (hangs(f) && !face.flipped()) {
+            // A flap keeps the shape in which it fits into its hole.
+            const auto corner = [&](int k) { return uv_.row(triangles()(f, k)).transpose(); };
+            problem.reference[i] << corner(1) - corner(0), corner(2) - corner(0);
+            area = 0.5 * problem.reference[i].determinant();
+        }
         if (!face.below_resolution()) problem.floor[i] = rounding * longest / (2.0 * area);
         if (!face.flipped()) problem.floor[i] = std::min(problem.floor[i], 2.0 * face.area() / area);
     }

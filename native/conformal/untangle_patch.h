@@ -49,6 +49,7 @@ public:
 
 private:
     bool collapsed(Index vertex) const;
+    bool hangs(Index face) const;
     std::size_t flipped(const std::vector<Index>& faces) const;
     bool mobile(Index vertex, PatchBoundary boundary) const;
     bool loops_cross(const std::vector<Index>& moved) const;
@@ -59,6 +60,7 @@ private:
     const std::vector<Circle>& circles_;
     PlanarPoints& uv_;
     std::vector<Place> place_;
+    std::vector<char> flap_;  // 1 for vertices off their circles from the start: rims of flaps
     std::vector<int> loop_of_;
     std::vector<Index> begin_, faces_of_;  // faces around each vertex
 };
