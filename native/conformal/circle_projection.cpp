@@ -70,8 +70,7 @@ VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int
     angles = (angles.array() - angles[0] - room.array()) * scale + angles[0] + room.array();
     VectorXcd result(n);
     for (Eigen::Index i = 0; i < n; ++i)
-        result[(first + i) % n] =
-            circle.center + circle.radius * arms[first] * std::polar(1.0, turn * angles[i]);
+        result[(first + i) % n] = circle.center + circle.radius * arms[first] * std::polar(1.0, turn * angles[i]);
     return result;
 }
 

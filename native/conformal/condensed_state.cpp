@@ -1,34 +1,22 @@
 #include "conformal/condensed_state.h"
 
-#include "conformal/boundary_angles.h"
-#include "conformal/disk_dirichlet_to_neumann.h"
 #include "geometry/dense_spd.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
 
 CondensedState::CondensedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                             const std::vector<VectorXd>& edges, VectorXd source)
-    : edges_(edges), source_(std::move(source)), sigma_(surface.sigma()), filled_(sigma_)
+                               const std::vector<VectorXd>& edges, VectorXd source)
+    : FilledState(loops, edges), source_(std::move(source)), sigma_(surface.sigma()), filled_(sigma_)
 {
-    Index begin = 0;
     int raised = 0;
-    for (int k = 0; k < static_cast<int>(loops.size()); ++k) {
-        begin_.push_back(begin);
-        size_.push_back(static_cast<Index>(loops[k].size()));
-        begin += size_.back();
-        weights_.push_back(vertex_weights(edges[k]));
-        angles_.emplace_back();
+    for (int k = 0; k < loop_count(); ++k)
         take_angles({k}, loops.size() > 1 ? VectorXd(diagonal_block(sigma_, k).rowwise().sum()) : source_, raised);
-    }
 }
 
-VectorXcd CondensedState::rim() const { return unit_circle_points(angles_[0]); }
-
-std::vector<VectorXcd> CondensedState::images() const
+std::vector<VectorXcd> CondensedState::images()
 {
     const VectorXcd outer = rim();
     MatrixXd parts(size_[0], 2);
@@ -44,7 +32,7 @@ std::vector<VectorXcd> CondensedState::images() const
     return result;
 }
 
-std::vector<VectorXd> CondensedState::fluxes(const std::vector<std::vector<int>>& open_sets) const
+std::vector<VectorXd> CondensedState::fluxes(const std::vector<std::vector<int>>& open_sets)
 {
     if (open_sets.size() == 1) return {eliminated_flux(open_sets[0])};
     // M = (A + alpha 1 1')^-1: constants are in the kernel of A.
@@ -56,16 +44,9 @@ std::vector<VectorXd> CondensedState::fluxes(const std::vector<std::vector<int>>
     return result;
 }
 
-void CondensedState::take_angles(const std::vector<int>& open, const VectorXd& flux, int& raised)
+void CondensedState::set_disk(int k, const MatrixXd& disk)
 {
-    Index row = 0;
-    for (const int k : open) {
-        angles_[k] = centered_angles(angles_from_flux(flux.segment(row, size_[k]), edges_[k], raised), weights_[k],
-                                     angles_[k]);
-        filled_.block(begin_[k], begin_[k], size_[k], size_[k]) =
-            diagonal_block(sigma_, k) + disk_dirichlet_to_neumann(angles_[k]);
-        row += size_[k];
-    }
+    filled_.block(begin_[k], begin_[k], size_[k], size_[k]) = diagonal_block(sigma_, k) + disk;
 }
 
 VectorXd CondensedState::eliminated_flux(const std::vector<int>& open) const
@@ -96,11 +77,6 @@ VectorXd CondensedState::flux_by_inverse(const std::vector<int>& open, const Mat
     }
     const MatrixXd fluxes = spd_solve(gather(inverse, open, open), values);
     return fluxes.col(0) - (fluxes.col(0).sum() - net) / fluxes.col(1).sum() * fluxes.col(1);
-}
-
-Index CondensedState::total(const std::vector<int>& loops) const
-{
-    return std::accumulate(loops.begin(), loops.end(), Index{0}, [this](Index n, int k) { return n + size_[k]; });
 }
 
 MatrixXd CondensedState::gather(const MatrixXd& matrix, const std::vector<int>& rows,

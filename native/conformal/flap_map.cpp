@@ -52,8 +52,7 @@ struct HangingFlap {
         const auto steps = chain();
         VectorXd walked(rim);
         VectorXd edges(rim + 1);
-        for (Index i = 0; i <= rim; ++i)
-            edges[i] = (vertices.row(steps[i + 1]) - vertices.row(steps[i])).stableNorm();
+        for (Index i = 0; i <= rim; ++i) edges[i] = (vertices.row(steps[i + 1]) - vertices.row(steps[i])).stableNorm();
         edges = edges.array().max(least_share * edges.mean());  // coinciding vertices need a place of their own
         double sum = 0.0;
         for (Index i = 0; i < rim; ++i) walked[i] = (sum += edges[i]) / edges.sum();
@@ -94,8 +93,8 @@ struct HangingFlap {
     Triangles triangles;
     Vertices vertices;
     VectorXcd image;
-    VectorXcd natural;         // the conformal flattening
-    int level = 0;             // how far it has been flattened
+    VectorXcd natural;  // the conformal flattening
+    int level = 0;      // how far it has been flattened
 };
 
 void lay_on_rim(HangingFlap& flap)

@@ -11,7 +11,12 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t limb = 12;  // faces: fewer are a corner where hardly any flux runs, not a limb
-constexpr double coarse = 0.25;  // inner vertices over loop vertices: with fewer, faces reach from loop to loop
+constexpr double coarse = 0.25;   // inner vertices over loop vertices: with fewer, faces reach from loop to loop
+
+/// The surface with its map.
+struct MappedSurface : NamedSurface {
+    const PlanarPoints& uv;
+};
 
 std::string plural(std::size_t n, const std::string& noun)
 {
@@ -49,9 +54,9 @@ std::string flap_warning(const MappedSurface& map, const std::vector<Flap>& flap
 struct LostRegion {
     std::vector<Index> faces;
     std::size_t flipped = 0;
-    Index tip = -1;      // corner of the face that is smallest in UV
-    int loop = 0;        // the one with a vertex nearest to the tip on the surface
-    double extent = 0.0; // longest stored edge
+    Index tip = -1;         // corner of the face that is smallest in UV
+    int loop = 0;           // the one with a vertex nearest to the tip on the surface
+    double extent = 0.0;    // longest stored edge
     double shortest = 0.0;  // longest edge of the smallest face, in UV units and 64 bits
 };
 
@@ -63,8 +68,8 @@ std::vector<LostRegion> lost_regions(const MappedSurface& map, const std::vector
     const auto longest_edge = [&](Index f) {
         double longest = 0.0;
         for (int k = 0; k < 3; ++k)
-            longest = std::max(
-                longest, 0.5 * (map.uv.row(triangles(f, k)) - map.uv.row(triangles(f, (k + 1) % 3))).norm());
+            longest =
+                std::max(longest, 0.5 * (map.uv.row(triangles(f, k)) - map.uv.row(triangles(f, (k + 1) % 3))).norm());
         return longest;
     };
     std::vector<LostRegion> regions;
@@ -106,30 +111,33 @@ std::vector<LostRegion> lost_regions(const MappedSurface& map, const std::vector
 
 }  // namespace
 
-std::vector<std::string> flip_warnings(const MappedSurface& map, const std::vector<Flap>& flaps,
-                                       const UntangleReport& untangled, const Distortion& distortion)
+std::vector<std::string> flip_warnings(const NamedSurface& whole, const PlanarPoints& uv,
+                                       const std::vector<Flap>& flaps, const UntangleReport& untangled,
+                                       const Distortion& distortion)
 {
+    const MappedSurface map{whole, uv};
     std::vector<std::string> warnings;
     std::size_t rim = 0;
     for (const VertexLoop& loop : map.loops) rim += loop.size();
     const std::size_t inside = map.original.size() - rim;
     if (map.loops.size() > 1 && static_cast<double>(inside) < coarse * static_cast<double>(rim))
-        warnings.push_back("too coarse: " + plural(inside, "vertex") + " between the loops' " + std::to_string(rim) +
-                           ", so that faces reach from loop to loop and the map is far from conformal (mean angle error " +
-                           figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh");
+        warnings.push_back(
+            "too coarse: " + plural(inside, "vertex") + " between the loops' " + std::to_string(rim) +
+            ", so that faces reach from loop to loop and the map is far from conformal (mean angle error " +
+            figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh");
     if (!flaps.empty()) warnings.push_back(flap_warning(map, flaps));
     if (!untangled.freed.empty())
         warnings.push_back(plural(untangled.freed.size(), "vertex") +
                            " taken off the circle, where straight triangles cannot follow it; the first is " +
                            std::to_string(map.original[untangled.freed.front()]));
     for (const LostRegion& region : lost_regions(map, distortion.below_resolution))
-        warnings.push_back(plural(region.faces.size(), "face") + " around vertex " +
-                           std::to_string(map.original[region.tip]) + ", nearest to loop " +
-                           std::to_string(region.loop) + ", shrank below the resolution of 32-bit UVs (edges from " +
-                           figure(region.shortest) + " to " + figure(region.extent) + "), " +
-                           plural(region.flipped, "face") + " of them to no area; the first is " +
-                           std::to_string(*std::min_element(region.faces.begin(), region.faces.end())) +
-                           (region.faces.size() < limb ? "" : ". A long limb does this: a seam or a hole near its end helps"));
+        warnings.push_back(
+            plural(region.faces.size(), "face") + " around vertex " + std::to_string(map.original[region.tip]) +
+            ", nearest to loop " + std::to_string(region.loop) +
+            ", shrank below the resolution of 32-bit UVs (edges from " + figure(region.shortest) + " to " +
+            figure(region.extent) + "), " + plural(region.flipped, "face") + " of them to no area; the first is " +
+            std::to_string(*std::min_element(region.faces.begin(), region.faces.end())) +
+            (region.faces.size() < limb ? "" : ". A long limb does this: a seam or a hole near its end helps"));
     if (!untangled.tangled.empty())
         warnings.push_back(plural(untangled.tangled.size(), "face") + " flipped; the first is " +
                            std::to_string(untangled.tangled.front()) + ", at vertex " +

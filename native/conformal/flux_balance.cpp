@@ -6,23 +6,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace koebe {
 namespace {
 
-constexpr double small_radius = 1e-3;  // unit disk: about what the meshes resolve
-constexpr std::size_t most_small = 24; // each costs three back-substitutions
-constexpr double noticeable = 0.05;    // offset over the radius: the fit is as good as the energy below that
+constexpr double small_radius = 1e-3;      // unit disk: about what the meshes resolve
+constexpr std::size_t most_small = 12;     // each costs three back-substitutions
+constexpr double noticeable = 0.5;         // offset over the radius: the fit is as good as the energy below that
 constexpr double noticeable_scale = 0.25;  // change of the complex radius over the radius
 constexpr int most_steps = 30;
 constexpr int most_halvings = 16;
-constexpr double concentric = 1e-6;    // of the inner radius
+constexpr double concentric = 1e-6;  // of the inner radius
 
 class SmallCircles {
 public:
     SmallCircles(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
                  const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary)
-        : condensed_(condensed), laplacian_(laplacian), loops_(loops), circles_(circles),
+        : condensed_(condensed),
+          laplacian_(laplacian),
+          loops_(loops),
+          circles_(circles),
           points_(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1))
     {
         for (const VertexLoop& loop : loops) begin_.push_back(begin_.back() + static_cast<Eigen::Index>(loop.size()));
@@ -36,7 +40,8 @@ public:
     bool empty() const { return small_.empty(); }
     const VectorXcd& points() const { return points_; }
 
-    /// Two loops: the inner one's centre where no flux runs, then a Moebius map that makes it concentric, until nothing moves.
+    /// Two loops: the inner one's centre where no flux runs, then a Moebius map that makes it concentric, until nothing
+    /// moves.
     void center_annulus()
     {
         MatrixXd indicator = MatrixXd::Zero(points_.size(), 1);
@@ -60,6 +65,7 @@ public:
 
     void minimize_energy()
     {
+        if (!any_flux()) return;
         // Columns 3 i, 3 i + 1, 3 i + 2: the indicator of small loop i, and cosine and sine along it.
         const Eigen::Index count = static_cast<Eigen::Index>(small_.size());
         MatrixXd patterns = MatrixXd::Zero(points_.size(), 3 * count);
@@ -110,6 +116,20 @@ public:
     }
 
 private:
+    /// Whether as much flux runs to a small circle as a noticeable offset would cause.
+    bool any_flux() const
+    {
+        MatrixXd parts(points_.size(), 2);
+        parts << points_.real(), points_.imag();
+        const Eigen::MatrixXcd flux = flux_of(parts);
+        return std::any_of(small_.begin(), small_.end(), [&](std::size_t k) {
+            // Flux over offset: that between concentric circles of radii r and 1.
+            const double capacity = 2.0 * std::numbers::pi / std::log(1.0 / circles_[k].radius);
+            return flux.middleRows(begin_[k], size(k)).colwise().sum().norm() >
+                   noticeable * capacity * circles_[k].radius;
+        });
+    }
+
     Eigen::Index size(std::size_t k) const { return begin_[k + 1] - begin_[k]; }
     Eigen::VectorBlock<VectorXcd> segment(VectorXcd& values, std::size_t k) const
     {

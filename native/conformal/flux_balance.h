@@ -10,10 +10,10 @@ namespace koebe {
 
 /// Moves, turns and scales small circles, as circles, to the least conformal energy of the harmonic extension,
 /// E = 1/2 z* Sigma z - area. Then no net flux runs through them, as in a conformal map none does. Where their centres
-/// come from a fit, or from a Moebius map, which commutes with the extension up to the resolution of the mesh only, they
-/// are off by an absolute amount; a hole at the end of a long limb is smaller than that, and the flux to it would drag
-/// the limb across the map. E is quadratic in a centre and a complex radius, so this is one small linear system. Circles
-/// that would move little, or meet, stay.
+/// come from a fit, or from a Moebius map, which commutes with the extension up to the resolution of the mesh only,
+/// they are off by an absolute amount; a hole at the end of a long limb is smaller than that, and the flux to it would
+/// drag the limb across the map. E is quadratic in a centre and a complex radius, so this is one small linear system.
+/// Circles that would move little, or meet, stay.
 ///
 /// With two loops the inner circle is moved alone and the pair made concentric again, and so on until they are both:
 /// concentric and without flux.

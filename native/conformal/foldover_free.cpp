@@ -17,7 +17,7 @@ using Mobility = FoldoverProblem::Mobility;
 constexpr double least_epsilon = 1e-6;  // Garanzha et al. 2021, section 3.2
 constexpr double armijo = 1e-4;
 constexpr int halvings = 24;
-constexpr int patience = 30;                       // iterations without a better worst determinant, while folded
+constexpr int patience = 30;  // iterations without a better worst determinant, while folded
 
 class FoldoverMinimizer {
 public:
@@ -67,7 +67,6 @@ public:
     }
 
 private:
-
     Eigen::Vector4d jacobian(const PlanarPoints& points, Eigen::Index f) const
     {
         Gradient corners;

@@ -1,9 +1,12 @@
 #include "conformal/koebe_condensed.h"
 
+#include "conformal/boundary_angles.h"
 #include "conformal/circle_fit.h"
 #include "conformal/condensed_state.h"
+#include "conformal/sparse_state.h"
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace koebe {
@@ -23,35 +26,45 @@ std::vector<std::vector<int>> sweep_steps(int loop_count, Method method)
     return steps;
 }
 
-/// Flux 1 from the vertex deepest inside S: the one where the torsion function, K u = area, is largest.
-InteriorSolution deepest_source(const CondensedLaplacian& surface, const VectorXd& areas)
+/// Feeds 1 into the vertex deepest inside S: the one where the torsion function, K u = area, is largest.
+VectorXd deepest_source(const CondensedLaplacian& surface, const VectorXd& areas)
 {
     Index deepest = 0;
     surface.solve_interior(areas).values.maxCoeff(&deepest);
     VectorXd source = VectorXd::Zero(areas.size());
     source[deepest] = 1.0;
-    return surface.solve_interior(source);
+    return source;
 }
 
 }  // namespace
 
-KoebeOutcome koebe_condensed(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                             const std::vector<VectorXd>& edges, const VectorXd& areas,
-                             const UniformizeOptions& options, ExecutionContext& context)
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+                             const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
+                             const VectorXd& areas, const UniformizeOptions& options, ExecutionContext& context)
 {
     KoebeOutcome outcome;
     const bool sourced = loops.size() == 1 || (options.method == Method::ck && loops.size() > 2);
-    VectorXd source = VectorXd::Zero(surface.boundary_size());
-    if (sourced) source = deepest_source(surface, areas).boundary_flux;
-    CondensedState state(surface, loops, edges, std::move(source));
+    const VectorXd source = sourced ? deepest_source(surface, areas) : VectorXd::Zero(areas.size());
+    const auto flux_of_source = [&]() -> VectorXd {
+        return sourced ? surface.solve_interior(source).boundary_flux : VectorXd::Zero(surface.boundary_size());
+    };
     if (loops.size() == 1) {
-        outcome.loops.push_back(state.rim());
+        const VectorXd flux = flux_of_source();
+        const VectorXd angles = angles_from_flux(flux, edges[0], outcome.raised_angles);
+        outcome.loops.push_back(unit_circle_points(centered_angles(angles, vertex_weights(edges[0]))));
         outcome.converged = true;
         return outcome;
     }
+    std::unique_ptr<FilledState> filled;
+    if (surface.has_sigma())
+        filled = std::make_unique<CondensedState>(surface, loops, edges, flux_of_source());
+    else
+        filled = std::make_unique<SparseState>(laplacian, surface, loops, edges, source);
+    FilledState& state = *filled;
 
     const auto steps = sweep_steps(state.loop_count(), options.method);
-    const std::size_t at_once = state.loop_count() <= most_loops_one_by_one ? 1 : steps.size();
+    const std::size_t at_once =
+        surface.has_sigma() && state.loop_count() <= most_loops_one_by_one ? 1 : steps.size();
     CircleState now = circle_state(state.images(), fit_circle_least_squares);
     // Steps that take effect together share the change and the roundness they lead to.
     const auto record = [&](std::size_t first, std::size_t last) {

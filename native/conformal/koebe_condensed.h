@@ -22,12 +22,16 @@ namespace koebe {
 /// such that no net flux runs and alpha is not felt. With one loop one step from the source is exact, with two loops
 /// one GK step.
 ///
-/// @param surface the condensed Laplacian, its boundary the concatenation of the loops
+/// Boundaries too long for a Sigma keep A as one sparse matrix, and the fluxes are found by conjugate gradients.
+///
+/// @param laplacian of the surface
+/// @param surface the same condensed, its boundary the concatenation of the loops
 /// @param loops the outer loop first
 /// @param edges per loop: length on the surface of the edge from each vertex to the next, all positive
 /// @param areas (V) area around each vertex: for the choice of the source, the vertex deepest inside
 /// @throws SolverError, Cancelled
-KoebeOutcome koebe_condensed(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+                             const std::vector<VertexLoop>& loops,
                              const std::vector<VectorXd>& edges, const VectorXd& areas,
                              const UniformizeOptions& options, ExecutionContext& context);
 

@@ -8,12 +8,13 @@
 namespace koebe {
 namespace {
 
-constexpr double least_of_mean = 1e-3;  // dimensionless
-constexpr double drawable = 1e-3;       // radians: s^2 / 2 is eight roundings of 32-bit UVs
+constexpr double least_of_mean = 1e-3;     // dimensionless
+constexpr double drawable = 1e-3;          // radians: s^2 / 2 is eight roundings of 32-bit UVs
 constexpr double most = std::numbers::pi;  // radians that all such edges may take together
 
 /// Marks the edges of the shorter side of every chord of the loop.
-void mark_pockets(const Surface& core, const VertexLoop& outer, const std::vector<Index>& place, std::vector<char>& mark)
+void mark_pockets(const Surface& core, const VertexLoop& outer, const std::vector<Index>& place,
+                  std::vector<char>& mark)
 {
     const Index n = static_cast<Index>(outer.size());
     for (Index h = 0; h < static_cast<Index>(core.twin.size()); ++h) {

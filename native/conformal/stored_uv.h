@@ -24,7 +24,8 @@ inline StoredPoint stored_point(const PlanarPoints& points, Index vertex)
 /// A face as stored; area and edge are computed in 64 bits.
 struct StoredFace {
     StoredFace(const Triangles& triangles, const PlanarPoints& points, Eigen::Index f)
-        : a(stored_point(points, triangles(f, 0))), b(stored_point(points, triangles(f, 1))),
+        : a(stored_point(points, triangles(f, 0))),
+          b(stored_point(points, triangles(f, 1))),
           c(stored_point(points, triangles(f, 2)))
     {
     }
@@ -32,8 +33,8 @@ struct StoredFace {
     double area() const { return 0.5 * ((b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v)); }
     double longest_edge() const
     {
-        return std::max({std::hypot(a.u - b.u, a.v - b.v), std::hypot(b.u - c.u, b.v - c.v),
-                         std::hypot(c.u - a.u, c.v - a.v)});
+        return std::max(
+            {std::hypot(a.u - b.u, a.v - b.v), std::hypot(b.u - c.u, b.v - c.v), std::hypot(c.u - a.u, c.v - a.v)});
     }
     bool flipped() const { return !(area() > 0.0); }
     bool below_resolution() const { return longest_edge() < uv_resolution; }

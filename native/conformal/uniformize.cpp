@@ -5,14 +5,13 @@
 #include "conformal/circle_fit.h"
 #include "conformal/circle_projection.h"
 #include "conformal/distortion.h"
-#include "conformal/flap_map.h"
+#include "conformal/flip_removal.h"
 #include "conformal/flip_report.h"
 #include "conformal/flux_balance.h"
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
 #include "conformal/rim_room.h"
-#include "conformal/untangle.h"
 #include "core/detachable_run.h"
 #include "core/topology.h"
 #include "geometry/dense_spd.h"
@@ -186,10 +185,10 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
         report.circle = k == 0 ? Circle{} : moebius(circles[k]);
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
-        const VectorXcd projected = k == 0 ? project_onto_circle(report.circle, image, 1,
-                                                                  rim_room(domain.surface, domain.loops[0], cut.flaps,
-                                                                           cut.vertices))
-                                            : project_onto_circle(report.circle, image, -1);
+        const VectorXcd projected =
+            k == 0 ? project_onto_circle(report.circle, image, 1,
+                                         rim_room(domain.surface, domain.loops[0], cut.flaps, cut.vertices))
+                   : project_onto_circle(report.circle, image, -1);
         report.roundness_projected = roundness(projected, report.circle);
         for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
         boundary.middleRows(row, projected.size()) << projected.real(), projected.imag();
@@ -261,35 +260,6 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
 }
 
-/// The map of the whole surface from that of its core: flaps hung back, flipped faces turned back.
-PlanarPoints without_flips(const Domain& whole, const FlapCut& cut, PlanarPoints core_uv, UniformizeResult& result,
-                           UntangleReport& untangled, const ExecutionContext& context)
-{
-    PlanarPoints uv = std::move(core_uv);
-    std::vector<Index> off_circle;
-    if (!cut.flaps.empty()) {
-        PlanarPoints whole_uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
-        whole_uv(cut.vertices, Eigen::all) = uv;
-        uv = std::move(whole_uv);
-        off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
-    }
-    untangled =
-        untangle(whole.vertices, whole.surface, whole.loops, reported_circles(result), off_circle, uv, context);
-
-    off_circle.insert(off_circle.end(), untangled.freed.begin(), untangled.freed.end());
-    std::sort(off_circle.begin(), off_circle.end());
-    for (std::size_t k = 0; k < whole.loops.size(); ++k) {
-        LoopReport& report = result.loops[k];
-        report.vertices.clear();
-        for (const Index v : whole.loops[k]) {
-            report.vertices.push_back(whole.original[v]);
-            if (std::binary_search(off_circle.begin(), off_circle.end(), v))
-                report.off_circle.push_back(whole.original[v]);
-        }
-    }
-    return uv;
-}
-
 UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
                               ExecutionContext& context)
 {
@@ -328,7 +298,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         domain.loops.size() == 1 && domain.original.size() == domain.loops[0].size() ? polygon_outcome(domain)
         : options.engine == Engine::mesh
             ? koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context).outcome
-            : koebe_condensed(condensed, domain.loops, domain.edges,
+            : koebe_condensed(laplacian, condensed, domain.loops, domain.edges,
                               vertex_areas(metric.triangles, metric.lengths, vertex_count), options, context);
     result.converged = outcome.converged;
     result.sweeps = outcome.sweeps;
@@ -352,12 +322,13 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         return better;
     }
     UntangleReport untangled;
-    const PlanarPoints uv = without_flips(whole, cut, std::move(core_uv), result, untangled, context);
+    const PlanarPoints uv = remove_flips({whole.vertices, whole.surface, whole.loops, whole.original}, cut,
+                                         std::move(core_uv), result.loops, untangled, context);
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
     result.uv = PlanarPoints::Zero(vertices.rows(), 2);
     result.uv(whole.original, Eigen::all) = uv;
     add_warnings(whole, outcome, result);
-    const auto flip_sentences = flip_warnings({whole.vertices, whole.surface, whole.loops, whole.original, uv},
+    const auto flip_sentences = flip_warnings({whole.vertices, whole.surface, whole.loops, whole.original}, uv,
                                               cut.flaps, untangled, result.distortion);
     result.warnings.insert(result.warnings.end(), flip_sentences.begin(), flip_sentences.end());
     result.seconds.finish = stage.lap();

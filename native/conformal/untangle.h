@@ -14,9 +14,9 @@ struct UntangleOptions {
 };
 
 struct UntangleReport {
-    int repairs = 0;              ///< neighbourhoods that were moved
-    std::vector<Index> freed;     ///< loop vertices that had to leave their circles
-    std::vector<Index> tangled;   ///< faces still flipped, those below resolution aside
+    int repairs = 0;             ///< neighbourhoods that were moved
+    std::vector<Index> freed;    ///< loop vertices that had to leave their circles
+    std::vector<Index> tangled;  ///< faces still flipped, those below resolution aside
 };
 
 /// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, from

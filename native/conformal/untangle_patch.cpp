@@ -1,11 +1,11 @@
 #include "conformal/untangle_patch.h"
 
 #include "conformal/foldover_free.h"
+#include "conformal/patch_shapes.h"
 #include "conformal/stored_uv.h"
-#include "geometry/laplacian.h"
 #include "geometry/planar_predicates.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -15,39 +15,34 @@
 namespace koebe {
 namespace {
 
-constexpr double rounding = 3e-7;      // twice the area a face can lose by rounding, over its longest edge, disk units
-constexpr double inward = 5e-7;        // disk units: half of what counts as on the circle, four roundings of 32-bit UVs
-constexpr double least_height = 1e-2;  // of a wanted shape, over its longest edge
-constexpr double least_edge = 1e-11;    // disk units: 1e5 times the rounding of 64-bit positions
-constexpr double least_size = 1e-14;   // of a wanted shape, disk units
-
-/// Columns: edges 0-1 and 0-2 of a face with these edge lengths, scaled to an area.
-Eigen::Matrix2d shaped(double l01, double l12, double l20, double area)
-{
-    const double longest = std::max({l01, l12, l20});
-    Eigen::Matrix2d edges;
-    if (!(longest > 0.0)) return shaped(1.0, 1.0, 1.0, area);
-    l01 = std::max(l01, least_height * longest);
-    const double height =
-        std::max(2.0 * triangle_area(l01, l12, l20), least_height * longest * longest) / l01;
-    edges << l01, (l01 * l01 + l20 * l20 - l12 * l12) / (2.0 * l01), 0.0, height;
-    return edges * std::sqrt(2.0 * area / edges.determinant());
-}
+constexpr double rounding = 3e-7;     // twice the area a face can lose by rounding, over its longest edge, disk units
+constexpr double inward = 5e-7;       // disk units: half of what counts as on the circle, four roundings of 32-bit UVs
+constexpr double least_edge = 1e-11;  // disk units: 1e5 times the rounding of 64-bit positions
 
 }  // namespace
 
 TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                        const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv)
-    : vertices_(vertices), surface_(surface), loops_(loops), circles_(circles), uv_(uv),
-      place_(surface.vertex_count, Place::inside), loop_of_(surface.vertex_count, -1),
-      begin_(surface.vertex_count + 1, 0), faces_of_(surface.triangles.size())
+    : vertices_(vertices),
+      surface_(surface),
+      loops_(loops),
+      circles_(circles),
+      uv_(uv),
+      place_(surface.vertex_count, Place::inside),
+      flap_(surface.vertex_count, 0),
+      loop_of_(surface.vertex_count, -1),
+      begin_(surface.vertex_count + 1, 0),
+      faces_of_(surface.triangles.size())
 {
     for (std::size_t k = 0; k < loops.size(); ++k)
         for (const Index v : loops[k]) {
             loop_of_[v] = static_cast<int>(k);
             place_[v] = Place::on_circle;
         }
-    for (const Index v : off_circle) place_[v] = Place::off_circle;
+    for (const Index v : off_circle) {
+        place_[v] = Place::off_circle;
+        flap_[v] = 1;
+    }
     const Triangles& triangles = surface.triangles;
     for (Eigen::Index i = 0; i < triangles.size(); ++i) ++begin_[triangles.data()[i] + 1];
     for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
@@ -69,14 +64,14 @@ std::vector<Index> TangledMap::tangled(const std::vector<Index>& faces) const
 {
     std::vector<Index> result;
     for (const Index f : faces)
-        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution())
-            result.push_back(f);
+        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution()) result.push_back(f);
     return result;
 }
 
 std::size_t TangledMap::flipped(const std::vector<Index>& faces) const
 {
-    return std::count_if(faces.begin(), faces.end(), [&](Index f) { return StoredFace(triangles(), uv_, f).flipped(); });
+    return std::count_if(faces.begin(), faces.end(),
+                         [&](Index f) { return StoredFace(triangles(), uv_, f).flipped(); });
 }
 
 /// Whether nothing around a vertex is large enough for 64-bit positions to be moved with sense.
@@ -93,6 +88,12 @@ bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
     const bool may = place_[vertex] == Place::inside || boundary == PatchBoundary::sliding ||
                      (place_[vertex] == Place::off_circle && boundary == PatchBoundary::freed);
     return may && !collapsed(vertex);
+}
+
+bool TangledMap::hangs(Index face) const
+{
+    return std::any_of(triangles().row(face).begin(), triangles().row(face).end(),
+                       [&](Index v) { return flap_[v] != 0; });
 }
 
 bool TangledMap::near_circle(Index vertex) const
@@ -145,51 +146,6 @@ std::vector<std::vector<Index>> TangledMap::patches(const std::vector<Index>& fa
     return result;
 }
 
-/// Areas in the plane: the surface's by the local conformal factor, from edges, as areas may be folded; for equal
-/// shapes their mean around each face.
-VectorXd TangledMap::wanted_areas(const std::vector<Index>& faces, PatchShape shape) const
-{
-    struct Sums {
-        double planar = 0.0, surface = 0.0, area = 0.0, count = 0.0;
-    };
-    std::map<Index, Sums> around;
-    VectorXd areas(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        for (int k = 0; k < 3; ++k) {
-            const Index a = triangles()(faces[i], k), b = triangles()(faces[i], (k + 1) % 3);
-            const double planar = (uv_.row(a) - uv_.row(b)).squaredNorm();
-            const double surface = (vertices_.row(a) - vertices_.row(b)).squaredNorm();
-            for (const Index v : {a, b}) {
-                around[v].planar += planar;
-                around[v].surface += surface;
-            }
-        }
-    const auto corner_mean = [&](std::size_t i, auto value) {
-        double log_sum = 0.0;
-        for (int k = 0; k < 3; ++k) log_sum += std::log(std::max(value(around[triangles()(faces[i], k)]), 1e-300));
-        return std::exp(log_sum / 3.0);
-    };
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        const Index f = faces[i];
-        const Eigen::RowVector3d p = vertices_.row(triangles()(f, 0));
-        const double l0 = (vertices_.row(triangles()(f, 1)) - p).norm();
-        const double l1 = (vertices_.row(triangles()(f, 2)) - vertices_.row(triangles()(f, 1))).norm();
-        const double l2 = (vertices_.row(triangles()(f, 2)) - p).norm();
-        const double factor = corner_mean(i, [](const Sums& s) { return s.planar / std::max(s.surface, 1e-300); });
-        const double longest = std::max({l0, l1, l2});
-        areas[i] = factor * std::max(triangle_area(l0, l1, l2), 0.5 * least_height * longest * longest);
-        areas[i] = std::max(areas[i], least_size * least_size);
-        for (int k = 0; k < 3; ++k) {
-            around[triangles()(f, k)].area += areas[i];
-            around[triangles()(f, k)].count += 1.0;
-        }
-    }
-    if (shape == PatchShape::equilateral)
-        for (std::size_t i = 0; i < faces.size(); ++i)
-            areas[i] = corner_mean(i, [](const Sums& s) { return s.area / s.count; });
-    return areas;
-}
-
 bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
                         const ExecutionContext& context)
 {
@@ -213,9 +169,9 @@ bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, Patch
         for (Index j = begin_[v]; j < begin_[v + 1] && moves; ++j)
             moves = std::binary_search(patch.begin(), patch.end(), faces_of_[j]);
         if (loop_of_[v] >= 0) problem.circles[i] = circles_[loop_of_[v]];
-        problem.mobility.push_back(!moves                            ? FoldoverProblem::Mobility::held
-                                   : place_[v] == Place::on_circle   ? FoldoverProblem::Mobility::sliding
-                                                                     : FoldoverProblem::Mobility::free);
+        problem.mobility.push_back(!moves                          ? FoldoverProblem::Mobility::held
+                                   : place_[v] == Place::on_circle ? FoldoverProblem::Mobility::sliding
+                                                                   : FoldoverProblem::Mobility::free);
     }
     const auto is_held = [&](Index v) { return problem.mobility[rank(v)] == FoldoverProblem::Mobility::held; };
     std::vector<Index> faces;
@@ -224,24 +180,27 @@ bool TangledMap::repair(const std::vector<Index>& patch, PatchShape shape, Patch
             faces.push_back(f);
     if (faces.empty()) return false;
 
-    const VectorXd areas = wanted_areas(faces, shape);
+    const PatchShapes wanted = patch_shapes(vertices_, triangles(), uv_, faces, shape);
+    problem.reference = wanted.references;
     problem.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
     problem.floor = VectorXd::Zero(static_cast<Eigen::Index>(faces.size()));
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const Index f = faces[i];
-        double lengths[3], longest = 0.0;
+        double area = wanted.areas[i];
+        double longest = 1.5 * std::sqrt(area);
         for (int k = 0; k < 3; ++k) {
-            const Index a = triangles()(f, k), b = triangles()(f, (k + 1) % 3);
-            problem.triangles(i, k) = rank(a);
-            lengths[k] = shape == PatchShape::surface ? (vertices_.row(a) - vertices_.row(b)).norm() : 1.0;
-            longest = std::max(longest, (uv_.row(a) - uv_.row(b)).norm());
+            problem.triangles(i, k) = rank(triangles()(f, k));
+            longest = std::max(longest, (uv_.row(triangles()(f, k)) - uv_.row(triangles()(f, (k + 1) % 3))).norm());
         }
-        problem.reference.push_back(shaped(lengths[0], lengths[1], lengths[2], areas[i]));
-        // Safe from rounding; a face that is right as stored, however thin, may lose half of what it has.
         const StoredFace face(triangles(), uv_, f);
-        if (!face.below_resolution())
-            problem.floor[i] = rounding * std::max(longest, 1.5 * std::sqrt(areas[i])) / (2.0 * areas[i]);
-        if (!face.flipped()) problem.floor[i] = std::min(problem.floor[i], 0.5 * 4.0 * face.area() / areas[i]);
+        if (hangs(f) && !face.flipped()) {
+            // A flap keeps the shape in which it fits into its hole.
+            const auto corner = [&](int k) { return uv_.row(triangles()(f, k)).transpose(); };
+            problem.reference[i] << corner(1) - corner(0), corner(2) - corner(0);
+            area = 0.5 * problem.reference[i].determinant();
+        }
+        if (!face.below_resolution()) problem.floor[i] = rounding * longest / (2.0 * area);
+        if (!face.flipped()) problem.floor[i] = std::min(problem.floor[i], 2.0 * face.area() / area);
     }
     minimize_foldover_free(problem, context);
 

@@ -1,6 +1,7 @@
 // A neighbourhood of flipped faces, and the attempt to turn them back.
 #pragma once
 
+#include "conformal/patch_shapes.h"
 #include "conformal/result.h"
 #include "core/execution.h"
 #include "core/topology.h"
@@ -9,7 +10,6 @@
 
 namespace koebe {
 
-enum class PatchShape { surface, equilateral };  ///< what the faces of a patch are drawn towards
 /// What loop vertices may do: nothing; move if they are off their circles; and slide along them if they are not.
 enum class PatchBoundary { held, freed, sliding };
 
@@ -48,12 +48,10 @@ public:
     void set_place(Index vertex, Place place) { place_[vertex] = place; }
 
 private:
-    struct LocalPatch;
-
     bool collapsed(Index vertex) const;
+    bool hangs(Index face) const;
     std::size_t flipped(const std::vector<Index>& faces) const;
     bool mobile(Index vertex, PatchBoundary boundary) const;
-    VectorXd wanted_areas(const std::vector<Index>& faces, PatchShape shape) const;
     bool loops_cross(const std::vector<Index>& moved) const;
 
     const Vertices& vertices_;
@@ -62,6 +60,7 @@ private:
     const std::vector<Circle>& circles_;
     PlanarPoints& uv_;
     std::vector<Place> place_;
+    std::vector<char> flap_;  // 1 for vertices off their circles from the start: rims of flaps
     std::vector<int> loop_of_;
     std::vector<Index> begin_, faces_of_;  // faces around each vertex
 };

@@ -4,6 +4,7 @@
 #include "geometry/dense_spd.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace koebe {
 
@@ -57,9 +58,26 @@ std::vector<Index> boundary_last_order(const SparseMatrix& laplacian, const std:
     return order;
 }
 
+/// K on the interior, the unit matrix on the boundary, nothing between them.
+SparseMatrix cut_off(const SparseMatrix& laplacian, const std::vector<Index>& boundary)
+{
+    std::vector<char> on_boundary(laplacian.rows(), 0);
+    for (const Index v : boundary) on_boundary[v] = 1;
+    SparseMatrix result = laplacian;
+    for (Index column = 0; column < static_cast<Index>(result.cols()); ++column)
+        for (SparseMatrix::InnerIterator it(result, column); it; ++it)
+            if (on_boundary[it.row()] || on_boundary[column]) it.valueRef() = it.row() == column ? 1.0 : 0.0;
+    result.prune([](Index, Index, double value) { return value != 0.0; });
+    return result;
+}
+
 }  // namespace
 
 struct CondensedLaplacian::Impl {
+    // Without sigma: K, and the factor of K with the boundary cut off it, 1 in its place.
+    SparseMatrix laplacian;
+    std::optional<SparseCholesky> interior;
+
     CholmodCommon common;
     Factor factor;
     Index vertex_count = 0;
@@ -72,12 +90,17 @@ struct CondensedLaplacian::Impl {
 };
 
 CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary,
-                                       Ordering ordering)
+                                       Ordering ordering, std::size_t most_condensed)
     : impl_(std::make_unique<Impl>())
 {
     impl_->vertex_count = static_cast<Index>(laplacian.rows());
     impl_->interior_count = impl_->vertex_count - static_cast<Index>(boundary.size());
     impl_->boundary = boundary;
+    if (boundary.size() > most_condensed) {
+        impl_->laplacian = laplacian;
+        impl_->interior.emplace(cut_off(laplacian, boundary), ordering);
+        return;
+    }
     CholmodCommon& common = impl_->common;
 
     SparseMatrix shifted = laplacian;
@@ -154,8 +177,17 @@ MatrixXd CondensedLaplacian::Impl::solve(int system, const MatrixXd& right_hand_
     return to_eigen(*x);
 }
 
+bool CondensedLaplacian::has_sigma() const { return !impl_->interior; }
+
 MatrixXd CondensedLaplacian::extend(const MatrixXd& boundary_values) const
 {
+    if (impl_->interior) {
+        MatrixXd values = MatrixXd::Zero(impl_->vertex_count, boundary_values.cols());
+        values(impl_->boundary, Eigen::all) = boundary_values;
+        MatrixXd load = -(impl_->laplacian * values);
+        load(impl_->boundary, Eigen::all) = boundary_values;
+        return impl_->interior->solve(load);
+    }
     // L' x = (0, L_BB' z_B) has x_B = z_B and x_I = -L_II^-T L_BI' z_B, the harmonic extension.
     const Index m = static_cast<Index>(impl_->position.size());
     MatrixXd z(m, boundary_values.cols());
@@ -174,6 +206,12 @@ MatrixXd CondensedLaplacian::extend(const MatrixXd& boundary_values) const
 
 InteriorSolution CondensedLaplacian::solve_interior(const VectorXd& load) const
 {
+    if (impl_->interior) {
+        MatrixXd inner = load;
+        for (const Index v : impl_->boundary) inner(v, 0) = 0.0;
+        const VectorXd values = impl_->interior->solve(inner);
+        return {values, -VectorXd(impl_->laplacian * values)(impl_->boundary)};
+    }
     const Index* perm = static_cast<const Index*>(impl_->factor->Perm);
     const Index m = static_cast<Index>(impl_->position.size());
     MatrixXd permuted = MatrixXd::Zero(impl_->vertex_count, 1);
@@ -191,6 +229,6 @@ InteriorSolution CondensedLaplacian::solve_interior(const VectorXd& load) const
     return result;
 }
 
-double CondensedLaplacian::factor_entries() const { return static_cast<double>(impl_->factor->xsize); }
+double CondensedLaplacian::factor_entries() const { return impl_->factor ? static_cast<double>(impl_->factor->xsize) : 0.0; }
 
 }  // namespace koebe

@@ -18,16 +18,23 @@ struct InteriorSolution {
 /// K + diag(0 on I, 1 on B) = L L' with the boundary B ordered last. The trailing block L_BB gives
 /// Sigma = K_BB - K_BI K_II^-1 K_IB = L_BB L_BB' - 1, the leading part is the factor of K_II
 /// (docs/method.md, "One factorization").
+///
+/// Of long boundaries nothing dense is kept: then there is no Sigma, and K_II is factored alone.
 class CondensedLaplacian {
 public:
     /// @param laplacian (V, V) cotan Laplacian, both triangles stored
     /// @param boundary the vertices to keep, in the order of the rows of sigma(); unused vertices must have been
     ///        given a positive diagonal or be left out of the matrix
     /// @throws SolverError if K_II is not positive definite
-    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering);
+    /// @param most_condensed boundary vertices up to which there is a Sigma: at 3,000 a dense matrix has 72 MB
+    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering,
+                       std::size_t most_condensed = 3000);
     ~CondensedLaplacian();
     CondensedLaplacian(CondensedLaplacian&&) noexcept;
     CondensedLaplacian& operator=(CondensedLaplacian&&) noexcept;
+
+    /// Whether there is a sigma().
+    bool has_sigma() const;
 
     /// The Dirichlet-to-Neumann matrix (m, m), symmetric positive semidefinite, Sigma 1 = 0.
     MatrixXd sigma() const;

@@ -16,7 +16,7 @@ struct Part {
     std::vector<Index> chords;  // half-edges of this part on a chord
     int loop = no_loop;         // whose boundary edges it and all that was peeled off it carry
     double area = 0.0;
-    int open_chords = 0;        // to parts that have not been peeled off
+    int open_chords = 0;  // to parts that have not been peeled off
     bool peeled = false;
 };
 
@@ -29,7 +29,10 @@ int joined(int a, int b)
 class FlapCutter {
 public:
     FlapCutter(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops)
-        : surface_(surface), loops_(loops), loop_of_(surface.vertex_count, no_loop), place_(surface.vertex_count, 0),
+        : surface_(surface),
+          loops_(loops),
+          loop_of_(surface.vertex_count, no_loop),
+          place_(surface.vertex_count, 0),
           part_of_(surface.triangles.rows(), -1)
     {
         for (std::size_t k = 0; k < loops.size(); ++k)

@@ -11,19 +11,19 @@ namespace koebe {
 /// behind it. With all its loop vertices on their circle it would be drawn over its neighbours, since the hinge is a
 /// chord of the hole (docs/method.md, "Flips").
 struct Flap {
-    int loop = 0;                  ///< place in the list of loops
-    Index first = 0, last = 0;     ///< the hinge: the loop runs from first along the flap to last
-    std::vector<Index> rim;        ///< the loop's vertices strictly between them, in its order
-    std::vector<Index> interior;   ///< vertices of no loop
+    int loop = 0;                 ///< place in the list of loops
+    Index first = 0, last = 0;    ///< the hinge: the loop runs from first along the flap to last
+    std::vector<Index> rim;       ///< the loop's vertices strictly between them, in its order
+    std::vector<Index> interior;  ///< vertices of no loop
     std::vector<Index> faces;
 };
 
 /// The surface without its flaps.
 struct FlapCut {
     std::vector<Flap> flaps;
-    Surface core;                     ///< as the surface, on the vertices that are left; empty if there are no flaps
-    std::vector<Index> vertices;      ///< vertex of the surface for each of the core
-    std::vector<VertexLoop> loops;    ///< the shorter loops, of the core's vertices, in the order given
+    Surface core;                   ///< as the surface, on the vertices that are left; empty if there are no flaps
+    std::vector<Index> vertices;    ///< vertex of the surface for each of the core
+    std::vector<VertexLoop> loops;  ///< the shorter loops, of the core's vertices, in the order given
 };
 
 /// Cuts off every flap; nested ones go together. On a disk both sides of every such edge are free of other loops:

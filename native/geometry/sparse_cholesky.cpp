@@ -19,8 +19,14 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering) : 
     cholmod_sparse lower = view(matrix, -1);
     impl_->factor = own(cholmod_analyze(&lower, common.get()), common);
     common.require(impl_->factor != nullptr, "symbolic analysis");
-    const int done = cholmod_factorize(&lower, impl_->factor.get(), common.get());
-    common.require(done != 0, "numeric factorization (matrix not positive definite)");
+    refactorize(matrix);
+}
+
+void SparseCholesky::refactorize(const SparseMatrix& matrix)
+{
+    cholmod_sparse lower = view(matrix, -1);
+    const int done = cholmod_factorize(&lower, impl_->factor.get(), impl_->common.get());
+    impl_->common.require(done != 0, "numeric factorization (matrix not positive definite)");
 }
 
 SparseCholesky::~SparseCholesky() = default;

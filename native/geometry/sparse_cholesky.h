@@ -13,12 +13,15 @@ enum class Ordering { amd, metis };
 /// Factor of a symmetric positive definite matrix; supernodal, so that dense kernels do the work.
 class SparseCholesky {
 public:
-    /// @param matrix symmetric, both triangles stored
+    /// @param matrix symmetric, of which the lower triangle is read
     /// @throws SolverError if the matrix is not positive definite
     explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+    /// Factor of another matrix with the same pattern.
+    void refactorize(const SparseMatrix& matrix);
 
     /// Solves for each column of the right-hand side.
     MatrixXd solve(const MatrixXd& right_hand_side) const;

@@ -13,8 +13,7 @@ namespace {
 
 FlapCut cut(const CircleDomain& domain)
 {
-    const Surface surface =
-        require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()));
+    const Surface surface = require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()));
     return cut_flaps(lift(domain.points, Lift::plane), surface, domain.loops);
 }
 
@@ -80,8 +79,7 @@ TEST(Flaps, what_has_another_loop_behind_its_edge_is_none)
     both.triangles.resize(2 * one.triangles.rows(), 3);
     both.triangles.topRows(one.triangles.rows()) = one.triangles;
     for (Eigen::Index f = 0; f < one.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            both.triangles(one.triangles.rows() + f, k) = renamed(one.triangles(f, k));
+        for (int k = 0; k < 3; ++k) both.triangles(one.triangles.rows() + f, k) = renamed(one.triangles(f, k));
     const Surface surface = require_bordered_genus_zero(both.triangles, 2 * n);
     EXPECT_EQ(surface.loops.size(), 3u);
     EXPECT_TRUE(cut_flaps(lift(both.points, Lift::plane), surface, surface.loops).flaps.empty());

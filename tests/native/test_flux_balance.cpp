@@ -13,8 +13,11 @@ namespace {
 /// A domain in its own place, which the balance may then disturb.
 struct Balanced {
     explicit Balanced(CircleDomain d)
-        : domain(std::move(d)), laplacian(plane_laplacian(domain)), condensed(laplacian, order(domain), Ordering::amd),
-          circles(domain.circles), boundary(lift(domain.points, Lift::plane)(order(domain), {0, 1}))
+        : domain(std::move(d)),
+          laplacian(plane_laplacian(domain)),
+          condensed(laplacian, order(domain), Ordering::amd),
+          circles(domain.circles),
+          boundary(lift(domain.points, Lift::plane)(order(domain), {0, 1}))
     {
     }
 

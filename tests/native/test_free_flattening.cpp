@@ -14,9 +14,8 @@ TEST(FreeFlattening, a_flat_mesh_turned_in_space_comes_back_up_to_the_similarity
     const Vertices surface = lift(domain.points, Lift::plane) * turn.transpose();
     const Complex factor(0.3, -2.0), shift(5.0, 1.0);
     const Index first = domain.loops[0][0], second = domain.loops[0][9];
-    const VectorXcd image =
-        flatten_freely(surface, domain.triangles, first, factor * domain.points[first] + shift, second,
-                       factor * domain.points[second] + shift);
+    const VectorXcd image = flatten_freely(surface, domain.triangles, first, factor * domain.points[first] + shift,
+                                           second, factor * domain.points[second] + shift);
     EXPECT_LT((image.array() - factor * domain.points.array() - shift).abs().maxCoeff(), 1e-9);
 }
 

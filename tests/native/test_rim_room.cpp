@@ -13,8 +13,7 @@ TEST(RimRoom, the_edge_of_a_flap_takes_room_for_each_of_the_flaps_edges)
     CircleDomain domain = make_circle_domain(five_circles(), 1000);
     const Index a = domain.loops[0][7], b = domain.loops[0][8];
     glue_ear(domain, 0, a, glue_ear(domain, 0, a, b, 0.8), 0.8);
-    const Surface surface =
-        require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()));
+    const Surface surface = require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()));
     const FlapCut cut = cut_flaps(lift(domain.points, Lift::plane), surface, domain.loops);
     const VectorXd room = rim_room(cut.core, cut.loops[0], cut.flaps, cut.vertices);
     const double mean = 2.0 * std::numbers::pi / static_cast<double>(room.size());

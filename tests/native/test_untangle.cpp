@@ -16,7 +16,8 @@ namespace {
 
 struct Tangled {
     explicit Tangled(CircleDomain d)
-        : domain(std::move(d)), vertices(lift(domain.points, Lift::plane)),
+        : domain(std::move(d)),
+          vertices(lift(domain.points, Lift::plane)),
           surface(require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()))),
           uv(vertices.leftCols<2>())
     {

@@ -1,0 +1,40 @@
+#include "conformal/filled_state.h"
+
+#include "conformal/boundary_angles.h"
+#include "conformal/disk_dirichlet_to_neumann.h"
+
+namespace koebe {
+
+FilledState::FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges)
+    : edges_(edges), angles_(loops.size())
+{
+    Index begin = 0;
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        begin_.push_back(begin);
+        size_.push_back(static_cast<Index>(loops[k].size()));
+        begin += size_.back();
+        weights_.push_back(vertex_weights(edges[k]));
+    }
+}
+
+VectorXcd FilledState::rim() const { return unit_circle_points(angles_[0]); }
+
+void FilledState::take_angles(const std::vector<int>& open, const VectorXd& flux, int& raised)
+{
+    Index row = 0;
+    for (const int k : open) {
+        angles_[k] = centered_angles(angles_from_flux(flux.segment(row, size_[k]), edges_[k], raised), weights_[k],
+                                     angles_[k]);
+        set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
+        row += size_[k];
+    }
+}
+
+Index FilledState::total(const std::vector<int>& loops) const
+{
+    Index result = 0;
+    for (const int k : loops) result += size_[k];
+    return result;
+}
+
+}  // namespace koebe

@@ -1,0 +1,48 @@
+// The state of the condensed Koebe iteration: a surface with a round disk in every hole.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// One angle per boundary vertex, and for them A, the Laplacian of the surface with the disks T_k in all its holes
+/// (docs/method.md, "The condensed engine"). Loops are opened by removing their disk; the rest stays filled.
+class FilledState {
+public:
+    virtual ~FilledState() = default;
+
+    int loop_count() const { return static_cast<int>(size_.size()); }
+
+    /// The outer loop on the unit circle, at its angles.
+    VectorXcd rim() const;
+
+    /// The map of the surface with all loops but the outer one filled and the outer one on the unit circle, on every
+    /// loop: harmonic where it is filled.
+    virtual std::vector<VectorXcd> images() = 0;
+
+    /// For each set of open loops the flux through them, one loop after the other: of the harmonic function that is 0
+    /// on the first and 1 on the second, or of the source with one open loop at 0. All from the present state.
+    virtual std::vector<VectorXd> fluxes(const std::vector<std::vector<int>>& open_sets) = 0;
+
+    /// New angles for open loops from the flux through them: the conjugate of the harmonic function.
+    /// @param raised incremented by the number of steps along a loop that had to be raised
+    void take_angles(const std::vector<int>& open, const VectorXd& flux, int& raised);
+
+protected:
+    /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
+    FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges);
+
+    /// Loop k is filled by this disk from now on: T_k, (n_k, n_k).
+    virtual void set_disk(int k, const MatrixXd& disk) = 0;
+
+    Index total(const std::vector<int>& loops) const;
+
+    const std::vector<VectorXd>& edges_;
+    std::vector<Index> begin_, size_;  // of each loop among the boundary vertices
+    std::vector<VectorXd> weights_;    // share of each vertex in the length of its loop
+    std::vector<VectorXd> angles_;
+};
+
+}  // namespace koebe

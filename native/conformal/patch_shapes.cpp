@@ -1,0 +1,89 @@
+#include "conformal/patch_shapes.h"
+
+#include "geometry/laplacian.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace koebe {
+namespace {
+
+constexpr double least_height = 1e-2;  // of a wanted shape, over its longest edge
+constexpr double least_size = 1e-14;   // of a wanted shape, disk units
+
+/// Columns: edges 0-1 and 0-2 of a face with these edge lengths, scaled to an area.
+Eigen::Matrix2d shaped(double l01, double l12, double l20, double area)
+{
+    const double longest = std::max({l01, l12, l20});
+    Eigen::Matrix2d edges;
+    if (!(longest > 0.0)) return shaped(1.0, 1.0, 1.0, area);
+    l01 = std::max(l01, least_height * longest);
+    const double height = std::max(2.0 * triangle_area(l01, l12, l20), least_height * longest * longest) / l01;
+    edges << l01, (l01 * l01 + l20 * l20 - l12 * l12) / (2.0 * l01), 0.0, height;
+    return edges * std::sqrt(2.0 * area / edges.determinant());
+}
+
+VectorXd wanted_areas(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
+                      const std::vector<Index>& faces, PatchShape shape)
+{
+    struct Sums {
+        double planar = 0.0, surface = 0.0, area = 0.0, count = 0.0;
+    };
+    std::map<Index, Sums> around;
+    VectorXd areas(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Index a = triangles(faces[i], k), b = triangles(faces[i], (k + 1) % 3);
+            const double planar = (uv.row(a) - uv.row(b)).squaredNorm();
+            const double spatial = (vertices.row(a) - vertices.row(b)).squaredNorm();
+            for (const Index v : {a, b}) {
+                around[v].planar += planar;
+                around[v].surface += spatial;
+            }
+        }
+    const auto corner_mean = [&](std::size_t i, auto value) {
+        double log_sum = 0.0;
+        for (int k = 0; k < 3; ++k) log_sum += std::log(std::max(value(around[triangles(faces[i], k)]), 1e-300));
+        return std::exp(log_sum / 3.0);
+    };
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Index f = faces[i];
+        const Eigen::RowVector3d p = vertices.row(triangles(f, 0));
+        const double l0 = (vertices.row(triangles(f, 1)) - p).norm();
+        const double l1 = (vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 1))).norm();
+        const double l2 = (vertices.row(triangles(f, 2)) - p).norm();
+        const double factor = corner_mean(i, [](const Sums& s) { return s.planar / std::max(s.surface, 1e-300); });
+        const double longest = std::max({l0, l1, l2});
+        areas[i] = factor * std::max(triangle_area(l0, l1, l2), 0.5 * least_height * longest * longest);
+        areas[i] = std::max(areas[i], least_size * least_size);
+        for (int k = 0; k < 3; ++k) {
+            around[triangles(f, k)].area += areas[i];
+            around[triangles(f, k)].count += 1.0;
+        }
+    }
+    if (shape == PatchShape::equilateral)
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            areas[i] = corner_mean(i, [](const Sums& s) { return s.area / s.count; });
+    return areas;
+}
+
+}  // namespace
+
+PatchShapes patch_shapes(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
+                         const std::vector<Index>& faces, PatchShape shape)
+{
+    PatchShapes result;
+    result.areas = wanted_areas(vertices, triangles, uv, faces, shape);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        double lengths[3] = {1.0, 1.0, 1.0};
+        for (int k = 0; k < 3 && shape == PatchShape::surface; ++k)
+            lengths[k] = (vertices.row(triangles(faces[i], k)) - vertices.row(triangles(faces[i], (k + 1) % 3))).norm();
+        result.references.push_back(shaped(lengths[0], lengths[1], lengths[2], result.areas[i]));
+    }
+    return result;
+}
+
+}  // namespace koebe
