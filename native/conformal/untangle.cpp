@@ -10,8 +10,9 @@ namespace {
 
 constexpr int ring_counts[] = {2, 4, 8};
 constexpr PatchShape shapes[] = {PatchShape::surface, PatchShape::equilateral};
-constexpr std::size_t most_tries = 16;  // single vertices freed in turn for one patch
-constexpr int most_rounds = 12;         // of freeing
+constexpr std::size_t most_tries = 16;    // single vertices freed in turn for one patch
+constexpr std::size_t most_work = 60000;  // faces, summed over all attempts to free
+constexpr int most_rounds = 12;           // of freeing
 
 using Place = TangledMap::Place;
 
@@ -88,8 +89,11 @@ private:
             for (const PatchShape shape : shapes) {
                 const auto tangled = map_.tangled(patch);
                 if (tangled.empty()) return true;
-                for (const auto& wider : map_.patches(tangled, rings, freedom()))
+                for (const auto& wider : map_.patches(tangled, rings, freedom())) {
+                    if (work_ > most_work) return better;
+                    work_ += wider.size();
                     better = map_.repair(wider, shape, freedom(), context_) || better;
+                }
             }
         return better;
     }
@@ -112,6 +116,7 @@ private:
     TangledMap& map_;
     const ExecutionContext& context_;
     const UntangleOptions& options_;
+    std::size_t work_ = 0;
 };
 
 }  // namespace
