@@ -79,7 +79,7 @@ std::vector<VectorXcd> SparseState::images()
     const VectorXcd outer = rim();
     const VectorXd none = VectorXd::Zero(size_[0]);
     const std::vector<Problem> problems{{{0}, outer.real(), none}, {{0}, outer.imag(), none}};
-    const MatrixXd parts = potentials(problems, solve(problems), false);
+    const MatrixXd parts = potentials(problems, solve(problems, images_), false);
     // Up to a constant, which the outer loop knows.
     const VectorXcd z = parts.col(0) + Complex(0.0, 1.0) * parts.col(1);
     Complex shift(0.0, 0.0);
@@ -106,7 +106,7 @@ std::vector<VectorXd> SparseState::fluxes(const std::vector<std::vector<int>>& o
         }
         problems.push_back(std::move(problem));
     }
-    return solve(problems);
+    return solve(problems, fluxes_);
 }
 
 /// The potential at all vertices of currents fed into the open loops, and by the source.
@@ -152,24 +152,27 @@ VectorXd SparseState::preconditioned(const Problem& problem, const VectorXd& res
     return result - result.sum() * share;
 }
 
-std::vector<VectorXd> SparseState::solve(const std::vector<Problem>& problems)
+std::vector<VectorXd> SparseState::solve(const std::vector<Problem>& problems, Earlier& earlier)
 {
+    const bool cold = earlier.flux.empty();
+    if (cold) earlier.size.resize(problems.size());
     std::vector<VectorXd> result;
     for (std::size_t first = 0; first < problems.size(); first += batch) {
         const std::vector<Problem> some(problems.begin() + first,
                                         problems.begin() + std::min(problems.size(), first + batch));
         const std::size_t count = some.size();
         std::vector<VectorXd> flux(count), residual(count), direction(count);
-        std::vector<double> size(count), first_size(count);
-        for (std::size_t p = 0; p < count; ++p) flux[p] = some[p].start;
+        std::vector<double> size(count);
+        for (std::size_t p = 0; p < count; ++p) flux[p] = cold ? some[p].start : earlier.flux[first + p];
         const MatrixXd begin = potentials(some, flux, true);
         for (std::size_t p = 0; p < count; ++p) {
             residual[p] = some[p].values - gather(begin.col(p), some[p].open);
             direction[p] = preconditioned(some[p], residual[p]);
-            size[p] = first_size[p] = residual[p].dot(direction[p]);
+            size[p] = residual[p].dot(direction[p]);
+            if (cold) earlier.size[first + p] = size[p];
         }
         const auto unfinished = [&](std::size_t p) {
-            return size[p] > residual_limit * residual_limit * first_size[p];
+            return size[p] > residual_limit * residual_limit * earlier.size[first + p];
         };
         for (int step = 0;; ++step) {
             std::vector<std::size_t> active;
@@ -200,6 +203,7 @@ std::vector<VectorXd> SparseState::solve(const std::vector<Problem>& problems)
         }
         for (VectorXd& one : flux) result.push_back(std::move(one));
     }
+    earlier.flux = result;
     return result;
 }
 

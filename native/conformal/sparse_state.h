@@ -31,7 +31,12 @@ private:
         bool sourced = false;
     };
     void set_disk(int k, const MatrixXd& disk) override;
-    std::vector<VectorXd> solve(const std::vector<Problem>& problems);
+    /// What the same problems had in the sweep before.
+    struct Earlier {
+        std::vector<VectorXd> flux;
+        std::vector<double> size;  // of the first residual of all
+    };
+    std::vector<VectorXd> solve(const std::vector<Problem>& problems, Earlier& earlier);
     MatrixXd potentials(const std::vector<Problem>& problems, const std::vector<VectorXd>& currents, bool sourced);
     VectorXd preconditioned(const Problem& problem, const VectorXd& residual) const;
     VectorXd gather(const VectorXd& vertices, const std::vector<int>& loops) const;
@@ -42,6 +47,7 @@ private:
     std::vector<MatrixXd> disks_;
     std::unique_ptr<SparseCholesky> factor_;
     bool stale_ = true;            // the factor is of other disks
+    Earlier fluxes_, images_;
 };
 
 }  // namespace koebe

@@ -1,0 +1,78 @@
+#include "circle_domain.h"
+#include "conformal/circle_fit.h"
+#include "conformal/koebe_condensed.h"
+#include "geometry/laplacian.h"
+
+#include <gtest/gtest.h>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+struct KoebeRun {
+    std::vector<Circle> circles;
+    KoebeOutcome outcome;
+};
+
+/// The iteration with a Sigma for boundaries of up to so many vertices.
+KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method, std::size_t most_condensed)
+{
+    const EdgeLengths lengths = edge_lengths(surface, domain.triangles);
+    const Index count = static_cast<Index>(surface.rows());
+    const SparseMatrix laplacian = cotan_laplacian(domain.triangles, half_cotangents(lengths), count);
+    std::vector<Index> boundary;
+    std::vector<VectorXd> edges;
+    for (const VertexLoop& loop : domain.loops) {
+        boundary.insert(boundary.end(), loop.begin(), loop.end());
+        VectorXd length(loop.size());
+        for (std::size_t b = 0; b < loop.size(); ++b)
+            length[b] = (surface.row(loop[(b + 1) % loop.size()]) - surface.row(loop[b])).norm();
+        edges.push_back(length);
+    }
+    const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, most_condensed);
+    EXPECT_EQ(condensed.has_sigma(), boundary.size() <= most_condensed);
+    UniformizeOptions options;
+    options.method = method;
+    options.tolerance = 1e-9;
+    ExecutionContext context;
+    KoebeRun result;
+    result.outcome = koebe_condensed(laplacian, condensed, domain.loops, edges,
+                                     vertex_areas(domain.triangles, lengths, count), options, context);
+    for (const VectorXcd& loop : result.outcome.loops) result.circles.push_back(fit_circle_least_squares(loop));
+    return result;
+}
+
+}  // namespace
+
+TEST(SparseState, finds_the_circles_that_the_dense_state_finds)
+{
+    // Six loops: with an odd number one is opened twice in a sweep, and its angles depend on the order.
+    std::vector<Circle> circles = five_circles();
+    circles.push_back({{0.0, 0.05}, 0.1});
+    const CircleDomain domain = make_circle_domain(circles, 4000);
+    for (const Lift kind : {Lift::polynomial, Lift::enneper})
+        for (const Method method : {Method::gk, Method::ck}) {
+            const Vertices surface = lift(domain.points, kind);
+            const KoebeRun dense = run(domain, surface, method, 100000), sparse = run(domain, surface, method, 0);
+            ASSERT_TRUE(dense.outcome.converged && sparse.outcome.converged);
+            EXPECT_LT(inversive_distance_error(sparse.circles, dense.circles), 1e-7) << to_string(kind);
+            EXPECT_NEAR(sparse.outcome.history.back().mean_roundness, dense.outcome.history.back().mean_roundness,
+                        1e-8);
+        }
+}
+
+TEST(SparseState, one_and_two_loops_are_exact_in_no_and_one_step)
+{
+    const CircleDomain disk = make_circle_domain({Circle{}}, 1000);
+    const KoebeRun one = run(disk, lift(disk.points, Lift::enneper), Method::gk, 0);
+    EXPECT_TRUE(one.outcome.converged);
+    EXPECT_EQ(one.outcome.steps, 0);
+    const CircleDomain annulus = make_round_annulus(0.4, 80, 20);
+    const Vertices surface = lift(annulus.points, Lift::plane);
+    const KoebeRun dense = run(annulus, surface, Method::gk, 100000), sparse = run(annulus, surface, Method::gk, 0);
+    EXPECT_EQ(sparse.outcome.steps, 1);
+    EXPECT_NEAR(inversive_distance(sparse.circles[0], sparse.circles[1]) /
+                    inversive_distance(dense.circles[0], dense.circles[1]),
+                1.0, 1e-8);
+}
