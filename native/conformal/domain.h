@@ -1,0 +1,29 @@
+// The input made ready: used vertices alone, a unit scale, the loops in the order of the iteration.
+#pragma once
+
+#include "conformal/result.h"
+#include "core/topology.h"
+#include "core/types.h"
+#include "geometry/flaps.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// The surface on its used vertices alone, with the loops in the order of the iteration.
+struct Domain {
+    Surface surface;
+    Vertices vertices;
+    std::vector<Index> original;       // vertex of the input for each vertex
+    std::vector<VertexLoop> loops;     // outer first, then by falling length on the surface
+    std::vector<VectorXd> edges;       // length of the edge from each loop vertex to the next
+    int outer_rank = 0;                // of the outer loop in the surface's own order
+};
+
+/// @throws InputError, TopologyError
+Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
+
+/// The domain without its flaps; takes the surface out of the cut.
+Domain core_domain(const Domain& whole, FlapCut& cut);
+
+}  // namespace koebe

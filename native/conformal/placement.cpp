@@ -1,0 +1,99 @@
+#include "conformal/placement.h"
+
+#include "conformal/area_balance.h"
+#include "conformal/circle_fit.h"
+#include "conformal/circle_projection.h"
+#include "conformal/distortion.h"
+#include "conformal/flux_balance.h"
+#include "conformal/moebius.h"
+#include "conformal/rim_room.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr std::size_t outer_candidates = 8;      // the longest loops, to choose the outer one from
+constexpr Eigen::Index outer_sample = 2000;      // faces to judge the choice by
+constexpr Eigen::Index balance_sample = 20000;   // faces to balance by
+
+/// The automorphism that puts the map into normal position: two loops concentric, else nothing.
+Moebius normal_position(const std::vector<Circle>& circles)
+{
+    return circles.size() == 2 ? center_circle(circles[1]) : Moebius{};
+}
+
+/// The images of the loops in normal position, each put on its circle: (m, 2), loop after loop. Fills the loop reports.
+MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeOutcome& outcome,
+                          UniformizeResult& result)
+{
+    std::vector<Circle> circles{Circle{}};
+    for (std::size_t k = 1; k < outcome.loops.size(); ++k)
+        circles.push_back(fit_circle_least_squares(outcome.loops[k]));
+    const Moebius moebius = normal_position(circles);
+
+    std::size_t boundary_count = 0;
+    for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
+    MatrixXd boundary(boundary_count, 2);
+    Eigen::Index row = 0;
+    for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
+        LoopReport report;
+        report.circle = k == 0 ? Circle{} : moebius(circles[k]);
+        const VectorXcd image = moebius(outcome.loops[k]);
+        report.roundness = roundness(image, report.circle);
+        const VectorXcd projected =
+            k == 0 ? project_onto_circle(report.circle, image, 1,
+                                         rim_room(domain.surface, domain.loops[0], cut.flaps, cut.vertices))
+                   : project_onto_circle(report.circle, image, -1);
+        report.roundness_projected = roundness(projected, report.circle);
+        for (const Index v : domain.loops[k]) report.vertices.push_back(domain.original[v]);
+        boundary.middleRows(row, projected.size()) << projected.real(), projected.imag();
+        row += projected.size();
+        result.loops.push_back(std::move(report));
+    }
+    return boundary;
+}
+
+std::vector<Circle> reported_circles(const UniformizeResult& result)
+{
+    std::vector<Circle> circles;
+    for (const LoopReport& report : result.loops) circles.push_back(report.circle);
+    return circles;
+}
+
+}  // namespace
+
+PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain,
+                        const FlapCut& cut, const KoebeOutcome& outcome, const UniformizeOptions& options,
+                        UniformizeResult& result, int& outer)
+{
+    MatrixXd boundary = place_on_circles(domain, cut, outcome, result);
+    std::vector<Circle> circles = reported_circles(result);
+    balance_flux(condensed, laplacian, domain.loops, circles, boundary);
+    PlanarPoints uv = condensed.extend(boundary);
+    if (options.balance == Balance::area) {
+        if (options.outer == OuterLoop::automatic) {
+            std::vector<int> longest(std::min(circles.size(), outer_candidates));
+            std::iota(longest.begin(), longest.end(), 0);
+            outer = balanced_outer_loop(face_scales(domain.vertices, domain.surface.triangles, uv, outer_sample),
+                                        circles, longest);
+        }
+        result.unbalanced_area = measure_distortion(domain.vertices, domain.surface.triangles, uv).area;
+        if (outer != 0) return uv;
+        double distortion = 0.0;
+        const Moebius balance = least_area_distortion(
+            face_scales(domain.vertices, domain.surface.triangles, uv, balance_sample), distortion);
+        const VectorXcd moved = balance(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1));
+        boundary << moved.real(), moved.imag();
+        for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = balance(circles[k]);
+        // An annulus would be made concentric again.
+        if (circles.size() > 2) balance_flux(condensed, laplacian, domain.loops, circles, boundary);
+        uv = condensed.extend(boundary);
+    }
+    for (std::size_t k = 0; k < circles.size(); ++k) result.loops[k].circle = circles[k];
+    return uv;
+}
+
+}  // namespace koebe
