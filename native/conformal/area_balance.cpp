@@ -15,7 +15,7 @@ constexpr int most_halvings = 6;
 constexpr double longest_step = 0.8;        // keeps a damped step inside the disk
 constexpr double least_gain = 1e-7;         // of the distortion, in a step
 constexpr double weight_of_the_mean = 0.1;  // squared mean against variance
-constexpr double worth_changing = 0.98; // of the distortion with the present outer loop
+constexpr double worth_changing = 0.8;      // of the distortion with the present outer loop: it turns the map inside out
 
 struct Spread {
     double mean, variance;
