@@ -53,7 +53,7 @@ def _next_on_boundary(corner):
 
 
 def _fan(corner):
-    """The corners at the end of a boundary edge, face by face round the vertex; None last where the faces do not fit."""
+    """The corners at the end of a boundary edge, face by face; None last where the faces do not fit."""
     vertex = corner.link_loop_next.vert
     corner = corner.link_loop_next
     yield corner
@@ -187,7 +187,7 @@ def _rim_uv(layer, loop):
 
 
 def _continued_uv(koebe, positions, triangles, rim_uv):
-    """UVs (n + k, 2) of a patch, harmonic; where that flips faces, with weights that keep a convex rim free of flips."""
+    """UVs (n + k, 2) of a patch, harmonic; where that flips faces, by weights that flip none inside a convex rim."""
     fixed = np.arange(len(rim_uv))
     uv = koebe.harmonic_map(positions, triangles, fixed, rim_uv)
     if len(flipped_triangles(triangles, uv.astype(np.float32))):

@@ -43,9 +43,10 @@ double density(double edges)
 }
 
 /// How the curvature is continued. As fine as what is around it, a patch takes it from there: one solution of third
-/// order (a spherical cap of 0.8 radians: 1.6 % of the radius off). Slender triangles at the rim, of a coarser one or
-/// at edges below a tenth of the mean one, throw that order into spikes, so its equations are of second order, which give the tangent planes alone; solved again
-/// with the weights of the shape found, they bend evenly (5 % off after one solution, 3 % after three).
+/// order (a spherical cap of 0.8 radians: 1.6 % of the radius off). Slender triangles at the rim, of a coarser patch or
+/// at edges below a tenth of the mean one, throw that order into spikes. There the equations are of second order, which
+/// give the tangent planes alone; solved again with the weights of the shape found, they bend evenly (5 % off after one
+/// solution, 3 % after three).
 struct Fairing {
     unsigned int continuity, solutions;
 };

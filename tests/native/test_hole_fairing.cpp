@@ -38,7 +38,8 @@ TEST(HoleFairing, a_cap_of_a_sphere_is_continued)
 {
     const CircleDomain domain = one_hole();
     const Vertices sphere = lift(domain.points, Lift::sphere);
-    const FilledSurface filled = fill_and_fair_holes(sphere, domain.triangles, std::vector<Index>{rank_of_hole(domain)});
+    const std::vector<Index> hole{rank_of_hole(domain)};
+    const FilledSurface filled = fill_and_fair_holes(sphere, domain.triangles, hole);
     const Eigen::Index added = filled.vertices.rows() - sphere.rows();
     ASSERT_GT(added, 100);
     const VectorXd radius = filled.vertices.bottomRows(added).rowwise().norm();
