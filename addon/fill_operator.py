@@ -4,7 +4,7 @@
 import bmesh
 import bpy
 
-from . import hole_filling
+from . import hole_filling, native
 from .modes import target_objects
 
 
@@ -35,6 +35,11 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
         return True
 
     def execute(self, context):
+        try:
+            koebe = native.load()
+        except native.NativeError as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return {"CANCELLED"}
         objects = {obj.data: obj for obj in target_objects(context)}
         meshes, problems = {}, []
         for data, obj in objects.items():
@@ -44,7 +49,7 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
             mesh = _open(obj)
             try:
                 loops = hole_filling.chosen_loops(mesh, self.which)
-                meshes[obj] = mesh, [hole_filling.filling(mesh, loop) for loop in loops]
+                meshes[obj] = mesh, [hole_filling.filling(koebe, mesh, loop) for loop in loops]
             except hole_filling.FillError as error:
                 problems.append(f"{obj.name}: {error}")
         for obj, (mesh, fillings) in meshes.items():
@@ -54,7 +59,7 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
             self.report({"ERROR"}, "Koebe UV: nothing was filled. " + ". ".join(problems))
             return {"CANCELLED"}
         holes = sum(len(fillings) for _, fillings in meshes.values())
-        faces = sum(len(one.disk.triangles) for _, fillings in meshes.values() for one in fillings)
+        faces = sum(len(one.triangles) for _, fillings in meshes.values() for one in fillings)
         text = f"Koebe UV: {holes} {'hole' if holes == 1 else 'holes'} filled with {faces} faces"
         self.report({"WARNING" if problems else "INFO"}, ". ".join([text, *problems]))
         return {"FINISHED"}

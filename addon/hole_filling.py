@@ -5,7 +5,7 @@ import dataclasses
 
 import numpy as np
 
-from . import patch
+from .offenders import flipped_triangles
 
 HOLES, SELECTED, ALL = "holes", "selected", "all"
 SAME_UV = 1e-5  # UV units: corners of a vertex nearer than this are one point of the map
@@ -17,11 +17,14 @@ class FillError(Exception):
 
 @dataclasses.dataclass
 class Filling:
-    """What fills one hole: the hole's corners, the new vertices (k, 3), faces, and the UVs of each layer."""
+    """What fills one hole: its corners, the new vertices (k, 3), the faces (t, 3), and the UVs of each layer.
+
+    The faces name the n vertices of the hole, in the corners' order, and then the new ones; so do the UVs (n + k, 2).
+    """
 
     corners: list
     vertices: np.ndarray
-    disk: patch.Disk
+    triangles: np.ndarray
     uvs: dict
 
 
@@ -44,15 +47,23 @@ def boundary_loops(mesh):
 
 
 def _next_on_boundary(corner):
-    """The corner whose edge follows on the boundary, found by walking round the vertex."""
+    """The corner whose edge follows on the boundary, or None where there is none."""
+    *_, last = _fan(corner)
+    return last if last is not None and last.edge.is_boundary else None
+
+
+def _fan(corner):
+    """The corners at the end of a boundary edge, face by face; None last where the faces do not fit."""
     vertex = corner.link_loop_next.vert
     corner = corner.link_loop_next
+    yield corner
     while not corner.edge.is_boundary:
         corner = corner.link_loop_radial_next
         if corner.vert is vertex or len(corner.edge.link_loops) != 2:
-            return None
+            yield None
+            return
         corner = corner.link_loop_next
-    return corner
+        yield corner
 
 
 def chosen_loops(mesh, which):
@@ -91,49 +102,109 @@ def _parts(loops):
     return numbers
 
 
-def filling(mesh, loop):
-    """The patch for one loop; changes nothing."""
-    corners = loop[::-1]  # seen from the patch the boundary runs the other way
-    vertices = [corner.link_loop_next.vert for corner in corners]
-    positions = np.array([vertex.co for vertex in vertices], dtype=np.float64)
-    if not np.ptp(positions, axis=0).max() > 0.0:  # NaN too
+def filling(koebe, mesh, loop):
+    """The patch for one loop; changes nothing. `koebe` is the native package."""
+    rim = [corner.vert for corner in loop]
+    if len(set(rim)) != len(rim):
+        raise FillError("a hole meets itself at a vertex: part its halves first")
+    vertices, triangles = _surroundings(loop)
+    if not np.ptp(vertices[: len(rim)], axis=0).max() > 0.0:  # NaN too
         raise FillError("a hole has no extent: merge its doubled vertices")
-    disk = patch.triangulated_disk(patch.rim_by_length(positions))
-    inner = patch.faired(disk, positions, *_surroundings(vertices))
-    uvs = {layer.name: _continued_uv(layer, corners, disk) for layer in mesh.loops.layers.uv.values()}
-    return Filling(corners, inner, disk, {name: uv for name, uv in uvs.items() if uv is not None})
+    try:
+        filled, faces, label = koebe.fill_holes(vertices, triangles, [0], fair=True)
+    except koebe.KoebeError as error:
+        raise FillError(f"a hole of {len(rim)} edges: {error}") from error
+    added = filled[len(vertices) :]
+    patch = faces[label == 0]
+    patch = np.where(patch < len(rim), patch, patch - len(vertices) + len(rim))
+    positions = np.concatenate([vertices[: len(rim)], added])
+    uvs = {}
+    for layer in mesh.loops.layers.uv.values():
+        given = _rim_uv(layer, loop)
+        if given is not None:
+            uvs[layer.name] = _continued_uv(koebe, positions, patch, given)
+    return Filling(loop, added, patch, uvs)
 
 
-def _surroundings(vertices):
-    """Vertices (m, 3) of the faces that meet a hole, but for its own, and these faces as triangles (t, 3)."""
-    rank = {vertex: i for i, vertex in enumerate(vertices)}
+def _surroundings(loop):
+    """Vertices (m, 3), those of the loop first, and triangles (t, 3) of the faces up to two edges from a boundary loop.
+
+    Faces that share an edge, and nothing else, are joined: where they meet in a vertex alone they are parted, so that
+    what lies around the loop is a manifold, whatever the rest of the mesh is.
+    """
+    faces = _faces_around(loop)
+    corners = [corner for face in faces for corner in face.loops]
+    rank = {corner: i for i, corner in enumerate(corners)}
+    parent = list(range(len(corners)))
+
+    def root(i):
+        while parent[i] != i:
+            parent[i] = parent[parent[i]]
+            i = parent[i]
+        return i
+
+    for corner in corners:
+        other = _across(corner)
+        if other in rank:
+            parent[root(rank[corner])] = root(rank[other.link_loop_next])
+            parent[root(rank[corner.link_loop_next])] = root(rank[other])
+    number, positions = {}, []
+    for corner in [*loop, *corners]:
+        if number.setdefault(root(rank[corner]), len(positions)) == len(positions):
+            positions.append(corner.vert.co)
     triangles = []
-    for face in dict.fromkeys(face for vertex in vertices for face in vertex.link_faces):
-        corners = [rank.setdefault(vertex, len(rank)) for vertex in face.verts]
-        triangles += [(corners[0], one, two) for one, two in zip(corners[1:], corners[2:])]
-    others = [vertex.co for vertex in list(rank)[len(vertices) :]]
-    return np.array(others, dtype=np.float64).reshape(-1, 3), np.array(sorted(triangles))
+    for face in faces:
+        first, *others = (number[root(rank[corner])] for corner in face.loops)
+        triangles += [(first, one, two) for one, two in zip(others, others[1:])]
+    return np.array(positions, dtype=np.float64), np.array(triangles)
 
 
-def _continued_uv(layer, corners, disk):
-    """UVs (n, 2) of the disk's vertices, harmonic; None where a seam ends at the hole."""
-    begin = np.array([corner.link_loop_next[layer].uv for corner in corners])
-    end = np.array([corner[layer].uv for corner in corners])
-    if np.abs(np.roll(end, 1, axis=0) - begin).max() > SAME_UV:
-        return None
-    return patch.harmonic(disk, begin)
+def _faces_around(loop):
+    """The faces that meet a boundary loop and those that meet these, as far as they hang together."""
+    first = dict.fromkeys(corner.face for start in loop for corner in _fan(start))
+    near = {face for one in first for vertex in one.verts for face in vertex.link_faces}
+    found, stack = dict(first), list(first)
+    while stack:
+        for corner in stack.pop().loops:
+            other = _across(corner)
+            if other is not None and other.face in near and other.face not in found:
+                found[other.face] = None
+                stack.append(other.face)
+    return list(found)
+
+
+def _across(corner):
+    """The corner on the other side of the edge, if two faces of one orientation meet there; else None."""
+    other = corner.link_loop_radial_next
+    return other if len(corner.edge.link_loops) == 2 and other.vert is not corner.vert else None
+
+
+def _rim_uv(layer, loop):
+    """UVs (n, 2) of a loop's vertices; None where a seam ends at the hole."""
+    begin = np.array([corner[layer].uv for corner in loop])
+    end = np.array([corner.link_loop_next[layer].uv for corner in loop])
+    return begin if np.abs(np.roll(end, 1, axis=0) - begin).max() <= SAME_UV else None
+
+
+def _continued_uv(koebe, positions, triangles, rim_uv):
+    """UVs (n + k, 2) of a patch, harmonic; where that flips faces, by weights that flip none inside a convex rim."""
+    fixed = np.arange(len(rim_uv))
+    uv = koebe.harmonic_map(positions, triangles, fixed, rim_uv)
+    if len(flipped_triangles(triangles, uv.astype(np.float32))):
+        uv = koebe.harmonic_map(positions, triangles, fixed, rim_uv, uniform=True)
+    return uv
 
 
 def add_faces(mesh, fillings):
     """Add the patches to the bmesh; return the new faces. Material and shading are those beside them."""
     added = []
     for one in fillings:
-        vertices = [corner.link_loop_next.vert for corner in one.corners]
+        vertices = [corner.vert for corner in one.corners]
         vertices += [mesh.verts.new(position) for position in one.vertices]
         model = one.corners[0].face
         material, smooth = model.material_index, model.smooth
         layers = [(mesh.loops.layers.uv[name], uv) for name, uv in one.uvs.items()]
-        for triangle in one.disk.triangles.tolist():
+        for triangle in one.triangles.tolist():
             face = mesh.faces.new([vertices[v] for v in triangle])
             face.material_index, face.smooth = material, smooth
             for layer, uv in layers:

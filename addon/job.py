@@ -50,7 +50,7 @@ class Job:
         self.outcomes = map_surfaces(self.koebe, self.tasks, self.options, progress, self.cancel_token)
 
     def read_old_uv(self):
-        """Note where the islands are now, for the placement "keep". The objects must not be in Edit Mode."""
+        """Note where the islands are now, for the placement "keep": call it before anything changes."""
         self.tasks = [
             dataclasses.replace(task, old_uv=transfer.read_uv(obj, self.options.layer))
             for obj, task in zip(self.objects, self.tasks, strict=True)

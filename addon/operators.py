@@ -114,8 +114,7 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return None
         if job.options.placement == "keep":
-            with object_mode(context):
-                job.read_old_uv()
+            job.read_old_uv()
         return job
 
     def _finish(self, context, job):

@@ -2,6 +2,7 @@
 """Blender mesh -> arrays -> UV layer. Reads everything, writes nothing but one UV layer's coordinates."""
 
 import bmesh
+import bpy
 import numpy as np
 
 from . import compat, distortion
@@ -53,9 +54,20 @@ def _world_positions(obj):
 
 
 def read_uv(obj, layer_name):
-    """UVs (C, 2) of the layer of that name, or else of the active one, or None. Not in Edit Mode."""
+    """UVs (C, 2) of the layer of that name, or else of the active one, or None.
+
+    In Edit Mode they are those of `read_surface`, of the last time the mesh's arrays were brought up to date.
+    """
     layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
-    return None if layer is None else compat.corner_uv(layer)
+    if layer is None:
+        return None
+    if obj.mode != "EDIT":
+        return compat.corner_uv(layer)
+    copy = obj.data.copy()  # a mesh in Edit Mode does not show its UVs; leaving the mode takes far longer
+    try:
+        return compat.corner_uv(copy.uv_layers[layer.name])
+    finally:
+        bpy.data.meshes.remove(copy)
 
 
 def texel_density(obj, layer_name):

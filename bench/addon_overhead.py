@@ -96,7 +96,7 @@ def measure(obj, clock, runs):
     bpy.context.view_layer.objects.active = obj
     faces = len(obj.data.polygons)
     rows = []
-    for mode, placement in (("OBJECT", "pack"), ("OBJECT", "keep"), ("EDIT", "pack")):
+    for mode, placement in (("OBJECT", "pack"), ("OBJECT", "keep"), ("EDIT", "pack"), ("EDIT", "keep")):
         bpy.ops.object.mode_set(mode=mode)
         if mode == "EDIT":
             bpy.ops.mesh.select_all(action="SELECT")

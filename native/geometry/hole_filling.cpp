@@ -2,7 +2,6 @@
 
 #include "core/errors.h"
 #include "core/halfedge_mesh.h"
-#include "core/topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,26 +54,29 @@ PlanarMesh planar_patch(const VectorXcd& polygon, const PlanarMeshOptions& optio
     return planar_mesh({polygon}, options);
 }
 
+std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std::vector<Index>>& loops)
+{
+    std::vector<Index> ranks(surface.loops.size());
+    std::iota(ranks.begin(), ranks.end(), 0);
+    if (!loops) return ranks;
+    for (const Index k : *loops)
+        if (k < 0 || k >= static_cast<Index>(surface.loops.size()))
+            throw InputError("there is no boundary loop " + std::to_string(k) + " among " +
+                             std::to_string(surface.loops.size()));
+    ranks = *loops;
+    std::sort(ranks.begin(), ranks.end());
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    return ranks;
+}
+
 FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
                          const std::optional<std::vector<Index>>& loops)
 {
     validate_arrays(vertices, triangles);
     const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
-    std::vector<Index> ranks(surface.loops.size());
-    std::iota(ranks.begin(), ranks.end(), 0);
-    if (loops) {
-        for (const Index k : *loops)
-            if (k < 0 || k >= static_cast<Index>(surface.loops.size()))
-                throw InputError("there is no boundary loop " + std::to_string(k) + " among " +
-                                 std::to_string(surface.loops.size()));
-        ranks = *loops;
-        std::sort(ranks.begin(), ranks.end());
-        ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-    }
-
     HalfedgeMesh mesh = to_halfedge_mesh(vertices, surface.triangles);
     std::vector<Index> label(surface.triangles.rows(), -1);
-    for (const Index k : ranks) {
+    for (const Index k : chosen_ranks(surface, loops)) {
         const VertexLoop& loop = surface.loops[k];
         const SurfacePatch patch = fill_on_surface(vertices(loop, Eigen::all));
         const auto center = patch.vertices.row(patch.vertices.rows() - 1);

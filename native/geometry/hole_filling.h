@@ -1,6 +1,7 @@
 // Triangles for the holes of a surface (paper, section 4.4): a fan on the surface, Delaunay patches in the plane.
 #pragma once
 
+#include "core/topology.h"
 #include "core/types.h"
 #include "geometry/planar_mesh.h"
 
@@ -32,6 +33,10 @@ struct FilledSurface {
     Triangles triangles;       ///< the input's, turned to one orientation, then those of the patches
     std::vector<Index> label;  ///< per face: -1 input, k the loop filled, by rank among the boundary loops
 };
+
+/// The loops to fill: the ranks given, sorted and once each, or all.
+/// @throws InputError a rank that does not exist
+std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std::vector<Index>>& loops);
 
 /// Fills boundary loops by fans on the surface.
 /// @param loops ranks of the loops to fill, in the order of Surface::loops; all of them if absent

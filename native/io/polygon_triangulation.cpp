@@ -1,10 +1,10 @@
 #include "io/polygon_triangulation.h"
 
 #include "core/errors.h"
+#include "core/silent_cgal.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/assertions_behaviour.h>
 
 #include <Eigen/Geometry>
 
@@ -92,23 +92,6 @@ std::vector<Triangle> cut_polygon(const Positions& positions)
     for (const auto& t : cut) triangles.push_back({t.first, t.second, t.third});
     return triangles;
 }
-
-/// CGAL reports failed checks by printing, and then throws: here it only throws.
-class SilentCgal {
-public:
-    SilentCgal() : error_(CGAL::set_error_handler(ignore)), warning_(CGAL::set_warning_handler(ignore)) {}
-    ~SilentCgal()
-    {
-        CGAL::set_error_handler(error_);
-        CGAL::set_warning_handler(warning_);
-    }
-    SilentCgal(const SilentCgal&) = delete;
-    SilentCgal& operator=(const SilentCgal&) = delete;
-
-private:
-    static void ignore(const char*, const char*, const char*, int, const char*) {}
-    CGAL::Failure_function error_, warning_;
-};
 
 bool are_different(Index a, Index b, Index c) { return a != b && b != c && c != a; }
 

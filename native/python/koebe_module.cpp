@@ -4,6 +4,8 @@
 #include "conformal/distortion.h"
 #include "conformal/uniformize.h"
 #include "core/topology.h"
+#include "geometry/harmonic_map.h"
+#include "geometry/hole_fairing.h"
 #include "geometry/hole_filling.h"
 #include "report/json.h"
 
@@ -121,13 +123,24 @@ PYBIND11_MODULE(_koebe, m)
     });
     m.def("fill_holes",
           [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             const std::optional<std::vector<Index>>& loops) {
+             const std::optional<std::vector<Index>>& loops, bool fair) {
               FilledSurface filled = [&] {
                   const py::gil_scoped_release release;
-                  return fill_holes(vertices, triangles, loops);
+                  return fair ? fill_and_fair_holes(vertices, triangles, loops)
+                              : fill_holes(vertices, triangles, loops);
               }();
               return std::make_tuple(std::move(filled.vertices), std::move(filled.triangles),
                                      py::array_t<Index>(filled.label.size(), filled.label.data()));
+          });
+    m.def("harmonic_map",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values, bool uniform) {
+              const py::gil_scoped_release release;
+              validate_arrays(vertices, triangles);
+              const EdgeLengths lengths = uniform ? EdgeLengths::Ones(triangles.rows(), 3)
+                                                  : edge_lengths(Vertices(vertices), triangles);
+              return planar(harmonic_map(triangles, lengths, static_cast<Index>(vertices.rows()), fixed,
+                                         values.col(0) + Complex(0.0, 1.0) * values.col(1)));
           });
     m.def("disk_map",
           [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {

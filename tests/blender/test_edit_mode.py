@@ -150,3 +150,24 @@ def test_undo_in_edit_mode():
     assert obj.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
     assert len(obj.data.uv_layers) == 0 and len(obj.material_slots) == 0
+
+
+def test_the_old_place_is_kept_as_in_object_mode():
+    """The UVs of a mesh in Edit Mode are read without leaving it."""
+    found = []
+    for mode in ("OBJECT", "EDIT"):
+        obj = scenes.add_panel()
+        vertex = scenes.read(obj.data.loops, "vertex_index", np.int32)
+        uv = scenes.read(obj.data.vertices, "co", np.float32, 3)[vertex, :2]
+        obj.data.uv_layers.new(name="Koebe").data.foreach_set("uv", (0.1 * uv + 0.7).astype(np.float32).ravel())
+        meshes = len(bpy.data.meshes)
+        bpy.ops.object.mode_set(mode=mode)
+        if mode == "EDIT":
+            bpy.ops.mesh.select_all(action="SELECT")
+        assert bpy.ops.uv.koebe_uniformize(placement="keep") == {"FINISHED"}
+        assert bpy.context.mode == ("EDIT_MESH" if mode == "EDIT" else "OBJECT")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert len(bpy.data.meshes) == meshes
+        found.append(scenes.corner_uv(obj.data, "Koebe"))
+    assert np.array_equal(*found)
+    assert found[0].min() > 0.5  # where it was, not in the whole square

@@ -139,6 +139,31 @@ def test_filling_both_loops_closes_the_surface():
     assert caught.value.kind == "closed"
 
 
+def test_faired_filling_continues_the_surface():
+    squared = (VERTICES**2).sum(axis=1)
+    sphere = np.column_stack([2 * VERTICES[:, :2], squared - 1]) / (1 + squared)[:, None]
+    before = sphere.copy()
+    inner = int(np.abs(VERTICES[koebe.boundary_loops(FACES)[0], :2]).max() > 0.7)
+    vertices, faces, label = koebe.fill_holes(sphere, FACES, [inner], fair=True)
+    assert np.array_equal(sphere, before) and np.array_equal(vertices[: len(sphere)], sphere)
+    assert np.array_equal(faces[: len(FACES)], FACES) and set(label[len(FACES) :]) == {inner}
+    assert len(vertices) > len(sphere) + 20
+    assert np.abs(np.linalg.norm(vertices, axis=1) - 1).max() < 0.03
+    with pytest.raises(koebe.InputError):
+        koebe.fill_holes(sphere, FACES, [2], fair=True)
+
+
+@pytest.mark.parametrize("uniform", [False, True])
+def test_a_harmonic_map_of_a_plane_is_linear_only_with_its_lengths(uniform):
+    rim = np.concatenate(koebe.boundary_loops(FACES))
+    flat = VERTICES[:, :2] @ [[1.0, 0.3], [-0.2, 0.8]]
+    points = koebe.harmonic_map(VERTICES, FACES, rim, flat[rim], uniform=uniform)
+    assert np.allclose(points[rim], flat[rim])
+    assert np.allclose(points, flat, atol=1e-9) != uniform
+    with pytest.raises(koebe.InputError):
+        koebe.harmonic_map(VERTICES, FACES, rim, flat)
+
+
 def test_distortion_of_the_surface_itself_is_none():
     flat = VERTICES[:, :2] / 2
     assert koebe.distortion(VERTICES, FACES, flat)["angle_error_deg"]["max"] < 1e-6

@@ -10,6 +10,7 @@ from ._api import (
     disk_map,
     distortion,
     fill_holes,
+    harmonic_map,
     uniformize,
 )
 from ._koebe import CancelToken, __version__
@@ -30,5 +31,6 @@ __all__ = [
     "disk_map",
     "distortion",
     "fill_holes",
+    "harmonic_map",
     "uniformize",
 ]

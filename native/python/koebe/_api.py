@@ -113,15 +113,37 @@ def annulus_map(vertices: Any, triangles: Any) -> tuple[np.ndarray, float]:
 
 
 def fill_holes(
-    vertices: Any, triangles: Any, loops: Sequence[int] | None = None
+    vertices: Any, triangles: Any, loops: Sequence[int] | None = None, fair: bool = False
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Fill boundary loops with fans around their mass centres (paper, section 4.4).
+    """Fill boundary loops.
 
     loops   ranks in the list that boundary_loops gives; None for all of them
+    fair    False: fans around the loops' mass centres (paper, section 4.4). True: triangles as long as those around
+            the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
     Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
     """
     ranks = None if loops is None else [int(k) for k in loops]
-    return _koebe.fill_holes(as_vertices(vertices), as_triangles(triangles), ranks)
+    return _koebe.fill_holes(as_vertices(vertices), as_triangles(triangles), ranks, bool(fair))
+
+
+def harmonic_map(
+    vertices: Any, triangles: Any, fixed: Any, values: Any, uniform: bool = False
+) -> np.ndarray:
+    """The map into the plane of least Dirichlet energy with given values at some vertices (paper, equation 2).
+
+    fixed    (B,) vertices whose values are given
+    values   (B, 2) their values
+    uniform  True: every triangle counts as equilateral, so that a disk whose boundary goes to a convex curve has no
+             flips [Tutte 1963]. False: the lengths in space count
+    Returns (V, 2) float64.
+    """
+    positions, faces, points = as_vertices(vertices), as_triangles(triangles), as_planar(values)
+    chosen = [int(v) for v in fixed]
+    if len(chosen) != len(points) or not chosen:
+        raise InputError(f"there are {len(points)} values for {len(chosen)} fixed vertices")
+    if min(chosen) < 0 or max(chosen) >= len(positions):
+        raise InputError(f"fixed must name vertices from 0 to {len(positions) - 1}")
+    return _koebe.harmonic_map(positions, faces, chosen, points, bool(uniform))
 
 
 def distortion(vertices: Any, triangles: Any, uv: Any) -> dict[str, Any]:
