@@ -13,7 +13,7 @@ CondensedState::CondensedState(const CondensedLaplacian& surface, const std::vec
 {
     int raised = 0;
     for (int k = 0; k < loop_count(); ++k)
-        take_angles({k}, loops.size() > 1 ? VectorXd(diagonal_block(sigma_, k).rowwise().sum()) : source_, raised);
+        take_angles({k}, diagonal_block(sigma_, k).rowwise().sum(), raised);
 }
 
 std::vector<VectorXcd> CondensedState::images()

@@ -12,8 +12,7 @@ namespace koebe {
 /// by one inverse for all.
 class CondensedState final : public FilledState {
 public:
-    /// The first angles are those of the flux through each loop with all others open and at one voltage, Sigma_kk 1;
-    /// with one loop alone, of the flux from the source.
+    /// The first angles are those of the flux through each loop with all others open and at one voltage, Sigma_kk 1.
     /// @param surface its boundary the concatenation of the loops
     /// @param loops the outer loop first
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this

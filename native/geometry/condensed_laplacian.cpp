@@ -84,6 +84,7 @@ struct CondensedLaplacian::Impl {
     Index interior_count = 0;
     std::vector<Index> position;        // of each boundary vertex among the trailing columns of L
     std::vector<Index> boundary;
+    MatrixXd trailing;                  // L_BB as a dense lower triangle, in the factor's own order
 
     MatrixXd trailing_factor() const;
     MatrixXd solve(int system, const MatrixXd& right_hand_side);
@@ -126,13 +127,14 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
     for (const Index v : boundary) impl_->position.push_back(rank[v] - impl_->interior_count);
     const int done = cholmod_factorize(&lower, impl_->factor.get(), common.get());
     common.require(done != 0, "numeric factorization (Laplacian not positive definite)");
+    impl_->trailing = impl_->trailing_factor();
 }
 
 CondensedLaplacian::~CondensedLaplacian() = default;
 CondensedLaplacian::CondensedLaplacian(CondensedLaplacian&&) noexcept = default;
 CondensedLaplacian& CondensedLaplacian::operator=(CondensedLaplacian&&) noexcept = default;
 
-/// L_BB as a dense lower triangle, in the factor's own order.
+/// L_BB, gathered from the supernodes.
 MatrixXd CondensedLaplacian::Impl::trailing_factor() const
 {
     const Index m = vertex_count - interior_count;
@@ -157,7 +159,7 @@ Index CondensedLaplacian::boundary_size() const { return static_cast<Index>(impl
 
 MatrixXd CondensedLaplacian::sigma() const
 {
-    const MatrixXd product = lower_times_transpose(impl_->trailing_factor());
+    const MatrixXd product = lower_times_transpose(impl_->trailing);
     const Index m = static_cast<Index>(product.rows());
     MatrixXd result(m, m);
     for (Index j = 0; j < m; ++j)
@@ -192,9 +194,8 @@ MatrixXd CondensedLaplacian::extend(const MatrixXd& boundary_values) const
     const Index m = static_cast<Index>(impl_->position.size());
     MatrixXd z(m, boundary_values.cols());
     for (Index i = 0; i < m; ++i) z.row(impl_->position[i]) = boundary_values.row(i);
-    const MatrixXd trailing = impl_->trailing_factor();
     MatrixXd load = MatrixXd::Zero(impl_->vertex_count, boundary_values.cols());
-    load.bottomRows(m) = trailing.triangularView<Eigen::Lower>().transpose() * z;
+    load.bottomRows(m) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * z;
     const MatrixXd solution = impl_->solve(CHOLMOD_Lt, load);
 
     MatrixXd result(impl_->vertex_count, boundary_values.cols());
@@ -219,7 +220,7 @@ InteriorSolution CondensedLaplacian::solve_interior(const VectorXd& load) const
 
     // L y = (f, 0) gives y_I = L_II^-1 f and L_BB y_B = -L_BI y_I = -K_BI K_II^-1 f, the flux that arrives at B.
     MatrixXd half = impl_->solve(CHOLMOD_L, permuted);
-    const VectorXd flux = impl_->trailing_factor().triangularView<Eigen::Lower>() * half.col(0).tail(m);
+    const VectorXd flux = impl_->trailing.triangularView<Eigen::Lower>() * half.col(0).tail(m);
     half.bottomRows(m).setZero();
     const MatrixXd solution = impl_->solve(CHOLMOD_Lt, half);
 
