@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circle_domain.h"
+#include "conformal/uniformize.h"
 
 #include <algorithm>
 
@@ -21,6 +22,29 @@ inline Index glue_ear(CircleDomain& domain, int loop, Index a, Index b, double h
     VertexLoop& vertices = domain.loops[loop];
     vertices.insert(std::find(vertices.begin(), vertices.end(), a) + 1, tip);
     return tip;
+}
+
+/// Five triangles in a row without inner vertices: 0 2 4 6 below, 1 3 5 above; the triangle 2 3 4 is the widest.
+inline CircleDomain strip_of_triangles()
+{
+    CircleDomain strip;
+    strip.points.resize(7);
+    strip.points << Complex(0, 0), Complex(0.5, 1), Complex(1, 0), Complex(3, 1), Complex(5, 0), Complex(5.5, 1),
+        Complex(6, 0);
+    strip.triangles.resize(5, 3);
+    strip.triangles << 0, 2, 1, 2, 3, 1, 2, 4, 3, 4, 5, 3, 4, 6, 5;
+    strip.loops = {{0, 2, 4, 6, 5, 3, 1}};
+    return strip;
+}
+
+/// The map of the flat domain, its first loop the outer one.
+inline UniformizeResult map_flat(const CircleDomain& domain)
+{
+    ExecutionContext context;
+    UniformizeOptions options;
+    options.outer = OuterLoop::vertex;
+    options.outer_vertex = domain.loops[0].front();
+    return uniformize(lift(domain.points, Lift::plane), domain.triangles, options, context);
 }
 
 }  // namespace koebe::test

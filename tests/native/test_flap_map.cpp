@@ -12,15 +12,6 @@ using namespace koebe::test;
 
 namespace {
 
-UniformizeResult run(const CircleDomain& domain)
-{
-    ExecutionContext context;
-    UniformizeOptions options;
-    options.outer = OuterLoop::vertex;
-    options.outer_vertex = domain.loops[0].front();
-    return uniformize(lift(domain.points, Lift::plane), domain.triangles, options, context);
-}
-
 Complex at(const UniformizeResult& result, Index v) { return {result.uv(v, 0), result.uv(v, 1)}; }
 
 /// Every vertex is on its circle or listed, nothing is flipped, and no boundary edges cross: with that the map is
@@ -54,7 +45,7 @@ TEST(FlapMap, an_ear_hangs_into_its_hole_in_its_own_shape)
     CircleDomain domain = make_circle_domain(five_circles(), 1000);
     const Index a = domain.loops[1][3], b = domain.loops[1][4];
     const Index tip = glue_ear(domain, 1, a, b, 0.5);
-    const UniformizeResult result = run(domain);
+    const UniformizeResult result = map_flat(domain);
     expect_one_to_one(result);
     std::vector<Index> off_circle;
     for (const LoopReport& loop : result.loops)
@@ -72,7 +63,7 @@ TEST(FlapMap, ears_that_would_meet_across_the_hole_are_made_flatter)
     CircleDomain domain = make_circle_domain(five_circles(), 1000);
     const VertexLoop loop = domain.loops[3];
     for (std::size_t i = 0; i < loop.size(); ++i) glue_ear(domain, 3, loop[i], loop[(i + 1) % loop.size()], 6.0);
-    const UniformizeResult result = run(domain);
+    const UniformizeResult result = map_flat(domain);
     expect_one_to_one(result);
     for (const LoopReport& report : result.loops)
         EXPECT_TRUE(report.off_circle.empty() || report.off_circle.size() == loop.size());
@@ -85,26 +76,20 @@ TEST(FlapMap, on_the_outer_loop_flaps_lie_along_the_unit_circle)
     const Index tip = glue_ear(domain, 0, a, b, 0.8);
     glue_ear(domain, 0, a, tip, 0.8);
     glue_ear(domain, 0, tip, b, 0.8);
-    const UniformizeResult result = run(domain);
+    const UniformizeResult result = map_flat(domain);
     expect_one_to_one(result);
     for (const LoopReport& report : result.loops) EXPECT_TRUE(report.off_circle.empty());
 }
 
 TEST(FlapMap, a_strip_without_inner_vertices_becomes_a_convex_polygon)
 {
-    CircleDomain strip;
-    strip.points.resize(7);
-    strip.points << Complex(0, 0), Complex(0.5, 1), Complex(1, 0), Complex(3, 1), Complex(5, 0), Complex(5.5, 1),
-        Complex(6, 0);
-    strip.triangles.resize(5, 3);
-    strip.triangles << 0, 2, 1, 2, 3, 1, 2, 4, 3, 4, 5, 3, 4, 6, 5;
-    strip.loops = {{0, 2, 4, 6, 5, 3, 1}};
-    expect_one_to_one(run(strip));
+    CircleDomain strip = strip_of_triangles();
+    expect_one_to_one(map_flat(strip));
     strip.points.conservativeResize(3);
     strip.triangles.conservativeResize(1, 3);
     strip.triangles << 0, 2, 1;
     strip.loops = {{0, 2, 1}};
-    expect_one_to_one(run(strip));
+    expect_one_to_one(map_flat(strip));
 }
 
 TEST(FlapMap, segments_that_touch_or_lie_on_each_other_meet)

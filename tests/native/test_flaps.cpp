@@ -49,14 +49,7 @@ TEST(Flaps, nested_ears_of_a_loop_are_one_flap_and_the_rest_is_the_domain_withou
 
 TEST(Flaps, of_a_strip_of_triangles_the_largest_one_stays)
 {
-    // 0 2 4 6 below, 1 3 5 above; the triangle 2 3 4 is the widest.
-    CircleDomain strip;
-    strip.points.resize(7);
-    strip.points << Complex(0, 0), Complex(0.5, 1), Complex(1, 0), Complex(3, 1), Complex(5, 0), Complex(5.5, 1),
-        Complex(6, 0);
-    strip.triangles.resize(5, 3);
-    strip.triangles << 0, 2, 1, 2, 3, 1, 2, 4, 3, 4, 5, 3, 4, 6, 5;
-    strip.loops = {{0, 2, 4, 6, 5, 3, 1}};
+    const CircleDomain strip = strip_of_triangles();
     const FlapCut result = cut(strip);
     ASSERT_EQ(result.flaps.size(), 2u);
     EXPECT_EQ(result.vertices, (std::vector<Index>{2, 3, 4}));

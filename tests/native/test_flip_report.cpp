@@ -1,5 +1,6 @@
 #include "circle_domain.h"
 #include "conformal/uniformize.h"
+#include "flap_domain.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +8,6 @@ using namespace koebe;
 using namespace koebe::test;
 
 namespace {
-
-UniformizeResult run(const CircleDomain& domain)
-{
-    ExecutionContext context;
-    UniformizeOptions options;
-    options.outer = OuterLoop::vertex;
-    options.outer_vertex = domain.loops[0].front();
-    return uniformize(lift(domain.points, Lift::plane), domain.triangles, options, context);
-}
 
 bool says(const UniformizeResult& result, const std::string& text)
 {
@@ -28,7 +20,7 @@ bool says(const UniformizeResult& result, const std::string& text)
 
 TEST(FlipReport, a_limb_below_resolution_is_named_with_its_place)
 {
-    const UniformizeResult result = run(make_round_annulus(1e-9, 12, 80));
+    const UniformizeResult result = map_flat(make_round_annulus(1e-9, 12, 80));
     EXPECT_FALSE(result.distortion.below_resolution.empty());
     EXPECT_EQ(result.distortion.flipped, result.distortion.below_resolution);
     ASSERT_EQ(result.warnings.size(), 1u);
@@ -39,6 +31,6 @@ TEST(FlipReport, a_limb_below_resolution_is_named_with_its_place)
 
 TEST(FlipReport, a_mesh_without_inner_vertices_is_called_too_coarse)
 {
-    EXPECT_TRUE(says(run(make_round_annulus(0.5, 12, 1)), "too coarse: 0 vertices between the loops' 24"));
-    EXPECT_TRUE(run(make_round_annulus(0.5, 12, 3)).warnings.empty());
+    EXPECT_TRUE(says(map_flat(make_round_annulus(0.5, 12, 1)), "too coarse: 0 vertices between the loops' 24"));
+    EXPECT_TRUE(map_flat(make_round_annulus(0.5, 12, 3)).warnings.empty());
 }
