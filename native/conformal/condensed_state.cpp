@@ -9,24 +9,43 @@ namespace koebe {
 
 CondensedState::CondensedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
                                const std::vector<VectorXd>& edges, VectorXd source)
-    : FilledState(loops, edges), source_(std::move(source)), sigma_(surface.sigma()), filled_(sigma_)
+    : FilledState(loops, edges)
 {
+    const Index inner = static_cast<Index>(source.size()) - size_[0];
+    begin_.assign(loops.size(), inner);
+    for (int k = 1, begin = 0; k < loop_count(); begin += size_[k++]) begin_[k] = begin;
+    // The outer loop comes first in what is given.
+    source_.resize(source.size());
+    source_ << source.tail(inner), source.head(size_[0]);
+    const MatrixXd sigma = surface.sigma();
+    sigma_.resize(sigma.rows(), sigma.cols());
+    sigma_ << sigma.bottomRightCorner(inner, inner), sigma.bottomLeftCorner(inner, size_[0]),
+        sigma.topRightCorner(size_[0], inner), sigma.topLeftCorner(size_[0], size_[0]);
+    filled_ = sigma_;
     int raised = 0;
     for (int k = 0; k < loop_count(); ++k)
         take_angles({k}, diagonal_block(sigma_, k).rowwise().sum(), raised);
 }
 
+const MatrixXd& CondensedState::inner_factor()
+{
+    if (std::exchange(stale_, false)) inner_factor_ = spd_factor(filled_.topLeftCorner(begin_[0], begin_[0]));
+    return inner_factor_;
+}
+
+/// L_RR L_RR' z = -A_R0 z_0.
 std::vector<VectorXcd> CondensedState::images()
 {
     const VectorXcd outer = rim();
     MatrixXd parts(size_[0], 2);
     parts << outer.real(), outer.imag();
-    const Index rest = static_cast<Index>(filled_.rows()) - size_[0];
-    const MatrixXd z =
-        spd_solve(filled_.bottomRightCorner(rest, rest), -(filled_.bottomLeftCorner(rest, size_[0]) * parts));
+    const auto lower = inner_factor().triangularView<Eigen::Lower>();
+    MatrixXd z = -(filled_.topRightCorner(begin_[0], size_[0]) * parts);
+    lower.solveInPlace(z);
+    lower.transpose().solveInPlace(z);
     std::vector<VectorXcd> result{outer};
     for (int k = 1; k < loop_count(); ++k) {
-        const auto rows = z.middleRows(begin_[k] - size_[0], size_[k]);
+        const auto rows = z.middleRows(begin_[k], size_[k]);
         result.emplace_back(rows.col(0) + Complex(0.0, 1.0) * rows.col(1));
     }
     return result;
@@ -35,18 +54,44 @@ std::vector<VectorXcd> CondensedState::images()
 std::vector<VectorXd> CondensedState::fluxes(const std::vector<std::vector<int>>& open_sets)
 {
     if (open_sets.size() == 1) return {eliminated_flux(open_sets[0])};
-    // M = (A + alpha 1 1')^-1: constants are in the kernel of A.
-    MatrixXd inverse = filled_;
-    inverse.array() += filled_.diagonal().mean() / static_cast<double>(filled_.rows());
-    inverse = spd_inverse(std::move(inverse));
+    // Constants are in the kernel of A: they are held at the outer loop.
+    const MatrixXd inverse_lower = lower_inverse(bordered_factor(
+        inner_factor(), filled_.bottomLeftCorner(size_[0], begin_[0]),
+        filled_.bottomRightCorner(size_[0], size_[0]) + weights_[0] * weights_[0].transpose()));
+    const VectorXd half = inverse_lower * source_;
     std::vector<VectorXd> result;
-    for (const std::vector<int>& open : open_sets) result.push_back(flux_by_inverse(open, inverse));
+    for (const std::vector<int>& open : open_sets) {
+        const VectorXd source_potential =
+            open.size() == 1
+                ? VectorXd(inverse_lower.middleCols(begin_[open[0]], size_[open[0]]).transpose() * half)
+                : VectorXd();
+        result.push_back(flux_by_inverse(open, inverse_block(open, inverse_lower), source_potential, source_.sum()));
+    }
+    return result;
+}
+
+/// M_PP = |L^-1 E_P|^2; the columns of a loop are zero above its rows.
+MatrixXd CondensedState::inverse_block(const std::vector<int>& open, const MatrixXd& inverse_lower) const
+{
+    const auto columns = [&](int k, Index from) {
+        return inverse_lower.middleCols(begin_[k], size_[k]).bottomRows(inverse_lower.rows() - from);
+    };
+    MatrixXd result(total(open), total(open));
+    const Index first = size_[open[0]];
+    result.topLeftCorner(first, first) = gram(columns(open[0], begin_[open[0]]));
+    if (open.size() == 2) {
+        const Index second = size_[open[1]], common = std::max(begin_[open[0]], begin_[open[1]]);
+        result.bottomRightCorner(second, second) = gram(columns(open[1], begin_[open[1]]));
+        result.bottomLeftCorner(second, first) = transpose_times(columns(open[1], common), columns(open[0], common));
+        result.topRightCorner(first, second) = result.bottomLeftCorner(second, first).transpose();
+    }
     return result;
 }
 
 void CondensedState::set_disk(int k, const MatrixXd& disk)
 {
     filled_.block(begin_[k], begin_[k], size_[k], size_[k]) = diagonal_block(sigma_, k) + disk;
+    stale_ = true;
 }
 
 VectorXd CondensedState::eliminated_flux(const std::vector<int>& open) const
@@ -60,23 +105,6 @@ VectorXd CondensedState::eliminated_flux(const std::vector<int>& open) const
     };
     if (rest.empty()) return load(open);
     return load(open) - gather(filled_, open, rest) * spd_solve(gather(filled_, rest, rest), load(rest));
-}
-
-/// M_PP q is the function on P up to a constant, which is such that no net flux runs: such a flux has a potential of
-/// mean 0 and does not feel alpha.
-VectorXd CondensedState::flux_by_inverse(const std::vector<int>& open, const MatrixXd& inverse) const
-{
-    const Index count = total(open);
-    MatrixXd values = MatrixXd::Ones(count, 2);
-    double net = 0.0;
-    if (open.size() == 1) {
-        values.col(0) = inverse.middleRows(begin_[open[0]], count) * source_;
-        net = source_.sum();
-    } else {
-        values.col(0).head(size_[open[0]]).setZero();
-    }
-    const MatrixXd fluxes = spd_solve(gather(inverse, open, open), values);
-    return fluxes.col(0) - (fluxes.col(0).sum() - net) / fluxes.col(1).sum() * fluxes.col(1);
 }
 
 MatrixXd CondensedState::gather(const MatrixXd& matrix, const std::vector<int>& rows,

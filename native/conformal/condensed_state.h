@@ -8,8 +8,9 @@
 
 namespace koebe {
 
-/// A = Sigma + sum T_k. One set of open loops is solved by elimination of the rest R, f_R = -A_RR^-1 A_RP f_P, many
-/// by one inverse for all.
+/// A = Sigma + sum T_k, the outer loop last. One set of open loops is solved by elimination of the rest R,
+/// f_R = -A_RR^-1 A_RP f_P. Many are solved from one factor L of A with the constants held: its leading part, that of
+/// the inner loops, gives the images, L^-1 the blocks M_PP = |L^-1 E_P|^2 of the inverse M.
 class CondensedState final : public FilledState {
 public:
     /// The first angles are those of the flux through each loop with all others open and at one voltage, Sigma_kk 1.
@@ -26,16 +27,20 @@ public:
 private:
     void set_disk(int k, const MatrixXd& disk) override;
     VectorXd eliminated_flux(const std::vector<int>& open) const;
-    VectorXd flux_by_inverse(const std::vector<int>& open, const MatrixXd& inverse) const;
     MatrixXd gather(const MatrixXd& matrix, const std::vector<int>& rows, const std::vector<int>& columns) const;
     VectorXd gather(const VectorXd& vector, const std::vector<int>& rows) const;
+    MatrixXd inverse_block(const std::vector<int>& open, const MatrixXd& inverse_lower) const;
+    const MatrixXd& inner_factor();
     auto diagonal_block(const MatrixXd& matrix, int k) const
     {
         return matrix.block(begin_[k], begin_[k], size_[k], size_[k]);
     }
 
+    std::vector<Index> begin_;         // of each loop among the rows
     VectorXd source_;
-    MatrixXd sigma_, filled_;  // Sigma and A
+    MatrixXd sigma_, filled_;          // Sigma and A
+    MatrixXd inner_factor_;            // of A on the inner loops, where it is not stale
+    bool stale_ = true;
 };
 
 }  // namespace koebe

@@ -37,11 +37,17 @@ protected:
     /// Loop k is filled by this disk from now on: T_k, (n_k, n_k).
     virtual void set_disk(int k, const MatrixXd& disk) = 0;
 
+    /// The flux through open loops P from M_PP, M = A^-1, where M is of A with the constants in its kernel held in any way.
+    /// @param inverse_block M_PP @param source_potential on P, M times the source, for one open loop
+    /// @param source_sum what the source feeds in
+    VectorXd flux_by_inverse(const std::vector<int>& open, const MatrixXd& inverse_block,
+                             const VectorXd& source_potential, double source_sum) const;
+
     Index total(const std::vector<int>& loops) const;
 
     const std::vector<VectorXd>& edges_;
-    std::vector<Index> begin_, size_;  // of each loop among the boundary vertices
-    std::vector<VectorXd> weights_;    // share of each vertex in the length of its loop
+    std::vector<Index> size_;        // of each loop
+    std::vector<VectorXd> weights_;  // share of each vertex in the length of its loop
     std::vector<VectorXd> angles_;
 };
 

@@ -10,9 +10,8 @@
 
 namespace koebe {
 
-/// A = K + sum T_k over all vertices, the disks as small dense blocks; its factor gives M = A^-1. The flux q through
-/// open loops P solves M_PP q = f_P up to a constant, all sets together, by conjugate gradients: T_P, which is about
-/// half of (M_PP)^-1, is the preconditioner, and a step costs one back-substitution for each set.
+/// A = K + sum T_k over all vertices, the disks as small dense blocks: one symbolic analysis for all sweeps, a numeric
+/// factorization for each, and from it the blocks M_PP of M = A^-1 that the open loops P see.
 class SparseState final : public FilledState {
 public:
     /// The first angles are those of the flux through each loop with all others open and at one voltage.
@@ -25,29 +24,15 @@ public:
     std::vector<VectorXd> fluxes(const std::vector<std::vector<int>>& open_sets) override;
 
 private:
-    struct Problem {
-        std::vector<int> open;
-        VectorXd values, start;  // on the open loops: potentials wanted, and a flux with the right sum
-        bool sourced = false;
-    };
     void set_disk(int k, const MatrixXd& disk) override;
-    /// What the same problems had in the sweep before.
-    struct Earlier {
-        std::vector<VectorXd> flux;
-        std::vector<double> size;  // of the first residual of all
-    };
-    std::vector<VectorXd> solve(const std::vector<Problem>& problems, Earlier& earlier);
-    MatrixXd potentials(const std::vector<Problem>& problems, const std::vector<VectorXd>& currents, bool sourced);
-    VectorXd preconditioned(const Problem& problem, const VectorXd& residual) const;
-    VectorXd gather(const VectorXd& vertices, const std::vector<int>& loops) const;
+    const SparseCholesky& factor();
+    MatrixXd inverse_block(const std::vector<int>& loops);
 
     const std::vector<VertexLoop>& loops_;
     VectorXd source_;
     SparseMatrix empty_, filled_;  // K and A, lower triangles of one pattern
-    std::vector<MatrixXd> disks_;
     std::unique_ptr<SparseCholesky> factor_;
     bool stale_ = true;            // the factor is of other disks
-    Earlier fluxes_, images_;
 };
 
 }  // namespace koebe

@@ -39,6 +39,10 @@ public:
     /// The Dirichlet-to-Neumann matrix (m, m), symmetric positive semidefinite, Sigma 1 = 0.
     MatrixXd sigma() const;
 
+    /// The flux through each of some boundary vertices, Sigma_PP 1, when they have potential 1 and all others 0;
+    /// where there is no sigma(). @param part the vertices
+    VectorXd flux_of_part(const std::vector<Index>& part) const;
+
     Index boundary_size() const;
 
     /// Harmonic extension: (m, C) boundary values in the boundary's order -> (V, C) values at all vertices.
@@ -46,9 +50,6 @@ public:
 
     /// Solves K u = f with u = 0 on the boundary. @param load (V) f; values on the boundary are ignored
     InteriorSolution solve_interior(const VectorXd& load) const;
-
-    /// Entries of the factor, a measure of memory and work.
-    double factor_entries() const;
 
 private:
     struct Impl;

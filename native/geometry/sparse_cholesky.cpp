@@ -1,32 +1,57 @@
 #include "geometry/sparse_cholesky.h"
 
-#include "geometry/cholmod_support.h"
+#include "geometry/dense_spd.h"
+#include "geometry/elimination_order.h"
+#include "geometry/path_solution.h"
+#include "geometry/supernodal_factor.h"
+
+#include <algorithm>
 
 namespace koebe {
 
 using namespace detail;
 
 struct SparseCholesky::Impl {
-    CholmodCommon common;
-    Factor factor;
+    SupernodalFactor l;
+    std::vector<Index> last;
+    MatrixXd trailing;  // L_BB in the factor's own order
+
+    Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
+    Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
 };
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering) : impl_(std::make_unique<Impl>())
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last)
+    : impl_(std::make_unique<Impl>())
 {
-    CholmodCommon& common = impl_->common;
-    common->nmethods = 1;
-    common->method[0].ordering = ordering == Ordering::amd ? CHOLMOD_AMD : CHOLMOD_METIS;
+    SupernodalFactor& l = impl_->l;
+    impl_->last = last;
     cholmod_sparse lower = view(matrix, -1);
-    impl_->factor = own(cholmod_analyze(&lower, common.get()), common);
-    common.require(impl_->factor != nullptr, "symbolic analysis");
+    // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
+    // postorder A_II by itself and forbid any further change.
+    for (const bool forced : {false, true}) {
+        std::vector<Index> order;
+        if (!last.empty()) order = elimination_order(matrix, last, ordering, forced, l.common);
+        l.common->nmethods = 1;
+        l.common->method[0].ordering = !last.empty()                ? CHOLMOD_GIVEN
+                                       : ordering == Ordering::amd ? CHOLMOD_AMD
+                                                                   : CHOLMOD_METIS;
+        l.common->postorder = forced ? 0 : 1;
+        l.factor = own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, l.common.get()),
+                       l.common);
+        l.common.require(l.factor != nullptr, "symbolic analysis");
+        l.number();
+        if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= impl_->inner_count(); })) break;
+    }
     refactorize(matrix);
 }
 
 void SparseCholesky::refactorize(const SparseMatrix& matrix)
 {
+    SupernodalFactor& l = impl_->l;
     cholmod_sparse lower = view(matrix, -1);
-    const int done = cholmod_factorize(&lower, impl_->factor.get(), impl_->common.get());
-    impl_->common.require(done != 0, "numeric factorization (matrix not positive definite)");
+    const int done = cholmod_factorize(&lower, l.factor.get(), l.common.get());
+    l.common.require(done != 0, "numeric factorization (matrix not positive definite)");
+    impl_->trailing = l.trailing_block(static_cast<Index>(impl_->last.size()));
 }
 
 SparseCholesky::~SparseCholesky() = default;
@@ -35,11 +60,89 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 MatrixXd SparseCholesky::solve(const MatrixXd& right_hand_side) const
 {
-    cholmod_dense b = view(right_hand_side);
-    CholmodCommon& common = impl_->common;
-    const Dense x = own(cholmod_solve(CHOLMOD_A, impl_->factor.get(), &b, common.get()), common);
-    common.require(x != nullptr, "back-substitution");
-    return to_eigen(*x);
+    return impl_->l.solve(CHOLMOD_A, right_hand_side);
+}
+
+MatrixXd SparseCholesky::last_schur() const
+{
+    const MatrixXd product = lower_times_transpose(impl_->trailing);
+    std::vector<Index> place(impl_->last.size());
+    for (std::size_t b = 0; b < place.size(); ++b) place[b] = impl_->place_in_trailing(b);
+    return product(place, place);
+}
+
+/// L' x = (0, L_BB' x_B) has x_I = -L_II^-T L_BI' x_B.
+MatrixXd SparseCholesky::extend(const MatrixXd& last_values) const
+{
+    const Index count = static_cast<Index>(impl_->last.size());
+    MatrixXd values(count, last_values.cols());
+    for (Index b = 0; b < count; ++b) values.row(impl_->place_in_trailing(b)) = last_values.row(b);
+    MatrixXd load = MatrixXd::Zero(impl_->l.size(), last_values.cols());
+    load.bottomRows(count) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * values;
+    const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, load);
+
+    MatrixXd result(impl_->l.size(), last_values.cols());
+    for (Index j = 0; j < impl_->l.size(); ++j) result.row(impl_->l.order()[j]) = solution.row(j);
+    result(impl_->last, Eigen::all) = last_values;
+    return result;
+}
+
+/// L y = (f, 0) gives y_I = L_II^-1 f and L_BB y_B = -L_BI y_I = -A_BI A_II^-1 f.
+std::pair<VectorXd, VectorXd> SparseCholesky::solve_inner(const VectorXd& f) const
+{
+    const Index count = static_cast<Index>(impl_->last.size()), inner = impl_->inner_count();
+    MatrixXd load = MatrixXd::Zero(impl_->l.size(), 1);
+    for (Index j = 0; j < inner; ++j) load(j, 0) = f[impl_->l.order()[j]];
+    MatrixXd half = impl_->l.solve(CHOLMOD_L, load);
+    const VectorXd flux = impl_->trailing.triangularView<Eigen::Lower>() * half.col(0).tail(count);
+    half.bottomRows(count).setZero();
+    const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, half);
+
+    std::pair<VectorXd, VectorXd> result{VectorXd(impl_->l.size()), VectorXd(count)};
+    for (Index j = 0; j < impl_->l.size(); ++j) result.first[impl_->l.order()[j]] = solution(j, 0);
+    for (Index b = 0; b < count; ++b) result.second[b] = flux[impl_->place_in_trailing(b)];
+    return result;
+}
+
+MatrixXd SparseCholesky::inverse_form(const std::vector<SparseMatrix>& parts) const
+{
+    std::vector<PathSolution> solutions;
+    Eigen::Index count = 0;
+    for (const SparseMatrix& b : parts) {
+        solutions.push_back(path_solution(impl_->l, b));
+        count += b.cols();
+    }
+    MatrixXd result = MatrixXd::Zero(count, count);
+    Eigen::Index left = 0;
+    for (const PathSolution& column : solutions) {
+        Eigen::Index top = 0;
+        for (const PathSolution& row : solutions) {
+            if (top >= left) add_product(row, column, result.block(top, left, row.y.rows(), column.y.rows()));
+            top += row.y.rows();
+        }
+        left += column.y.rows();
+    }
+    result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
+    return result;
+}
+
+VectorXd SparseCholesky::inverse_form_sum(const SparseMatrix& b) const
+{
+    const SupernodalFactor& l = impl_->l;
+    // Of all B's rows, also of those whose entries cancel.
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
+        for (SparseMatrix::InnerIterator it(b, c); it; ++it)
+            entries.emplace_back(static_cast<Index>(it.row()), 0, it.value());
+    SparseMatrix sum(b.rows(), 1);
+    sum.setFromTriplets(entries.begin(), entries.end());
+    const PathSolution solution = path_solution(l, sum);
+    const MatrixXd x = back_substitution(l, solution);
+    VectorXd result = VectorXd::Zero(b.cols());
+    for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
+        for (SparseMatrix::InnerIterator it(b, c); it; ++it)
+            result[c] += it.value() * x(0, solution.column(l, l.rank[it.row()]));
+    return result;
 }
 
 DirichletSolver::DirichletSolver(const SparseMatrix& laplacian, const std::vector<char>& fixed)

@@ -4,18 +4,24 @@
 #include "core/types.h"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace koebe {
 
 enum class Ordering { amd, metis };
 
-/// Factor of a symmetric positive definite matrix; supernodal, so that dense kernels do the work.
+/// Factor A = L L' of a symmetric positive definite matrix; supernodal, so that dense kernels do the work.
+///
+/// Some rows B can be kept to the end. Then the trailing block gives the Schur complement A_BB - A_BI A_II^-1 A_IB =
+/// L_BB L_BB', and the leading part is the factor of A_II, I all other rows.
 class SparseCholesky {
 public:
     /// @param matrix symmetric, of which the lower triangle is read
+    /// @param last the rows B
     /// @throws SolverError if the matrix is not positive definite
-    explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd);
+    explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd,
+                            const std::vector<Index>& last = {});
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;
@@ -25,6 +31,23 @@ public:
 
     /// Solves for each column of the right-hand side.
     MatrixXd solve(const MatrixXd& right_hand_side) const;
+
+    /// The Schur complement on B, its rows in the order in which B was given.
+    MatrixXd last_schur() const;
+
+    /// x with the given values on B, (b, C), and (A x)_I = 0: (n, C).
+    MatrixXd extend(const MatrixXd& last_values) const;
+
+    /// x with (A x)_I = f_I and x = 0 on B, and -(A x)_B, in the order of B. @param f (n), not read on B
+    std::pair<VectorXd, VectorXd> solve_inner(const VectorXd& f) const;
+
+    /// B' A^-1 B, (c, c), for a sparse B = [B_1 B_2 ...] of c columns: the products of Y_k = L^-1 B_k, each found by
+    /// forward substitution along the paths of B_k's rows in the elimination tree, a small part of the factor (Gilbert
+    /// 1994). May be called from several threads at once.
+    MatrixXd inverse_form(const std::vector<SparseMatrix>& parts) const;
+
+    /// The sum of the columns of B' A^-1 B, in the same way.
+    VectorXd inverse_form_sum(const SparseMatrix& b) const;
 
 private:
     struct Impl;

@@ -1,0 +1,30 @@
+// Forward substitution along the elimination tree. For the .cpp files of this folder only.
+#pragma once
+
+#include "geometry/supernodal_factor.h"
+
+namespace koebe::detail {
+
+/// Y = L^-1 B for a sparse B: it vanishes but on the supernodes on the way from B's rows to the root of the elimination
+/// tree.
+struct PathSolution {
+    std::vector<Index> path;   // supernodes, ascending
+    std::vector<Index> begin;  // of each of them among the columns of y, and the end
+    std::vector<Index> place;  // of each supernode's first row among them, -1 where it is not on the path
+    MatrixXd y;                // Y on the path, transposed
+
+    /// The column of y that belongs to a row of L.
+    Index column(const SupernodalFactor& l, Index row) const
+    {
+        return place[l.supernode[row]] + row - l.first_column(l.supernode[row]);
+    }
+};
+PathSolution path_solution(const SupernodalFactor& l, const SparseMatrix& b);
+
+/// X = L^-T Y = A^-1 B on the path, transposed as y is.
+MatrixXd back_substitution(const SupernodalFactor& l, const PathSolution& solution);
+
+/// Adds Y_a' Y_b.
+void add_product(const PathSolution& a, const PathSolution& b, Eigen::Ref<MatrixXd> result);
+
+}  // namespace koebe::detail
