@@ -9,18 +9,20 @@ namespace koebe {
 
 CondensedState::CondensedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
                                const std::vector<VectorXd>& edges, VectorXd source)
-    : FilledState(loops, edges)
+    : FilledState(loops, edges), begin_(loops.size())
 {
-    const Index inner = static_cast<Index>(source.size()) - size_[0];
-    begin_.assign(loops.size(), inner);
-    for (int k = 1, begin = 0; k < loop_count(); begin += size_[k++]) begin_[k] = begin;
-    // The outer loop comes first in what is given.
-    source_.resize(source.size());
-    source_ << source.tail(inner), source.head(size_[0]);
-    const MatrixXd sigma = surface.sigma();
-    sigma_.resize(sigma.rows(), sigma.cols());
-    sigma_ << sigma.bottomRightCorner(inner, inner), sigma.bottomLeftCorner(inner, size_[0]),
-        sigma.topRightCorner(size_[0], inner), sigma.topLeftCorner(size_[0], size_[0]);
+    std::vector<Index> given, rows;  // where each loop begins in what is given; the given row of each row here
+    Index total = 0;
+    for (const VertexLoop& loop : loops) {
+        given.push_back(total);
+        total += static_cast<Index>(loop.size());
+    }
+    for (int k = loop_count() - 1; k >= 0; --k) {
+        begin_[k] = static_cast<Index>(rows.size());
+        for (Index b = 0; b < size_[k]; ++b) rows.push_back(given[k] + b);
+    }
+    source_ = source(rows);
+    sigma_ = surface.sigma()(rows, rows);
     filled_ = sigma_;
     int raised = 0;
     for (int k = 0; k < loop_count(); ++k)
@@ -51,50 +53,35 @@ std::vector<VectorXcd> CondensedState::images()
     return result;
 }
 
-std::vector<VectorXd> CondensedState::fluxes(const std::vector<std::vector<int>>& open_sets)
+std::vector<VectorXd> CondensedState::fluxes_against_outer()
 {
-    if (open_sets.size() == 1) return {eliminated_flux(open_sets[0])};
-    // Constants are in the kernel of A: they are held at the outer loop.
-    const MatrixXd inverse_lower = lower_inverse(bordered_factor(
-        inner_factor(), filled_.bottomLeftCorner(size_[0], begin_[0]),
-        filled_.bottomRightCorner(size_[0], size_[0]) + weights_[0] * weights_[0].transpose()));
-    const VectorXd half = inverse_lower * source_;
+    const MatrixXd inverse_lower = lower_inverse(inner_factor());
     std::vector<VectorXd> result;
-    for (const std::vector<int>& open : open_sets) {
-        const VectorXd source_potential =
-            open.size() == 1
-                ? VectorXd(inverse_lower.middleCols(begin_[open[0]], size_[open[0]]).transpose() * half)
-                : VectorXd();
-        result.push_back(flux_by_inverse(open, inverse_block(open, inverse_lower), source_potential, source_.sum()));
+    for (int k = 1; k < loop_count(); ++k) {
+        const auto columns = inverse_lower.middleCols(begin_[k], size_[k]).bottomRows(begin_[0] - begin_[k]);
+        result.push_back(spd_solve(gram(columns), VectorXd::Ones(size_[k])));
     }
     return result;
 }
 
-/// M_PP = |L^-1 E_P|^2; the columns of a loop are zero above its rows.
-MatrixXd CondensedState::inverse_block(const std::vector<int>& open, const MatrixXd& inverse_lower) const
+/// L' u = (0, L_11' 1) is 1 on the first inner loop and harmonic on the others.
+VectorXd CondensedState::outer_flux()
 {
-    const auto columns = [&](int k, Index from) {
-        return inverse_lower.middleCols(begin_[k], size_[k]).bottomRows(inverse_lower.rows() - from);
-    };
-    MatrixXd result(total(open), total(open));
-    const Index first = size_[open[0]];
-    result.topLeftCorner(first, first) = gram(columns(open[0], begin_[open[0]]));
-    if (open.size() == 2) {
-        const Index second = size_[open[1]], common = std::max(begin_[open[0]], begin_[open[1]]);
-        result.bottomRightCorner(second, second) = gram(columns(open[1], begin_[open[1]]));
-        result.bottomLeftCorner(second, first) = transpose_times(columns(open[1], common), columns(open[0], common));
-        result.topRightCorner(first, second) = result.bottomLeftCorner(second, first).transpose();
-    }
-    return result;
+    VectorXd u = VectorXd::Zero(begin_[0]);
+    const auto lower = inner_factor().triangularView<Eigen::Lower>();
+    const auto last = inner_factor().bottomRightCorner(size_[1], size_[1]).triangularView<Eigen::Lower>();
+    u.tail(size_[1]) = last.transpose() * VectorXd::Ones(size_[1]);
+    lower.transpose().solveInPlace(u);
+    return -(sigma_.bottomLeftCorner(size_[0], begin_[0]) * u);
 }
 
 void CondensedState::set_disk(int k, const MatrixXd& disk)
 {
     filled_.block(begin_[k], begin_[k], size_[k], size_[k]) = diagonal_block(sigma_, k) + disk;
-    stale_ = true;
+    if (k > 0) stale_ = true;
 }
 
-VectorXd CondensedState::eliminated_flux(const std::vector<int>& open) const
+VectorXd CondensedState::flux(const std::vector<int>& open)
 {
     std::vector<int> rest;
     for (int k = 0; k < loop_count(); ++k)

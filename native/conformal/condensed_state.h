@@ -8,9 +8,9 @@
 
 namespace koebe {
 
-/// A = Sigma + sum T_k, the outer loop last. One set of open loops is solved by elimination of the rest R,
-/// f_R = -A_RR^-1 A_RP f_P. Many are solved from one factor L of A with the constants held: its leading part, that of
-/// the inner loops, gives the images, L^-1 the blocks M_PP = |L^-1 E_P|^2 of the inverse M.
+/// A = Sigma + sum T_k, the loops in falling order, so that the outer one is last. A few open loops are solved by elimination of the rest R,
+/// f_R = -A_RR^-1 A_RP f_P; all of them against the outer one from one factor L of A on the inner loops, which gives the
+/// images too: N = (L L')^-1 is the potential with the outer loop held at 0, N_kk = |L^-1 E_k|^2.
 class CondensedState final : public FilledState {
 public:
     /// The first angles are those of the flux through each loop with all others open and at one voltage, Sigma_kk 1.
@@ -22,7 +22,12 @@ public:
                   const std::vector<VectorXd>& edges, VectorXd source);
 
     std::vector<VectorXcd> images() override;
-    std::vector<VectorXd> fluxes(const std::vector<std::vector<int>>& open_sets) override;
+    std::vector<VectorXd> fluxes_against_outer() override;
+    VectorXd outer_flux() override;
+
+    /// The flux through open loops, one after the other: of the harmonic function that is 0 on the first and 1 on the
+    /// second, or of the source with one open loop at 0.
+    VectorXd flux(const std::vector<int>& open);
 
 private:
     void set_disk(int k, const MatrixXd& disk) override;

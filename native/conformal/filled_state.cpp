@@ -2,7 +2,6 @@
 
 #include "conformal/boundary_angles.h"
 #include "conformal/disk_dirichlet_to_neumann.h"
-#include "geometry/dense_spd.h"
 
 namespace koebe {
 
@@ -26,21 +25,6 @@ void FilledState::take_angles(const std::vector<int>& open, const VectorXd& flux
         set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
         row += size_[k];
     }
-}
-
-/// M_PP q is the function on P up to a constant, which is such that no net flux runs: such a flux has the potential M q
-/// up to a constant, however the constants are held.
-VectorXd FilledState::flux_by_inverse(const std::vector<int>& open, const MatrixXd& inverse_block,
-                                      const VectorXd& source_potential, double source_sum) const
-{
-    MatrixXd values = MatrixXd::Ones(total(open), 2);
-    if (open.size() == 1)
-        values.col(0) = source_potential;
-    else
-        values.col(0).head(size_[open[0]]).setZero();
-    const double net = open.size() == 1 ? source_sum : 0.0;
-    const MatrixXd fluxes = spd_solve(inverse_block, values);
-    return fluxes.col(0) - (fluxes.col(0).sum() - net) / fluxes.col(1).sum() * fluxes.col(1);
 }
 
 Index FilledState::total(const std::vector<int>& loops) const

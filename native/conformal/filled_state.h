@@ -22,9 +22,12 @@ public:
     /// loop: harmonic where it is filled.
     virtual std::vector<VectorXcd> images() = 0;
 
-    /// For each set of open loops the flux through them, one loop after the other: of the harmonic function that is 0
-    /// on the first and 1 on the second, or of the source with one open loop at 0. All from the present state.
-    virtual std::vector<VectorXd> fluxes(const std::vector<std::vector<int>>& open_sets) = 0;
+    /// All inner loops opened at once, each for itself, the others filled, from the present state: the flux through each
+    /// at potential 1, the outer one at 0.
+    virtual std::vector<VectorXd> fluxes_against_outer() = 0;
+
+    /// The flux through the outer loop with the first inner one at potential 1 and all others filled.
+    virtual VectorXd outer_flux() = 0;
 
     /// New angles for open loops from the flux through them: the conjugate of the harmonic function.
     /// @param raised incremented by the number of steps along a loop that had to be raised
@@ -36,12 +39,6 @@ protected:
 
     /// Loop k is filled by this disk from now on: T_k, (n_k, n_k).
     virtual void set_disk(int k, const MatrixXd& disk) = 0;
-
-    /// The flux through open loops P from M_PP, M = A^-1, where M is of A with the constants in its kernel held in any way.
-    /// @param inverse_block M_PP @param source_potential on P, M times the source, for one open loop
-    /// @param source_sum what the source feeds in
-    VectorXd flux_by_inverse(const std::vector<int>& open, const MatrixXd& inverse_block,
-                             const VectorXd& source_potential, double source_sum) const;
 
     Index total(const std::vector<int>& loops) const;
 

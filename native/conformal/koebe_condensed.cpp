@@ -12,7 +12,8 @@
 namespace koebe {
 namespace {
 
-/// More loops are opened all at once: one inverse then costs less than an elimination for each step.
+/// More loops are opened all at once, each against the outer one: one factor for all then costs less than an elimination
+/// for each step.
 constexpr int most_loops_one_by_one = 8;
 
 /// What every step of a sweep opens: two loops, or with the conventional form one.
@@ -43,28 +44,32 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
                              const VectorXd& areas, const UniformizeOptions& options, ExecutionContext& context)
 {
     KoebeOutcome outcome;
-    const bool sourced = loops.size() == 1 || (options.method == Method::ck && loops.size() > 2);
-    const VectorXd source = sourced ? deepest_source(surface, areas) : VectorXd::Zero(areas.size());
-    const auto flux_of_source = [&]() -> VectorXd {
-        return sourced ? surface.solve_interior(source).boundary_flux : VectorXd::Zero(surface.boundary_size());
-    };
-    if (loops.size() == 1) {
-        const VectorXd flux = flux_of_source();
-        const VectorXd angles = angles_from_flux(flux, edges[0], outcome.raised_angles);
+    const int loop_count = static_cast<int>(loops.size());
+    const bool at_once = loop_count > most_loops_one_by_one || !surface.has_sigma();
+    const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck && loop_count > 2);
+    const VectorXd flux_of_source = sourced ? surface.solve_interior(deepest_source(surface, areas)).boundary_flux
+                                            : VectorXd::Zero(surface.boundary_size());
+    if (loop_count == 1) {
+        const VectorXd angles = angles_from_flux(flux_of_source, edges[0], outcome.raised_angles);
         outcome.loops.push_back(unit_circle_points(centered_angles(angles, vertex_weights(edges[0]))));
         outcome.converged = true;
         return outcome;
     }
-    std::unique_ptr<FilledState> filled;
+    std::unique_ptr<CondensedState> condensed;
+    std::unique_ptr<SparseState> sparse;
     if (surface.has_sigma())
-        filled = std::make_unique<CondensedState>(surface, loops, edges, flux_of_source());
+        condensed = std::make_unique<CondensedState>(surface, loops, edges, flux_of_source);
     else
-        filled = std::make_unique<SparseState>(laplacian, surface, loops, edges, source);
-    FilledState& state = *filled;
+        sparse = std::make_unique<SparseState>(laplacian, surface, loops, edges);
+    FilledState& state = condensed ? static_cast<FilledState&>(*condensed) : *sparse;
 
-    const auto steps = sweep_steps(state.loop_count(), options.method);
-    const std::size_t at_once =
-        surface.has_sigma() && state.loop_count() <= most_loops_one_by_one ? 1 : steps.size();
+    const auto steps = sweep_steps(loop_count, options.method);
+    const auto take_all = [&] {
+        const std::vector<VectorXd> fluxes = state.fluxes_against_outer();
+        context.checkpoint();
+        for (int k = 1; k < loop_count; ++k) state.take_angles({k}, fluxes[k - 1], outcome.raised_angles);
+        state.take_angles({0}, state.outer_flux(), outcome.raised_angles);
+    };
     CircleState now = circle_state(state.images(), fit_circle_least_squares);
     // Steps that take effect together share the change and the roundness they lead to.
     const auto record = [&](std::size_t first, std::size_t last) {
@@ -80,16 +85,19 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
     while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
         const CircleState at_sweep_start = now;
         outcome.raised_angles = 0;
-        for (std::size_t first = 0; first < steps.size(); first += at_once) {
-            const std::vector<std::vector<int>> opened(steps.begin() + first, steps.begin() + first + at_once);
-            const std::vector<VectorXd> fluxes = state.fluxes(opened);
+        if (at_once) {
+            take_all();
+            record(0, steps.size());
+        }
+        for (std::size_t s = 0; !at_once && s < steps.size(); ++s) {
+            const VectorXd flux = condensed->flux(steps[s]);
             context.checkpoint();
-            for (std::size_t s = 0; s < at_once; ++s) state.take_angles(opened[s], fluxes[s], outcome.raised_angles);
-            record(first, first + at_once);
+            state.take_angles(steps[s], flux, outcome.raised_angles);
+            record(s, s + 1);
         }
         ++outcome.sweeps;
         // With two loops the step reads nothing of the state it replaces: it is exact.
-        outcome.converged = circle_change(at_sweep_start, now) < options.tolerance || state.loop_count() == 2;
+        outcome.converged = circle_change(at_sweep_start, now) < options.tolerance || loop_count == 2;
     }
     return outcome;
 }

@@ -17,12 +17,13 @@ namespace koebe {
 /// A_PP f_P + A_PR f_R through its nodes has the conjugate function as its running sum: the new angles. (T_i and T_j
 /// vanish on constants.) A CK step opens one loop, kept at 0, and a source inside S takes the place of the other.
 ///
-/// Up to 8 loops the steps of a sweep follow each other, and R is eliminated in each. With more, all of them start
-/// from the same state, and one inverse M = (A + alpha 1 1')^-1 serves them all: the flux is (M_PP)^-1 (a, a + 1), a
-/// such that no net flux runs and alpha is not felt. With one loop one step from the source is exact, with two loops
-/// one GK step.
+/// Up to 8 loops the steps of a sweep follow each other, and R is eliminated in each. With more, all loops are opened
+/// from the same state, each against the outer one, and one factor of A serves them all: with N the inverse of A on the
+/// inner loops, the flux through loop k at potential 1 is (N_kk)^-1 1. The outer loop, open in every step, is never
+/// filled, and takes its angles from the flux of the pair (0, 1) in the new state. Both methods are then the same, but for
+/// how many loops a step counts. With one loop one step from a source is exact, with two loops one GK step.
 ///
-/// Boundaries too long for a Sigma keep A as one sparse matrix, and the fluxes are found by conjugate gradients.
+/// Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected inversion.
 ///
 /// @param laplacian of the surface
 /// @param surface the same condensed, its boundary the concatenation of the loops

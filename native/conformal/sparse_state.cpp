@@ -1,6 +1,5 @@
 #include "conformal/sparse_state.h"
 
-#include "core/parallel.h"
 #include "geometry/dense_spd.h"
 
 #include <algorithm>
@@ -9,16 +8,23 @@
 namespace koebe {
 
 SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
-                         const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges, VectorXd source)
-    : FilledState(loops, edges), loops_(loops), source_(std::move(source))
+                         const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges)
+    : FilledState(loops, edges), loops_(loops), laplacian_(laplacian)
 {
+    std::vector<char> outer(laplacian.rows(), 0);
+    for (const Index v : loops[0]) outer[v] = 1;
     std::vector<Eigen::Triplet<double, Index>> entries;
-    for (Index v = 0; v < static_cast<Index>(laplacian.cols()); ++v)
+    for (Index v = 0; v < static_cast<Index>(laplacian.cols()); ++v) {
+        if (outer[v]) {
+            entries.emplace_back(v, v, 1.0);
+            continue;
+        }
         for (SparseMatrix::InnerIterator it(laplacian, v); it; ++it)
-            if (it.row() >= v) entries.emplace_back(static_cast<Index>(it.row()), v, it.value());
-    for (const VertexLoop& loop : loops)
-        for (const Index v : loop)
-            for (const Index w : loop)
+            if (it.row() >= v && !outer[it.row()]) entries.emplace_back(static_cast<Index>(it.row()), v, it.value());
+    }
+    for (int k = 1; k < loop_count(); ++k)
+        for (const Index v : loops[k])
+            for (const Index w : loops[k])
                 if (w >= v) entries.emplace_back(w, v, 0.0);
     empty_.resize(laplacian.rows(), laplacian.cols());
     empty_.setFromTriplets(entries.begin(), entries.end());
@@ -30,6 +36,7 @@ SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian
 
 void SparseState::set_disk(int k, const MatrixXd& disk)
 {
+    if (k == 0) return;
     stale_ = true;
     const VertexLoop& loop = loops_[k];
     for (Index c = 0; c < size_[k]; ++c) {
@@ -39,8 +46,6 @@ void SparseState::set_disk(int k, const MatrixXd& disk)
             if (loop[r] < loop[c]) continue;
             const std::ptrdiff_t at = std::lower_bound(rows, end, loop[r]) - filled_.innerIndexPtr();
             filled_.valuePtr()[at] = empty_.valuePtr()[at] + disk(r, c);
-            // Constants are in the kernel of A: the outer loop's mean is held at 0, which no flux without sum feels.
-            if (k == 0) filled_.valuePtr()[at] += weights_[0][r] * weights_[0][c];
         }
     }
 }
@@ -51,31 +56,19 @@ const SparseCholesky& SparseState::factor()
         if (factor_)
             factor_->refactorize(filled_);
         else
-            factor_ = std::make_unique<SparseCholesky>(filled_, Ordering::amd, loops_[0]);
+            factor_ = std::make_unique<SparseCholesky>(filled_, Ordering::amd, loops_[1]);
     }
     return *factor_;
-}
-
-MatrixXd SparseState::inverse_block(const std::vector<int>& loops)
-{
-    std::vector<SparseMatrix> units;
-    for (const int k : loops) {
-        SparseMatrix& unit = units.emplace_back(filled_.rows(), size_[k]);
-        for (Index b = 0; b < size_[k]; ++b) {
-            unit.startVec(b);
-            unit.insertBack(loops_[k][b], b) = 1.0;
-        }
-        unit.finalize();
-    }
-    return factor().inverse_form(units);
 }
 
 std::vector<VectorXcd> SparseState::images()
 {
     const VectorXcd outer = rim();
-    MatrixXd parts(size_[0], 2);
-    parts << outer.real(), outer.imag();
-    const MatrixXd z = factor().extend(parts);
+    MatrixXd z = MatrixXd::Zero(laplacian_.rows(), 2);
+    for (Index b = 0; b < size_[0]; ++b) z.row(loops_[0][b]) << outer[b].real(), outer[b].imag();
+    MatrixXd load = -(laplacian_ * z);
+    load(loops_[0], Eigen::all) = z(loops_[0], Eigen::all);
+    z = factor().solve(load);
     std::vector<VectorXcd> result{outer};
     for (int k = 1; k < loop_count(); ++k) {
         const MatrixXd image = z(loops_[k], Eigen::all);
@@ -84,20 +77,19 @@ std::vector<VectorXcd> SparseState::images()
     return result;
 }
 
-std::vector<VectorXd> SparseState::fluxes(const std::vector<std::vector<int>>& open_sets)
+std::vector<VectorXd> SparseState::fluxes_against_outer()
 {
-    const bool sourced = open_sets[0].size() == 1;
-    const VectorXd potential = sourced ? VectorXd(factor().solve(source_)) : VectorXd();
-    factor();
-    std::vector<VectorXd> result(open_sets.size());
-    const int threads = DenseThreads::count();
-    const DenseThreads one(1);  // the sets are shared out instead
-    parallel_for(static_cast<int>(open_sets.size()), threads, [&](int i) {
-        const std::vector<int>& open = open_sets[i];
-        result[i] = flux_by_inverse(open, inverse_block(open),
-                                    sourced ? VectorXd(potential(loops_[open[0]])) : VectorXd(), source_.sum());
-    });
+    std::vector<VectorXd> result;
+    for (MatrixXd& block : factor().inverse_blocks({loops_.begin() + 1, loops_.end()})) {
+        const VectorXd ones = VectorXd::Ones(block.rows());
+        result.push_back(spd_solve(std::move(block), ones));
+    }
     return result;
+}
+
+VectorXd SparseState::outer_flux()
+{
+    return -VectorXd(laplacian_ * factor().extend(VectorXd::Ones(size_[1])))(loops_[0]);
 }
 
 }  // namespace koebe

@@ -10,27 +10,27 @@
 
 namespace koebe {
 
-/// A = K + sum T_k over all vertices, the disks as small dense blocks: one symbolic analysis for all sweeps, a numeric
-/// factorization for each, and from it the blocks M_PP of M = A^-1 that the open loops P see.
+/// A = K + sum T_k over all vertices but those of the outer loop, the disks as small dense blocks: one symbolic analysis
+/// for all sweeps, a numeric factorization for each, and from it the images and the blocks N_kk of N = A^-1.
 class SparseState final : public FilledState {
 public:
     /// The first angles are those of the flux through each loop with all others open and at one voltage.
-    /// @param laplacian (V, V) both triangles stored @param surface of the same Laplacian
-    /// @param source (V) what a source inside feeds into each vertex, for steps with one open loop
+    /// @param surface of the same Laplacian
+    /// @param laplacian (V, V) both triangles stored; must outlive this
     SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                const std::vector<VectorXd>& edges, VectorXd source);
+                const std::vector<VectorXd>& edges);
 
     std::vector<VectorXcd> images() override;
-    std::vector<VectorXd> fluxes(const std::vector<std::vector<int>>& open_sets) override;
+    std::vector<VectorXd> fluxes_against_outer() override;
+    VectorXd outer_flux() override;
 
 private:
     void set_disk(int k, const MatrixXd& disk) override;
     const SparseCholesky& factor();
-    MatrixXd inverse_block(const std::vector<int>& loops);
 
     const std::vector<VertexLoop>& loops_;
-    VectorXd source_;
-    SparseMatrix empty_, filled_;  // K and A, lower triangles of one pattern
+    const SparseMatrix& laplacian_;
+    SparseMatrix empty_, filled_;  // K and A, lower triangles of one pattern, 1 for the vertices of the outer loop
     std::unique_ptr<SparseCholesky> factor_;
     bool stale_ = true;            // the factor is of other disks
 };

@@ -11,12 +11,7 @@ void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* inf
 void dtrtri_(const char* uplo, const char* diag, const int* n, double* a, const int* lda, int* info);
 void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
              const int* ldb, int* info);
-void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k, const double* alpha,
-            const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
-            const int* ldc);
 void dtrmm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
-            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
-void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
             const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
             const int* lda, const double* beta, double* c, const int* ldc);
@@ -64,27 +59,10 @@ MatrixXd spd_factor(MatrixXd matrix)
     return matrix;
 }
 
-MatrixXd bordered_factor(const MatrixXd& factor_of_a, const Eigen::Ref<const MatrixXd>& b, MatrixXd c)
-{
-    const int inner = static_cast<int>(factor_of_a.rows()), border = static_cast<int>(c.rows()), n = inner + border;
-    MatrixXd lower(n, n);
-    lower.topLeftCorner(inner, inner) = factor_of_a;
-    lower.bottomLeftCorner(border, inner) = b;
-    const double one = 1.0, minus_one = -1.0;
-    double* below = lower.data() + inner;
-    if (inner > 0) {
-        dtrsm_("R", "L", "T", "N", &border, &inner, &one, factor_of_a.data(), &inner, below, &n);
-        dsyrk_("L", "N", &border, &inner, &minus_one, below, &n, &one, c.data(), &border);
-    }
-    factorize(c);
-    lower.bottomRightCorner(border, border) = c;
-    lower.triangularView<Eigen::StrictlyUpper>().setZero();
-    return lower;
-}
-
 MatrixXd lower_inverse(MatrixXd lower)
 {
     invert_lower(lower.data(), static_cast<int>(lower.rows()), static_cast<int>(lower.rows()));
+    lower.triangularView<Eigen::StrictlyUpper>().setZero();
     return lower;
 }
 
@@ -109,18 +87,6 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& a)
     return product;
 }
 
-MatrixXd transpose_times(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const MatrixXd>& b)
-{
-    MatrixXd product(a.cols(), b.cols());
-    const int rows = static_cast<int>(a.cols()), columns = static_cast<int>(b.cols());
-    const int inner = static_cast<int>(a.rows()), stride_a = static_cast<int>(a.outerStride());
-    const int stride_b = static_cast<int>(b.outerStride());
-    const double one = 1.0, zero = 0.0;
-    dgemm_("T", "N", &rows, &columns, &inner, &one, a.data(), &stride_a, b.data(), &stride_b, &zero, product.data(),
-           &rows);
-    return product;
-}
-
 MatrixXd lower_times_transpose(const MatrixXd& lower)
 {
     const int m = static_cast<int>(lower.rows());
@@ -139,7 +105,7 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
 }
 
 DenseThreads::DenseThreads(int threads, Index boundary_count, Index face_count)
-    : before_(count())
+    : before_(openblas_get_num_threads())
 {
     if (threads <= 0) {
         const bool large = boundary_count >= 1500 || face_count >= 200000;
@@ -147,10 +113,6 @@ DenseThreads::DenseThreads(int threads, Index boundary_count, Index face_count)
     }
     openblas_set_num_threads(threads);
 }
-
-DenseThreads::DenseThreads(int threads) : before_(count()) { openblas_set_num_threads(threads); }
-
-int DenseThreads::count() { return openblas_get_num_threads(); }
 
 DenseThreads::~DenseThreads() { openblas_set_num_threads(before_); }
 

@@ -9,11 +9,7 @@ namespace koebe {
 /// @throws SolverError if the matrix is not positive definite
 MatrixXd spd_factor(MatrixXd matrix);
 
-/// The factor of [A B'; B C] from the factor of A, which stands in its leading part; zero above the diagonal.
-/// @throws SolverError if the matrix is not positive definite
-MatrixXd bordered_factor(const MatrixXd& factor_of_a, const Eigen::Ref<const MatrixXd>& b, MatrixXd c);
-
-/// The inverse of a lower triangular matrix; what stands above the diagonal is neither read nor written.
+/// The inverse of a lower triangular matrix, zero above the diagonal; what stands there is not read.
 MatrixXd lower_inverse(MatrixXd lower);
 
 /// Solution of matrix * x = right_hand_side. @throws SolverError if the matrix is not positive definite
@@ -21,9 +17,6 @@ MatrixXd spd_solve(MatrixXd matrix, MatrixXd right_hand_side);
 
 /// The product A' A.
 MatrixXd gram(const Eigen::Ref<const MatrixXd>& a);
-
-/// The product A' B.
-MatrixXd transpose_times(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const MatrixXd>& b);
 
 /// The product L L' of a lower triangular matrix (its strict upper part is not read).
 MatrixXd lower_times_transpose(const MatrixXd& lower);
@@ -36,13 +29,9 @@ MatrixXd lower_times_transpose(const MatrixXd& lower);
 class DenseThreads {
 public:
     DenseThreads(int threads, Index boundary_count, Index face_count);
-    explicit DenseThreads(int threads);
     ~DenseThreads();
     DenseThreads(const DenseThreads&) = delete;
     DenseThreads& operator=(const DenseThreads&) = delete;
-
-    /// The number set at present.
-    static int count();
 
 private:
     int before_;

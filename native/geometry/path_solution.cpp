@@ -19,19 +19,16 @@ PathSolution path_solution(const SupernodalFactor& l, const SparseMatrix& b)
     place.assign(l.factor->nsuper, -1);
     for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
         for (SparseMatrix::InnerIterator it(b, c); it; ++it)
-            for (Index s = l.supernode[l.rank[it.row()]]; place[s] < 0; s = l.supernode[l.rows(s)[l.width(s)]]) {
+            for (Index s = l.supernode[l.rank[it.row()]]; place[s] < 0; s = l.parent(s)) {
                 place[s] = 0;
                 solution.path.push_back(s);
-                if (l.height(s) == l.width(s)) break;
             }
     std::sort(solution.path.begin(), solution.path.end());
     Index length = 0;
     for (const Index s : solution.path) {
         place[s] = length;
-        solution.begin.push_back(length);
         length += l.width(s);
     }
-    solution.begin.push_back(length);
 
     const int count = static_cast<int>(b.cols());
     MatrixXd& y = solution.y;
@@ -70,25 +67,6 @@ MatrixXd back_substitution(const SupernodalFactor& l, const PathSolution& soluti
         dtrsm_("R", "L", "N", "N", &count, &width, &one, l.values(*s), &height, block, &count);
     }
     return x;
-}
-
-void add_product(const PathSolution& a, const PathSolution& b, Eigen::Ref<MatrixXd> result)
-{
-    const int rows = static_cast<int>(a.y.rows()), columns = static_cast<int>(b.y.rows());
-    const int stride = static_cast<int>(result.outerStride());
-    const double one = 1.0;
-    // Runs of supernodes that both paths have one after the other.
-    for (std::size_t i = 0, j = 0; i < a.path.size() && j < b.path.size();) {
-        if (a.path[i] != b.path[j]) {
-            ++(a.path[i] < b.path[j] ? i : j);
-            continue;
-        }
-        const Index from_a = a.begin[i], from_b = b.begin[j];
-        while (i < a.path.size() && j < b.path.size() && a.path[i] == b.path[j]) ++i, ++j;
-        const int length = a.begin[i] - from_a;
-        dgemm_("N", "T", &rows, &columns, &length, &one, &a.y(0, from_a), &rows, &b.y(0, from_b), &columns, &one,
-               result.data(), &stride);
-    }
 }
 
 }  // namespace koebe::detail

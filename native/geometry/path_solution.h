@@ -9,8 +9,7 @@ namespace koebe::detail {
 /// tree.
 struct PathSolution {
     std::vector<Index> path;   // supernodes, ascending
-    std::vector<Index> begin;  // of each of them among the columns of y, and the end
-    std::vector<Index> place;  // of each supernode's first row among them, -1 where it is not on the path
+    std::vector<Index> place;  // of each supernode among the columns of y, -1 where it is not on the path
     MatrixXd y;                // Y on the path, transposed
 
     /// The column of y that belongs to a row of L.
@@ -23,8 +22,5 @@ PathSolution path_solution(const SupernodalFactor& l, const SparseMatrix& b);
 
 /// X = L^-T Y = A^-1 B on the path, transposed as y is.
 MatrixXd back_substitution(const SupernodalFactor& l, const PathSolution& solution);
-
-/// Adds Y_a' Y_b.
-void add_product(const PathSolution& a, const PathSolution& b, Eigen::Ref<MatrixXd> result);
 
 }  // namespace koebe::detail

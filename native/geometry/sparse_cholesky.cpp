@@ -3,6 +3,7 @@
 #include "geometry/dense_spd.h"
 #include "geometry/elimination_order.h"
 #include "geometry/path_solution.h"
+#include "geometry/selected_inverse.h"
 #include "geometry/supernodal_factor.h"
 
 #include <algorithm>
@@ -104,26 +105,9 @@ std::pair<VectorXd, VectorXd> SparseCholesky::solve_inner(const VectorXd& f) con
     return result;
 }
 
-MatrixXd SparseCholesky::inverse_form(const std::vector<SparseMatrix>& parts) const
+std::vector<MatrixXd> SparseCholesky::inverse_blocks(const std::vector<std::vector<Index>>& sets) const
 {
-    std::vector<PathSolution> solutions;
-    Eigen::Index count = 0;
-    for (const SparseMatrix& b : parts) {
-        solutions.push_back(path_solution(impl_->l, b));
-        count += b.cols();
-    }
-    MatrixXd result = MatrixXd::Zero(count, count);
-    Eigen::Index left = 0;
-    for (const PathSolution& column : solutions) {
-        Eigen::Index top = 0;
-        for (const PathSolution& row : solutions) {
-            if (top >= left) add_product(row, column, result.block(top, left, row.y.rows(), column.y.rows()));
-            top += row.y.rows();
-        }
-        left += column.y.rows();
-    }
-    result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
-    return result;
+    return selected_inverse(impl_->l, sets);
 }
 
 VectorXd SparseCholesky::inverse_form_sum(const SparseMatrix& b) const

@@ -41,12 +41,12 @@ public:
     /// x with (A x)_I = f_I and x = 0 on B, and -(A x)_B, in the order of B. @param f (n), not read on B
     std::pair<VectorXd, VectorXd> solve_inner(const VectorXd& f) const;
 
-    /// B' A^-1 B, (c, c), for a sparse B = [B_1 B_2 ...] of c columns: the products of Y_k = L^-1 B_k, each found by
-    /// forward substitution along the paths of B_k's rows in the elimination tree, a small part of the factor (Gilbert
-    /// 1994). May be called from several threads at once.
-    MatrixXd inverse_form(const std::vector<SparseMatrix>& parts) const;
+    /// The blocks of A^-1 of sets of rows between any two of which A has an entry, if only an explicit 0: by selected
+    /// inversion, at about twice the cost of the factorization.
+    std::vector<MatrixXd> inverse_blocks(const std::vector<std::vector<Index>>& sets) const;
 
-    /// The sum of the columns of B' A^-1 B, in the same way.
+    /// The sum of the columns of B' A^-1 B for a sparse B: along the paths of its rows in the elimination tree, a small
+    /// part of the factor (Gilbert 1994).
     VectorXd inverse_form_sum(const SparseMatrix& b) const;
 
 private:

@@ -27,6 +27,8 @@ struct SupernodalFactor {
         return static_cast<const Index*>(factor->s) + static_cast<const Index*>(factor->pi)[s];
     }
     Index height(Index s) const { return static_cast<Index>(rows(s + 1) - rows(s)); }
+    /// The next supernode on the way to the root of the elimination tree; the root's is itself.
+    Index parent(Index s) const { return height(s) == width(s) ? s : supernode[rows(s)[width(s)]]; }
     const double* values(Index s) const
     {
         return static_cast<const double*>(factor->x) + static_cast<const Index*>(factor->px)[s];

@@ -43,23 +43,49 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
     return result;
 }
 
+/// Ten loops: with up to eight the dense state opens pairs one after the other.
+std::vector<Circle> ten_circles()
+{
+    std::vector<Circle> circles{Circle{}};
+    for (int k = 0; k < 6; ++k) circles.push_back({std::polar(0.65, 1.1 * k), 0.12 + 0.02 * k});
+    for (int k = 0; k < 3; ++k) circles.push_back({std::polar(0.25, 2.1 * k + 0.4), 0.1});
+    return circles;
+}
+
 }  // namespace
 
 TEST(SparseState, finds_the_circles_that_the_dense_state_finds)
 {
-    // Six loops: with an odd number one is opened twice in a sweep, and its angles depend on the order.
-    std::vector<Circle> circles = five_circles();
-    circles.push_back({{0.0, 0.05}, 0.1});
-    const CircleDomain domain = make_circle_domain(circles, 4000);
-    for (const Lift kind : {Lift::polynomial, Lift::enneper})
-        for (const Method method : {Method::gk, Method::ck}) {
-            const Vertices surface = lift(domain.points, kind);
-            const KoebeRun dense = run(domain, surface, method, 100000), sparse = run(domain, surface, method, 0);
-            ASSERT_TRUE(dense.outcome.converged && sparse.outcome.converged);
-            EXPECT_LT(inversive_distance_error(sparse.circles, dense.circles), 1e-7) << to_string(kind);
-            EXPECT_NEAR(sparse.outcome.history.back().mean_roundness, dense.outcome.history.back().mean_roundness,
-                        1e-8);
-        }
+    const CircleDomain domain = make_circle_domain(ten_circles(), 4000);
+    for (const Lift kind : {Lift::polynomial, Lift::enneper}) {
+        const Vertices surface = lift(domain.points, kind);
+        const KoebeRun dense = run(domain, surface, Method::gk, 100000), sparse = run(domain, surface, Method::gk, 0);
+        ASSERT_TRUE(dense.outcome.converged && sparse.outcome.converged);
+        EXPECT_LT(inversive_distance_error(sparse.circles, dense.circles), 1e-9) << to_string(kind);
+        EXPECT_NEAR(sparse.outcome.history.back().mean_roundness, dense.outcome.history.back().mean_roundness, 1e-10);
+    }
+}
+
+TEST(SparseState, all_loops_at_once_find_the_known_circles)
+{
+    std::vector<double> errors;
+    for (const Index faces : {2000, 8000}) {
+        const CircleDomain domain = make_circle_domain(ten_circles(), faces);
+        errors.push_back(inversive_distance_error(
+            run(domain, lift(domain.points, Lift::enneper), Method::gk, 0).circles, domain.circles));
+    }
+    EXPECT_LT(errors[1], 1e-3);
+    EXPECT_LT(errors[1], errors[0] / 3.0);
+}
+
+TEST(SparseState, both_methods_are_one_when_all_loops_are_opened_at_once)
+{
+    const CircleDomain domain = make_circle_domain(ten_circles(), 2000);
+    const Vertices surface = lift(domain.points, Lift::enneper);
+    const KoebeRun gk = run(domain, surface, Method::gk, 100000), ck = run(domain, surface, Method::ck, 100000);
+    EXPECT_EQ(gk.outcome.sweeps, ck.outcome.sweeps);
+    EXPECT_EQ(gk.outcome.steps * 2, ck.outcome.steps);
+    EXPECT_EQ(inversive_distance_error(gk.circles, ck.circles), 0.0);
 }
 
 TEST(SparseState, one_and_two_loops_are_exact_in_no_and_one_step)
