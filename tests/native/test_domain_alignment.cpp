@@ -45,6 +45,7 @@ TEST(DomainAlignment, no_nearby_automorphism_fits_better)
     EXPECT_TRUE(found.converged);
     EXPECT_NEAR(found.residual, std::sqrt(least / 4.0), 1e-12);
     EXPECT_GE(found.largest, found.residual);
+    EXPECT_LT(found.iterations, 20);
     EXPECT_LT(least, sum_of_squares(source, target, {}));
     for (const double step : {1e-3, -1e-3}) {
         EXPECT_GT(sum_of_squares(source, target, Moebius{{step, 0.0}, {1.0, 0.0}} * found.map), least);
