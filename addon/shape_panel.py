@@ -3,11 +3,10 @@
 
 import textwrap
 
-from .modes import target_objects
 from .report_panel import MESSAGE_WIDTH, KoebePanel
 from .shape_operators import UV_OT_koebe_carry_texture, UV_OT_koebe_compare_shapes
 
-MAX_NUMBERS = 24  # of a module; 3 a row
+MAX_NUMBERS = 24  # of a module; a hole's x, y and radius a row
 
 
 class ShapesPanel(KoebePanel):
@@ -25,18 +24,12 @@ class ShapesPanel(KoebePanel):
         if len(shapes.others):
             draw_entries(layout.column(align=True), f"Distance from {shapes.source}", shapes.others, "{:.5f}")
         column = layout.column(align=True)
-        texture = column.operator(UV_OT_koebe_carry_texture.bl_idname, text=carry_text(context), icon="UV_DATA")
+        texture = column.operator(UV_OT_koebe_carry_texture.bl_idname, text="Carry Texture", icon="UV_DATA")
         texture.layer, texture.fit_holes = context.scene.koebe_uv.layer, False
-        fitted = column.operator(UV_OT_koebe_carry_texture.bl_idname, text="… and Fit the Holes")
+        fitted = column.operator(UV_OT_koebe_carry_texture.bl_idname, text="Carry and Fit Holes")
         fitted.layer, fitted.fit_holes = context.scene.koebe_uv.layer, True
         if len(shapes.carried):
             draw_entries(layout.column(align=True), "Holes apart, of the texture", shapes.carried, "{:.2%}")
-
-
-def carry_text(context):
-    """Which way the texture goes."""
-    others = [obj for obj in target_objects(context) if obj != context.active_object]
-    return f"Carry Texture to {others[0].name}" if len(others) == 1 else "Carry Texture"
 
 
 def draw_module(column, shapes):
@@ -45,15 +38,16 @@ def draw_module(column, shapes):
     numbers = list(shapes.module)
     if not numbers:
         column.label(text="All disks are alike")
-    rows = {}
+    rows = {"": dict(zip("xyr", "xyr", strict=True))} if numbers else {}
     for number in numbers[:MAX_NUMBERS]:
         letter, hole = number.name.split("_")
-        rows.setdefault(hole, {})[letter] = number.value
+        rows.setdefault(hole, {})[letter] = f"{number.value:.3f}"
     for hole, values in rows.items():
-        row = column.row(align=True)
-        row.label(text=f"{hole}")
+        split = column.split(factor=0.13)
+        split.label(text=hole)
+        row = split.row(align=True)
         for letter in "xyr":
-            row.label(text=f"{letter} {values[letter]:.4f}" if letter in values else "")
+            row.label(text=values.get(letter, ""))
     if len(numbers) > MAX_NUMBERS:
         column.label(text=f"and {len(numbers) - MAX_NUMBERS} numbers more")
 
