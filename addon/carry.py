@@ -66,6 +66,8 @@ def read_source(shape, corner_uv):
         rim = np.setdiff1d(loop, off)
         circles.append(fitted_circle(uv[rim if len(rim) > 2 else loop]))
     outer = int(np.argmax([radius for _, radius, _ in circles]))
+    # As exact as 32-bit UVs tell, and 0.5 where it is meant, so that no rim leaves the UV square by rounding.
+    circles = [(np.round(center, 7), round(radius, 7), off) for center, radius, off in circles]
     center, radius, _ = circles[outer]
     inside = all(np.linalg.norm(c - center) + r < radius for k, (c, r, _) in enumerate(circles) if k != outer)
     if not (radius > 0.0 and inside and max(off for _, _, off in circles) <= ON_CIRCLE):
@@ -113,6 +115,7 @@ def carry(koebe, source, target, fit_holes=False, progress=None, cancel=None):
 
 
 def _placed(source, points):
+    points = points / np.maximum(np.linalg.norm(points, axis=1, keepdims=True), 1.0)
     return (source.center + source.radius * points).astype(np.float32)
 
 

@@ -110,8 +110,8 @@ class UV_OT_koebe_compare_shapes(_ShapeOperator, bpy.types.Operator):
         shapes.carried.clear()
         _redraw(context)
         for one in job.comparisons[1:]:
-            text = f"{one.name}: distance {one.distance:.6g}" if one.distance is not None else f"{one.name}: {one.message}"
-            self.report({"INFO"}, text)
+            found = one.message if one.distance is None else f"distance {one.distance:.6g}"
+            self.report({"INFO"}, f"{one.name}: {found}")
         if not job.comparisons[0].converged:
             self.report({"WARNING"}, f"{job.names[0]}: not converged")
         return {"FINISHED"}

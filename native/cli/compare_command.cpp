@@ -47,12 +47,11 @@ int run(const Request& request)
     if (to_file) require_writable(request.json);
     const ShapeInput a = read_shape(request.first, request.options, token);
     const ShapeInput b = read_shape(request.second, request.options, token);
-    const LoopMatch match = request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer)
-                                                     : by_length(a, b);
+    const LoopMatch match =
+        request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer) : by_length(a, b);
     if (request.with_json) {
-        const nlohmann::ordered_json report{{"distance", match.distance},
-                                            {"a", module_json(a, match.order_a)},
-                                            {"b", module_json(b, match.order_b)}};
+        const nlohmann::ordered_json report{
+            {"distance", match.distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};
         if (to_file) {
             AtomicFile file(request.json);
             file.write(report.dump(1) + "\n");

@@ -29,8 +29,8 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
     const Triangles& triangles = input.triangulation.triangles;
-    const UniformizeResult result = with_filed_faces(
-        input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
+    const UniformizeResult result =
+        with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
 
     ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged};
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;

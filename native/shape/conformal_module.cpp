@@ -10,9 +10,9 @@
 namespace koebe {
 namespace {
 
-constexpr double alike = 1e-2;               // separations this near are not told apart, dimensionless
-constexpr std::size_t most_orders = 5040;    // 7!
-constexpr double unit_circle_error = 1e-6;   // of the outer circle's centre and radius, a length in the unit disk
+constexpr double alike = 1e-2;              // separations this near are not told apart, dimensionless
+constexpr std::size_t most_orders = 5040;   // 7!
+constexpr double unit_circle_error = 1e-6;  // of the outer circle's centre and radius, a length in the unit disk
 
 std::vector<int> checked_order(std::size_t count, const std::vector<int>& order)
 {
@@ -102,8 +102,7 @@ std::pair<double, std::vector<int>> best_order(const std::vector<Circle>& circle
     }
     std::pair<double, std::vector<int>> best{score(module_of(normalized_circles(circles, order))), order};
     if (orders > static_cast<double>(most_orders)) {
-        std::stable_sort(order.begin() + 1, order.end(),
-                         [&](int a, int b) { return separation(a) < separation(b); });
+        std::stable_sort(order.begin() + 1, order.end(), [&](int a, int b) { return separation(a) < separation(b); });
         return {score(module_of(normalized_circles(circles, order))), order};
     }
     while (next_within(order, runs)) {
@@ -124,10 +123,12 @@ void require_circle_domain(const std::vector<Circle>& circles)
         throw InputError("the first circle must be the unit circle", {0});
     for (std::size_t i = 1; i < circles.size(); ++i) {
         const bool inside = circles[i].radius > 0.0 && std::abs(circles[i].center) + circles[i].radius < 1.0;
-        if (!inside) throw InputError("a circle does not lie in the unit disk (number listed)", {static_cast<Index>(i)});
+        if (!inside)
+            throw InputError("a circle does not lie in the unit disk (number listed)", {static_cast<Index>(i)});
         for (std::size_t j = 1; j < i; ++j)
             if (!(std::abs(circles[i].center - circles[j].center) > circles[i].radius + circles[j].radius))
-                throw InputError("circles meet (numbers listed)", {static_cast<Index>(j), static_cast<Index>(i)});
+                throw InputError("the circles of two loops meet: the mesh is too coarse there (their numbers listed)",
+                                 {static_cast<Index>(j), static_cast<Index>(i)});
     }
 }
 

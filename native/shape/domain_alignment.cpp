@@ -14,8 +14,8 @@ namespace koebe {
 namespace {
 
 constexpr int most_iterations = 100;
-constexpr double difference_step = 1e-6;   // for derivatives, dimensionless
-constexpr double least_step = 1e-13;       // parameters that move less have converged, dimensionless
+constexpr double difference_step = 1e-6;  // for derivatives, dimensionless
+constexpr double least_step = 1e-13;      // parameters that move less have converged, dimensionless
 constexpr double first_damping = 1e-6, most_damping = 1e6;
 constexpr std::size_t starting_loops = 4;  // the first holes, each two of which give a start
 
@@ -61,8 +61,8 @@ Fit improve(const std::vector<Circle>& source, const std::vector<Circle>& target
         const Eigen::Matrix3d normal = slope.transpose() * slope;
         bool better = false;
         while (!better && damping < most_damping) {
-            const Parameters step = -(normal + damping * Eigen::Matrix3d::Identity()).ldlt().solve(
-                slope.transpose() * now);
+            const Parameters step =
+                -(normal + damping * Eigen::Matrix3d::Identity()).ldlt().solve(slope.transpose() * now);
             const bool inside = step.head<2>().norm() < 1.0;
             const Moebius next = inside ? small_map(step) * fit.map : fit.map;
             const VectorXd there = differences(source, target, next);

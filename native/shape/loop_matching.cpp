@@ -11,8 +11,8 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t exhaustive_loops = 7;   // inner loops; 7! = 5040 correspondences
-constexpr std::size_t most_candidates = 32;   // pairs of loops that are tried for one
+constexpr std::size_t exhaustive_loops = 7;  // inner loops; 7! = 5040 correspondences
+constexpr std::size_t most_candidates = 32;  // pairs of loops that are tried for one
 constexpr int most_refinements = 8;
 
 /// One of the domains, seen from one of its loops as the outer one.

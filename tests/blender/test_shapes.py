@@ -1,9 +1,13 @@
 """Shapes: the module of the active object, distances, and one texture carried to another surface."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
 import scenes
+
+FOLDER = Path(__file__).resolve().parents[2] / "blend_samples"
 
 SAME = 1e-5  # UV units, between two runs whose vertices differ by 32-bit rounding
 OTHER_HOLES = ((0.03, 0.20, 0.35, 0.65), (0.30, 0.45, 0.30, 0.70), (0.66, 0.86, 0.40, 0.62))
@@ -183,6 +187,23 @@ def test_undo_takes_the_layer_away_again():
     bpy.ops.ed.undo()
     target = bpy.data.objects["Target"]
     assert scenes.mesh_state(target.data) == before and len(target.data.uv_layers) == 0
+
+
+def test_the_two_faces_of_the_samples_share_a_texture():
+    bpy.ops.wm.open_mainfile(filepath=str(FOLDER / "face_five_holes.blend"))
+    source = bpy.data.objects["face_five_holes"]
+    with bpy.data.libraries.load(str(FOLDER / "face_surprised.blend")) as (_, loaded):
+        loaded.objects = ["face_surprised"]
+    (target,) = loaded.objects
+    bpy.context.collection.objects.link(target)
+    scenes.select(source)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    scenes.select(source, target)
+    bpy.ops.uv.koebe_compare_shapes()
+    assert shapes().others[0].distance == pytest.approx(0.069, abs=0.003)
+    assert bpy.ops.uv.koebe_carry_texture() == {"FINISHED"}
+    assert shapes().carried[0].distance < 0.015
+    scenes.assert_circle_domain(target, holes=5)
 
 
 # ---------------------------------------------------------------- refusing

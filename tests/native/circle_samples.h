@@ -44,8 +44,7 @@ inline std::vector<Circle> random_domain(int holes, unsigned seed)
     return circles;
 }
 
-inline const Moebius some_maps[] = {{{0.0, 0.0}, std::polar(1.0, 1.0)},
-                                    {{0.3, -0.5}, {1.0, 0.0}},
-                                    {{-0.6, 0.5}, std::polar(1.0, -2.0)}};
+inline const Moebius some_maps[] = {
+    {{0.0, 0.0}, std::polar(1.0, 1.0)}, {{0.3, -0.5}, {1.0, 0.0}}, {{-0.6, 0.5}, std::polar(1.0, -2.0)}};
 
 }  // namespace koebe::test

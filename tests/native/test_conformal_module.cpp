@@ -126,8 +126,7 @@ TEST(ConformalModule, in_canonical_order_noise_does_not_swap_loops_that_are_alik
 {
     // Two eyes and a mouth, the eyes equal up to what a mesh leaves of the symmetry.
     const auto module = [](double noise) {
-        const std::vector<Circle> face{
-            {}, {{-0.4, 0.3}, 0.2 + noise}, {{0.4, 0.3}, 0.2 - noise}, {{0.1, -0.4}, 0.15}};
+        const std::vector<Circle> face{{}, {{-0.4, 0.3}, 0.2 + noise}, {{0.4, 0.3}, 0.2 - noise}, {{0.1, -0.4}, 0.15}};
         return conformal_module(face, canonical_order(face));
     };
     EXPECT_LT((module(1e-4) - module(-1e-4)).norm(), 2e-3);

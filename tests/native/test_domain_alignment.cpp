@@ -39,7 +39,8 @@ TEST(DomainAlignment, recovers_the_moebius_map_between_two_pictures_of_one_shape
 TEST(DomainAlignment, no_nearby_automorphism_fits_better)
 {
     const std::vector<Circle> source = five_circles();
-    const std::vector<Circle> target{{}, {{0.4, 0.3}, 0.2}, {{-0.35, 0.3}, 0.2}, {{0.0, -0.5}, 0.25}, {{0.5, -0.3}, 0.1}};
+    const std::vector<Circle> target{
+        {}, {{0.4, 0.3}, 0.2}, {{-0.35, 0.3}, 0.2}, {{0.0, -0.5}, 0.25}, {{0.5, -0.3}, 0.1}};
     const DomainAlignment found = align_domains(source, target, {0, 1, 2, 3, 4});
     const double least = sum_of_squares(source, target, found.map);
     EXPECT_TRUE(found.converged);
