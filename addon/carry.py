@@ -41,7 +41,7 @@ class Carried:
     largest      that of the worst hole
     fitted       whether the holes were then bent onto the source's
     angle_error  mean difference of the angles on the surface and in the UVs, degrees
-    flipped      triangles that are turned over
+    flipped      triangles (k,) of the island that are turned over
     """
 
     name: str
@@ -51,7 +51,7 @@ class Carried:
     largest: float
     fitted: bool
     angle_error: float
-    flipped: int
+    flipped: np.ndarray
     message: str = ""
 
 
@@ -101,7 +101,7 @@ def carry(koebe, source, target, fit_holes=False, progress=None, cancel=None):
     fitted, message = False, ""
     if fit_holes and len(match) > 1:
         bent = _bent_onto_holes(koebe, source, target, match, points)
-        fitted = _flips(target, source, bent) <= _flips(target, source, points)
+        fitted = len(_flips(target, source, bent)) <= len(_flips(target, source, points))
         points = bent if fitted else points
         message = "" if fitted else "the holes are too different to be fitted without flips: aligned only"
     elif not alignment.converged or not target.result.converged:
@@ -120,7 +120,7 @@ def _placed(source, points):
 
 
 def _flips(target, source, points):
-    return len(flipped_triangles(target.island.triangles, _placed(source, points)))
+    return flipped_triangles(target.island.triangles, _placed(source, points))
 
 
 def _with_matching_outer_loop(koebe, source, target, progress, cancel):

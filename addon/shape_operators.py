@@ -4,6 +4,7 @@
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
 
+from . import results
 from .modal_run import ModalRun
 from .modes import target_objects
 from .native import NativeError
@@ -157,11 +158,12 @@ class UV_OT_koebe_carry_texture(_ShapeOperator, bpy.types.Operator):
         carried = context.window_manager.koebe_shapes.carried
         carried.clear()
         for one in done:
+            results.record_moved(context, one.name, job.layer, one.shape.island, one)
             entry = carried.add()
             entry.name, entry.measured, entry.distance, entry.message = one.name, True, one.residual, one.message
         _redraw(context)
         for one in done:
-            self.report({"WARNING" if one.message or one.flipped else "INFO"}, _line(one))
+            self.report({"WARNING" if one.message or len(one.flipped) else "INFO"}, _line(one))
         if job.failures:
             self.report({"WARNING"}, "Koebe UV: not carried. " + ". ".join(job.failures))
         return {"FINISHED"}
@@ -172,7 +174,7 @@ def _line(one):
     fit = "fitted holes, " if one.fitted else ""
     text = (
         f"{one.name}: holes apart by {100 * one.residual:.2g} % of the texture ({fit}worst {100 * one.largest:.2g} %), "
-        f"angle error {one.angle_error:.2f}°, {one.flipped} flips"
+        f"angle error {one.angle_error:.2f}°, {len(one.flipped)} flips"
     )
     return f"{text}; {one.message}" if one.message else text
 

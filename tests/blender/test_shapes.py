@@ -178,6 +178,18 @@ def test_material_goes_to_those_that_have_none():
     assert list(bare.data.materials) == [paint] and list(clothed.data.materials) == [own]
 
 
+def test_the_report_and_its_circles_follow():
+    source, target = scenes.add_panel("Source"), scenes.add_panel("Target", holes=OTHER_HOLES)
+    scenes.select(source, target)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    before = bpy.context.window_manager.koebe_uv.islands[0].angle_error
+    bpy.ops.uv.koebe_carry_texture(fit_holes=True)
+    mine, entry = bpy.context.window_manager.koebe_uv.islands
+    assert mine.angle_error == before and entry.angle_error > before and entry.flipped == 0
+    found = np.array(sorted([*loop.uv_center, loop.uv_radius] for loop in entry.loops))
+    assert found == pytest.approx(np.array(sorted(circles(target).tolist())), abs=SAME)
+
+
 def test_undo_takes_the_layer_away_again():
     source, target = pair()
     before = scenes.mesh_state(target.data)
