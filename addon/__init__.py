@@ -25,11 +25,12 @@ def _parts():
         properties,
         results,
         select_operators,
+        shape_operators,
     )
 
     return (
-        properties, results, operators, select_operators, distortion_display, circles, fill_operator, presets, panels,
-        preferences,
+        properties, results, operators, select_operators, distortion_display, circles, fill_operator, shape_operators,
+        presets, panels, preferences,
     )  # fmt: skip
 
 

@@ -5,23 +5,16 @@ import bpy
 
 from . import checker, report, results
 from .job import Job
+from .modal_run import ModalRun
 from .modes import object_mode, target_objects
 from .native import NativeError
 from .options import OptionError
 from .properties import UniformizeProperties, options_of
 from .selection import select_offenders
 from .transfer import TransferError
-from .worker import Worker
-
-POLL_SECONDS = 0.05  # how often a running computation is looked at: Esc acts within this and one checkpoint
-# While a computation runs the view may be moved; everything else could change what is being mapped.
-NAVIGATION = {
-    "MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE",
-    "WHEELINMOUSE", "WHEELOUTMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE", "NDOF_MOTION",
-}  # fmt: skip
 
 
-class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
+class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator):
     """Unwrap surfaces with holes conformally to the unit disk: angles are kept and every hole becomes a
     perfect circle. Cuts along seams; in Edit Mode takes the selected faces. The mesh itself is not changed"""
 
@@ -47,64 +40,6 @@ class UV_OT_koebe_uniformize(UniformizeProperties, bpy.types.Operator):
             row = layout.row()
             row.active = not name.startswith("checker_") or self.checker
             row.prop(self, name)
-
-    def execute(self, context):
-        job = self._job(context)
-        if job is None:
-            return {"CANCELLED"}
-        manager = context.window_manager
-        manager.progress_begin(0, 100)
-        try:
-            job.compute(lambda fraction, stage: manager.progress_update(int(100 * fraction)))
-        finally:
-            manager.progress_end()
-        return self._finish(context, job)
-
-    def invoke(self, context, event):
-        if bpy.app.background:
-            return self.execute(context)
-        job = self._job(context)
-        if job is None:
-            return {"CANCELLED"}
-        self._running = job
-        self._worker = Worker(job.compute)
-        self._shown = None
-        self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        self._show_progress(context)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
-            # The thread has arrays of its own and ends at its next checkpoint: nobody has to wait for it.
-            self.cancel(context)
-            self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
-            return {"CANCELLED"}
-        if event.type == "TIMER":
-            self._show_progress(context)
-            if not self._worker.running:
-                return self._end(context)
-        return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
-
-    def cancel(self, context):
-        """Give up: by Esc, or when Blender ends the operator, as when it quits."""
-        self._running.cancel_token.cancel()
-        self._stop_polling(context)
-
-    def _end(self, context):
-        self._stop_polling(context)
-        self._worker.result()
-        return self._finish(context, self._running)
-
-    def _stop_polling(self, context):
-        context.window_manager.event_timer_remove(self._timer)
-        context.workspace.status_text_set(None)
-
-    def _show_progress(self, context):
-        text = f"Koebe UV: {100 * self._worker.fraction:.0f} %  {self._worker.stage}      Esc: Cancel"
-        if text != self._shown:  # every change draws the window again
-            context.workspace.status_text_set(text)
-            self._shown = text
 
     def _job(self, context):
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date

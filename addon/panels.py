@@ -11,6 +11,7 @@ from .operators import UV_OT_koebe_checker, UV_OT_koebe_uniformize
 from .presets import KOEBE_PT_presets, UV_OT_koebe_reset
 from .properties import copy_options
 from .report_panel import KOEBE_UL_islands, KoebePanel, ReportPanel
+from .shape_panel import ShapesPanel
 
 
 class MainPanel(KoebePanel):
@@ -111,6 +112,10 @@ class VIEW3D_PT_koebe_report(View3D, ReportPanel, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_koebe"
 
 
+class VIEW3D_PT_koebe_shapes(View3D, ShapesPanel, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_koebe"
+
+
 class IMAGE_PT_koebe(UVEditor, MainPanel, bpy.types.Panel):
     @classmethod
     def poll(cls, context):
@@ -122,6 +127,10 @@ class IMAGE_PT_koebe_accuracy(UVEditor, AccuracyPanel, bpy.types.Panel):
 
 
 class IMAGE_PT_koebe_report(UVEditor, ReportPanel, bpy.types.Panel):
+    bl_parent_id = "IMAGE_PT_koebe"
+
+
+class IMAGE_PT_koebe_shapes(UVEditor, ShapesPanel, bpy.types.Panel):
     bl_parent_id = "IMAGE_PT_koebe"
 
 
@@ -143,9 +152,11 @@ CLASSES = (
     VIEW3D_PT_koebe,
     VIEW3D_PT_koebe_accuracy,
     VIEW3D_PT_koebe_report,
+    VIEW3D_PT_koebe_shapes,
     IMAGE_PT_koebe,
     IMAGE_PT_koebe_accuracy,
     IMAGE_PT_koebe_report,
+    IMAGE_PT_koebe_shapes,
 )
 MENUS = {
     "VIEW3D_MT_uv_map": draw_menu,

@@ -17,6 +17,7 @@ from bpy.props import (
 
 from .offenders import offending_elements
 from .report import explain, warnings
+from .shapes import fitted_circle
 
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
@@ -94,6 +95,23 @@ def _record_result(entry, task, one):
         loop.uv_radius = 0.0 if one.unrolled else one.placement.scale * float(radius)
         loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
         loop.radius, loop.roundness = float(radius), float(roundness)
+
+
+def record_moved(context, name, layer, island, placed):
+    """Bring the entry of an object of one island up to date with new UVs of the same loops.
+
+    placed  has uv (n, 2) of the island's vertices, angle_error in degrees and flipped (k,) triangles
+    """
+    number = {v: i for i, v in enumerate(island.source_vertex.tolist())}
+    for entry in context.window_manager.koebe_uv.islands:
+        if entry.object_name != name or entry.layer != layer or not entry.mapped:
+            continue
+        entry.angle_error, entry.flipped = placed.angle_error, len(placed.flipped)
+        entry.flipped_faces = json.dumps(np.unique(island.triangle_face[placed.flipped]).tolist())
+        for loop in entry.loops:
+            rim = [number[v] for v in json.loads(loop.vertices) if v in number]
+            center, radius, _ = fitted_circle(placed.uv[rim].astype(np.float64))
+            loop.uv_center, loop.uv_radius = center, radius
 
 
 CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)

@@ -1,5 +1,6 @@
 """The face samples: boundary curves drawn on the face, and the mesh between them."""
 
+import face_expression
 import face_surface
 import numpy as np
 from surface_mesher import Surface, closed_spline, mesh_surface, refine
@@ -33,6 +34,12 @@ FINE = [
 def five_holes():
     """Two eyes, mouth and two nostrils; about 20,000 triangles."""
     return _mesh(0.0190, _holes())
+
+
+def surprised():
+    """The same face, surprised, meshed otherwise: eyes wide, jaw down."""
+    points, triangles = _mesh(0.0205, _holes())
+    return face_expression.surprised(points), triangles
 
 
 def dense():

@@ -33,6 +33,7 @@ import suzanne_mask  # noqa: E402
 SAMPLES = {
     "suzanne_mask": (suzanne_mask.suzanne_mask, (0.45, -1.0, 0.05)),
     "face_five_holes": (face_model.five_holes, (0.50, -1.0, -0.12)),
+    "face_surprised": (face_model.surprised, (0.50, -1.0, -0.12)),
     "perforated_panel": (simple_shapes.perforated_panel, (0.45, -0.9, 1.3)),
     "vase": (simple_shapes.vase, (0.3, -1.0, 0.42)),
     "bowl": (simple_shapes.bowl, (0.2, -1.0, 0.45)),

@@ -58,7 +58,21 @@ def plain_material(code):
 def checker_material(obj, layer):
     """The object's own checker, or one like it, whose back side is darker."""
     own = [slot.material for slot in obj.material_slots if slot.material and slot.material.name.startswith(CHECKER)]
-    material = own[0].copy() if own else _new_checker(layer)
+    return darker_behind(own[0].copy() if own else _new_checker(layer))
+
+
+def image_material(image, layer):
+    """A matt skin that shows an image by a UV layer, and whose back side is darker."""
+    material, tree = _node_material(image.name)
+    uv, texture = tree.nodes.new("ShaderNodeUVMap"), tree.nodes.new("ShaderNodeTexImage")
+    uv.uv_map, texture.image, texture.extension = layer, image, "EXTEND"
+    tree.links.new(uv.outputs["UV"], texture.inputs["Vector"])
+    _principled(tree, texture.outputs["Color"])
+    return darker_behind(material)
+
+
+def darker_behind(material):
+    """The material with its back side darkened."""
     tree = material.node_tree
     output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
     front = output.inputs["Surface"].links[0].from_socket
@@ -82,13 +96,17 @@ def _new_checker(layer):
     checker.inputs["Color1"].default_value = _linear(PAPER)
     checker.inputs["Color2"].default_value = _linear(INK)
     checker.inputs["Scale"].default_value = CHECKER_SIZE
-    surface = tree.nodes.new("ShaderNodeBsdfPrincipled")
-    surface.inputs["Roughness"].default_value = 0.55
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
     tree.links.new(uv.outputs["UV"], checker.inputs["Vector"])
-    tree.links.new(checker.outputs["Color"], surface.inputs["Base Color"])
-    tree.links.new(surface.outputs["BSDF"], output.inputs["Surface"])
+    _principled(tree, checker.outputs["Color"])
     return material
+
+
+def _principled(tree, color):
+    """A surface of this colour as the tree's output."""
+    surface, output = tree.nodes.new("ShaderNodeBsdfPrincipled"), tree.nodes.new("ShaderNodeOutputMaterial")
+    surface.inputs["Roughness"].default_value = 0.55
+    tree.links.new(color, surface.inputs["Base Color"])
+    tree.links.new(surface.outputs["BSDF"], output.inputs["Surface"])
 
 
 def add_mesh(scene, points, corners, sizes, uv, layer, material, smooth):

@@ -12,7 +12,9 @@ struct Subcommand {
     std::function<int()> run;  ///< returns an ExitCode; errors are thrown
 };
 
+Subcommand add_compare(CLI::App& app);
 Subcommand add_fill(CLI::App& app);
+Subcommand add_module(CLI::App& app);
 Subcommand add_uniformize(CLI::App& app);
 
 }  // namespace koebe::cli

@@ -8,7 +8,11 @@
 #include "geometry/hole_fairing.h"
 #include "geometry/hole_filling.h"
 #include "report/json.h"
+#include "shape/conformal_module.h"
+#include "shape/domain_alignment.h"
+#include "shape/loop_matching.h"
 
+#include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -47,6 +51,15 @@ PlanarPoints planar(const VectorXcd& positions)
     PlanarPoints points(positions.size(), 2);
     points << positions.real(), positions.imag();
     return points;
+}
+
+/// Circles as Python has them: (L, 2) centres and (L) radii.
+std::vector<Circle> circles_of(const PlanarPoints& centers, const VectorXd& radii)
+{
+    std::vector<Circle> circles;
+    for (Eigen::Index k = 0; k < radii.size(); ++k)
+        circles.push_back({Complex(centers(k, 0), centers(k, 1)), radii[k]});
+    return circles;
 }
 
 /// Runs the computation without the GIL; progress is called on the calling thread with it, and an exception it
@@ -174,4 +187,38 @@ PYBIND11_MODULE(_koebe, m)
               const py::gil_scoped_release release;
               return to_json(measure_distortion(vertices, triangles, uv)).dump();
           });
+    m.def("conformal_module", [](const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& order) {
+        return conformal_module(circles_of(centers, radii), order);
+    });
+    m.def("module_names", &module_names);
+    m.def("canonical_order", [](const PlanarPoints& centers, const VectorXd& radii, bool any_outer) {
+        return canonical_order(circles_of(centers, radii), any_outer);
+    });
+    m.def("match_loops", [](const PlanarPoints& centers_a, const VectorXd& radii_a, const PlanarPoints& centers_b,
+                            const VectorXd& radii_b, bool any_outer) {
+        const py::gil_scoped_release release;
+        const LoopMatch match =
+            match_loops(circles_of(centers_a, radii_a), circles_of(centers_b, radii_b), any_outer);
+        return std::make_tuple(match.order_a, match.order_b, match.distance);
+    });
+
+    py::class_<DomainAlignment>(m, "DomainAlignment", "An automorphism of the unit disk that lays one circle domain "
+                                                      "over another: z -> turn (z - a) / (1 - conj(a) z).")
+        .def_property_readonly("a", [](const DomainAlignment& d) { return d.map.a; })
+        .def_property_readonly("turn", [](const DomainAlignment& d) { return d.map.turn; })
+        .def_readonly("match", &DomainAlignment::match)
+        .def_readonly("residual", &DomainAlignment::residual)
+        .def_readonly("largest", &DomainAlignment::largest)
+        .def_readonly("worst", &DomainAlignment::worst)
+        .def_readonly("converged", &DomainAlignment::converged)
+        .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
+            return planar(d.map(VectorXcd(points.col(0) + Complex(0.0, 1.0) * points.col(1))));
+        });
+    m.def("align_domains", [](const PlanarPoints& source_centers, const VectorXd& source_radii,
+                              const PlanarPoints& target_centers, const VectorXd& target_radii,
+                              const std::vector<int>& match) {
+        const py::gil_scoped_release release;
+        return align_domains(circles_of(source_centers, source_radii), circles_of(target_centers, target_radii),
+                             match);
+    });
 }

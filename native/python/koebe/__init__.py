@@ -15,6 +15,7 @@ from ._api import (
 )
 from ._koebe import CancelToken, __version__
 from ._result import UniformizeResult
+from ._shapes import align_domains, canonical_order, conformal_module, match_loops, module_distance, module_names
 from .errors import Cancelled, InputError, KoebeError, SolverError, TopologyError
 
 __all__ = [
@@ -26,11 +27,17 @@ __all__ = [
     "TopologyError",
     "UniformizeResult",
     "__version__",
+    "align_domains",
     "annulus_map",
     "boundary_loops",
+    "canonical_order",
+    "conformal_module",
     "disk_map",
     "distortion",
     "fill_holes",
     "harmonic_map",
+    "match_loops",
+    "module_distance",
+    "module_names",
     "uniformize",
 ]

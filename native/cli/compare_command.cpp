@@ -1,0 +1,106 @@
+// koebe compare A B
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "cli/shape_input.h"
+#include "cli/subcommand.h"
+
+#include "core/errors.h"
+#include "io/atomic_file.h"
+#include "shape/conformal_module.h"
+#include "shape/loop_matching.h"
+
+#include <cstdio>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace koebe::cli {
+namespace {
+
+constexpr const char* standard_output = "-";
+
+struct Request {
+    std::string first, second, json;
+    std::string loops = "match";
+    bool any_outer = false, with_json = false;
+    UniformizeOptions options;
+};
+
+/// The loops as they are: the longest one outside, the others by length.
+LoopMatch by_length(const ShapeInput& a, const ShapeInput& b)
+{
+    if (a.circles.size() != b.circles.size())
+        throw InputError("the surfaces have " + std::to_string(a.circles.size()) + " and " +
+                         std::to_string(b.circles.size()) + " loops: their modules cannot be compared");
+    LoopMatch match;
+    match.order_a.resize(a.circles.size());
+    std::iota(match.order_a.begin(), match.order_a.end(), 0);
+    match.order_b = match.order_a;
+    match.distance = (conformal_module(a.circles) - conformal_module(b.circles)).norm();
+    return match;
+}
+
+int run(const Request& request)
+{
+    const CancelToken token = cancel_on_signal();
+    const bool to_file = request.with_json && request.json != standard_output;
+    if (to_file) require_writable(request.json);
+    const ShapeInput a = read_shape(request.first, request.options, token);
+    const ShapeInput b = read_shape(request.second, request.options, token);
+    const LoopMatch match =
+        request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer) : by_length(a, b);
+    if (request.with_json) {
+        const nlohmann::ordered_json report{
+            {"distance", match.distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};
+        if (to_file) {
+            AtomicFile file(request.json);
+            file.write(report.dump(1) + "\n");
+            if (token.cancelled()) throw Cancelled();
+            file.commit();
+        } else {
+            std::printf("%s\n", report.dump(1).c_str());
+        }
+    }
+    if (!request.with_json || to_file) std::printf("distance %.9g\n", match.distance);
+    return a.converged && b.converged ? done : not_converged;
+}
+
+/// In `--json A B` the first word is a mesh.
+void settle_words(Request& request, const CLI::Option& json)
+{
+    request.with_json = json.count() > 0;
+    if (request.second.empty() && !request.json.empty()) {
+        request.second = std::move(request.first);
+        request.first = std::exchange(request.json, standard_output);
+    }
+    if (request.json.empty()) request.json = standard_output;
+    if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
+    if (request.any_outer && request.loops != "match")
+        throw CLI::ValidationError("--any-outer", "goes with --loops match");
+}
+
+}  // namespace
+
+Subcommand add_compare(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options = app.add_subcommand("compare", "how far apart the conformal modules of two surfaces are");
+    options->add_option("A", request->first, "surface with holes: OBJ, OFF, PLY or STL");
+    options->add_option("B", request->second, "surface with as many holes");
+    options
+        ->add_option("--loops", request->loops,
+                     "match: the loops that correspond are looked for; length: they correspond by their length")
+        ->check(CLI::IsMember({"match", "length"}))
+        ->capture_default_str();
+    options->add_flag("--any-outer", request->any_outer,
+                      "with match: the outer loop of one may correspond to a hole of the other");
+    const CLI::Option* json =
+        options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")
+            ->expected(0, 1)
+            ->type_name("[FILE]");
+    add_mapping_options(*options, request->options);
+    options->callback([request, json] { settle_words(*request, *json); });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

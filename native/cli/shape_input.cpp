@@ -1,0 +1,60 @@
+#include "cli/shape_input.h"
+
+#include "cli/mesh_input.h"
+#include "cli/progress_line.h"
+#include "cli/validators.h"
+#include "conformal/uniformize.h"
+#include "core/topology.h"
+#include "shape/conformal_module.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace koebe::cli {
+
+void add_mapping_options(CLI::App& app, UniformizeOptions& options)
+{
+    app.add_option("--tolerance", options.tolerance, "on the circles' change in a sweep, a length in the unit disk")
+        ->check(positive_number())
+        ->capture_default_str();
+    app.add_option("--max-sweeps", options.max_sweeps, "sweeps over all loops before giving up")
+        ->check(whole_number(1))
+        ->capture_default_str();
+    app.add_option("--threads", options.threads, "0: all cores")->check(whole_number(0))->capture_default_str();
+}
+
+ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token)
+{
+    const MeshInput input = read_mesh_input(path, token);
+    ProgressLine progress(false);
+    ExecutionContext context(progress.callback(), token);
+    const Triangles& triangles = input.triangulation.triangles;
+    const UniformizeResult result =
+        with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
+
+    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged};
+    const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
+    for (const LoopReport& loop : result.loops) {
+        shape.circles.push_back(loop.circle);
+        const auto holds = [&](const VertexLoop& filed) {
+            return std::ranges::find(filed, loop.vertices.front()) != filed.end();
+        };
+        shape.ranks.push_back(static_cast<Index>(std::ranges::find_if(loops, holds) - loops.begin()));
+    }
+    return shape;
+}
+
+nlohmann::ordered_json module_json(const ShapeInput& shape, const std::vector<int>& order)
+{
+    const VectorXd module = conformal_module(shape.circles, order);
+    std::vector<Index> ranks;
+    for (const int k : order) ranks.push_back(shape.ranks[k]);
+    return {{"version", KOEBE_VERSION},
+            {"input", shape.name},
+            {"converged", shape.converged},
+            {"loops", ranks},
+            {"names", module_names(order.size())},
+            {"module", std::vector<double>(module.begin(), module.end())}};
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,158 @@
+#include "shape/domain_alignment.h"
+
+#include "core/errors.h"
+#include "shape/conformal_module.h"
+#include "shape/loop_matching.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace koebe {
+namespace {
+
+constexpr int most_iterations = 100;
+constexpr double difference_step = 1e-6;  // for derivatives, dimensionless
+constexpr double least_step = 1e-13;      // parameters that move less have converged, dimensionless
+constexpr double first_damping = 1e-6, most_damping = 1e6;
+constexpr std::size_t starting_loops = 4;  // the first holes, each two of which give a start
+
+using Parameters = Eigen::Vector3d;  ///< a small automorphism: re a, im a, angle
+
+Moebius small_map(const Parameters& p) { return {Complex(p[0], p[1]), std::polar(1.0, p[2])}; }
+
+/// (3n) differences of centres and radii.
+VectorXd differences(const std::vector<Circle>& source, const std::vector<Circle>& target, const Moebius& map)
+{
+    VectorXd result(3 * (source.size() - 1));
+    for (std::size_t k = 1; k < source.size(); ++k) {
+        const Circle image = map(target[k]);
+        const Complex apart = image.center - source[k].center;
+        result.segment<3>(3 * (k - 1)) << apart.real(), apart.imag(), image.radius - source[k].radius;
+    }
+    return result;
+}
+
+struct Fit {
+    Moebius map;
+    double squares = 0.0;
+    int iterations = 0;
+    bool converged = false;
+};
+
+/// Levenberg's method from one start.
+Fit improve(const std::vector<Circle>& source, const std::vector<Circle>& target, const Moebius& start)
+{
+    Fit fit{start};
+    VectorXd now = differences(source, target, fit.map);
+    fit.squares = now.squaredNorm();
+    double damping = first_damping;
+    while (fit.iterations < most_iterations && !fit.converged) {
+        ++fit.iterations;
+        MatrixXd slope(now.size(), 3);
+        for (int c = 0; c < 3; ++c) {
+            const Parameters h = difference_step * Parameters::Unit(c);
+            slope.col(c) = (differences(source, target, small_map(h) * fit.map) -
+                            differences(source, target, small_map(-h) * fit.map)) /
+                           (2.0 * difference_step);
+        }
+        const Eigen::Matrix3d normal = slope.transpose() * slope;
+        bool better = false;
+        while (!better && damping < most_damping) {
+            const Parameters step =
+                -(normal + damping * Eigen::Matrix3d::Identity()).ldlt().solve(slope.transpose() * now);
+            const bool inside = step.head<2>().norm() < 1.0;
+            const Moebius next = inside ? small_map(step) * fit.map : fit.map;
+            const VectorXd there = differences(source, target, next);
+            if (step.norm() < least_step) fit.converged = true;
+            if (inside && there.squaredNorm() < fit.squares) {
+                better = true;
+                fit.map = next;
+                fit.squares = there.squaredNorm();
+                now = there;
+                damping *= 0.1;
+            } else if (fit.converged) {
+                break;
+            } else {
+                damping *= 10.0;
+            }
+        }
+        // No step lowers the sum any more, to the last digit.
+        if (!better) fit.converged = true;
+    }
+    return fit;
+}
+
+/// These loops of a domain as 0, 1, 2.
+std::vector<Circle> chosen(const std::vector<Circle>& circles, std::initializer_list<std::size_t> numbers)
+{
+    std::vector<Circle> result;
+    for (const std::size_t k : numbers) result.push_back(circles[k]);
+    return result;
+}
+
+std::vector<Moebius> starts(const std::vector<Circle>& source, const std::vector<Circle>& target,
+                            std::vector<std::size_t> largest)
+{
+    const auto start = [&](std::initializer_list<std::size_t> loops) {
+        return normalizing_map(chosen(source, loops)).inverse() * normalizing_map(chosen(target, loops));
+    };
+    if (largest.size() == 1) return {start({0, largest[0]})};
+    largest.resize(std::min(largest.size(), starting_loops));
+    std::vector<Moebius> maps;
+    for (const std::size_t i : largest)
+        for (const std::size_t j : largest)
+            if (i != j) maps.push_back(start({0, i, j}));
+    return maps;
+}
+
+}  // namespace
+
+DomainAlignment align_domains(const std::vector<Circle>& source, const std::vector<Circle>& target,
+                              std::vector<int> match)
+{
+    DomainAlignment result;
+    if (match.empty()) {
+        const LoopMatch found = match_loops(source, target);
+        match.resize(source.size());
+        for (std::size_t i = 0; i < source.size(); ++i) match[found.order_a[i]] = found.order_b[i];
+    } else {
+        require_circle_domain(source);
+        require_circle_domain(target);
+        std::vector<int> natural(source.size());
+        std::iota(natural.begin(), natural.end(), 0);
+        if (target.size() != source.size() || match[0] != 0 ||
+            !std::is_permutation(natural.begin(), natural.end(), match.begin(), match.end()))
+            throw InputError("the match must name each of the target's loops once, the outer one first");
+    }
+    std::vector<Circle> matched;
+    for (const int k : match) matched.push_back(target[k]);
+    result.match = std::move(match);
+    if (source.size() == 1) return result;
+
+    std::vector<std::size_t> largest(source.size() - 1);
+    std::iota(largest.begin(), largest.end(), std::size_t{1});
+    std::ranges::stable_sort(largest, {}, [&](std::size_t k) {
+        return conformal_separation(source[0], source[k]) + conformal_separation(matched[0], matched[k]);
+    });
+    Fit best;
+    best.squares = std::numeric_limits<double>::infinity();
+    for (const Moebius& start : starts(source, matched, largest))
+        if (const Fit fit = improve(source, matched, start); fit.squares < best.squares) best = fit;
+
+    const VectorXd left = differences(source, matched, best.map);
+    result.map = best.map;
+    result.iterations = best.iterations;
+    result.converged = best.converged;
+    result.residual = std::sqrt(left.squaredNorm() / static_cast<double>(source.size() - 1));
+    for (Eigen::Index k = 0; 3 * k < left.size(); ++k)
+        if (const double size = left.segment<3>(3 * k).norm(); result.worst == 0 || size > result.largest) {
+            result.largest = size;
+            result.worst = static_cast<int>(k) + 1;
+        }
+    return result;
+}
+
+}  // namespace koebe

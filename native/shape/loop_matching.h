@@ -1,0 +1,29 @@
+// Which loops of two circle domains correspond.
+#pragma once
+
+#include "conformal/result.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct LoopMatch {
+    std::vector<int> order_a, order_b;  ///< corresponding loops stand at the same place, the outer ones first
+    double distance = 0.0;              ///< of the two modules in these orders
+    bool exhaustive = true;             ///< every correspondence was tried
+};
+
+/// The correspondence of the loops with the least L2 distance of the conformal modules (paper, Fig. 13).
+///
+/// Both modules are taken in one order: by the sum of the two loops' separations from the outer loop (see
+/// conformal_separation), so that the loops which fix the position are large ones. Hence the distance is symmetric, 0
+/// only for equal shapes, and blind to how loops are numbered and to Moebius maps; the triangle inequality is not
+/// promised. Up to 7 inner loops all correspondences are tried. With more the best are sought among those that two
+/// pairs of loops induce: both domains are put into the position of their pair, the other loops assigned at the
+/// least sum of squared differences of centres and radii, and this repeated from the order that comes out.
+///
+/// @param any_outer the outer loop of one may correspond to an inner loop of the other
+/// @throws InputError different numbers of loops; no circle domain (require_circle_domain)
+LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b, bool any_outer = false);
+
+}  // namespace koebe

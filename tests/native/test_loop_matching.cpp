@@ -1,0 +1,104 @@
+#include "circle_domain.h"
+#include "circle_samples.h"
+#include "core/errors.h"
+#include "shape/conformal_module.h"
+#include "shape/loop_matching.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+/// The inner loops in another order, fixed by the seed.
+std::vector<int> shuffle(std::size_t loops, unsigned seed)
+{
+    std::vector<int> order(loops);
+    std::iota(order.begin(), order.end(), 0);
+    std::mt19937 random(seed);
+    std::shuffle(order.begin() + 1, order.end(), random);
+    return order;
+}
+
+/// The domain with centres and radii moved by up to so much.
+std::vector<Circle> disturbed(std::vector<Circle> circles, double by)
+{
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> noise(-by, by);
+    for (std::size_t k = 1; k < circles.size(); ++k) {
+        circles[k].center += Complex(noise(random), noise(random));
+        circles[k].radius += noise(random);
+    }
+    return circles;
+}
+
+}  // namespace
+
+TEST(LoopMatching, finds_the_same_shape_under_other_numbers_and_a_moebius_map)
+{
+    for (const int holes : {0, 1, 2, 3, 7, 8, 25, 100}) {
+        const std::vector<Circle> circles = random_domain(holes, 11);
+        const std::vector<int> order = shuffle(circles.size(), 5);
+        const LoopMatch match = match_loops(circles, image(some_maps[1], reordered(circles, order)));
+        EXPECT_LT(match.distance, 1e-10) << holes;
+        for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(match.order_a[i], order[match.order_b[i]]) << holes;
+        EXPECT_EQ(match.exhaustive, holes <= 7);
+    }
+}
+
+TEST(LoopMatching, finds_the_loops_of_a_shape_that_has_changed_a_little)
+{
+    for (const int holes : {4, 7, 12, 30}) {
+        const std::vector<Circle> circles = random_domain(holes, 21);
+        const std::vector<int> order = shuffle(circles.size(), 6);
+        const LoopMatch match = match_loops(circles, reordered(disturbed(circles, 2e-3), order));
+        for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(match.order_a[i], order[match.order_b[i]]) << holes;
+    }
+}
+
+TEST(LoopMatching, distance_is_symmetric_and_that_of_the_modules_in_its_orders)
+{
+    for (const int holes : {3, 5, 9}) {
+        const std::vector<Circle> a = random_domain(holes, 1), b = random_domain(holes, 2);
+        const LoopMatch match = match_loops(a, b);
+        EXPECT_NEAR(match.distance, match_loops(b, a).distance, 1e-12);
+        EXPECT_NEAR(match.distance, (conformal_module(a, match.order_a) - conformal_module(b, match.order_b)).norm(),
+                    1e-12);
+        EXPECT_GT(match.distance, 0.05);
+    }
+}
+
+TEST(LoopMatching, tells_a_shape_from_its_mirror_image)
+{
+    EXPECT_GT(match_loops(five_circles(), mirrored(five_circles())).distance, 0.02);
+    // but not one that is its own mirror image
+    const std::vector<Circle> face{{}, {{-0.4, 0.3}, 0.2}, {{0.4, 0.3}, 0.2}, {{0.0, -0.4}, 0.25}};
+    EXPECT_LT(match_loops(face, mirrored(face)).distance, 1e-12);
+}
+
+TEST(LoopMatching, finds_another_outer_loop_only_if_asked)
+{
+    const std::vector<Circle> circles = random_domain(5, 8);
+    const std::vector<Circle> other = normalized_circles(circles, {4, 2, 0, 1, 3, 5});
+    EXPECT_GT(match_loops(circles, other).distance, 0.05);
+    const LoopMatch match = match_loops(circles, other, true);
+    EXPECT_LT(match.distance, 1e-10);
+    EXPECT_LT(match_loops(other, circles, true).distance, 1e-10);
+    EXPECT_EQ(match.order_b[0] == 0, match.order_a[0] != 0);
+}
+
+TEST(LoopMatching, refuses_different_numbers_of_loops)
+{
+    for (const int holes : {2, 4, 9}) {
+        try {
+            match_loops(random_domain(3, 1), random_domain(holes, 1));
+            ADD_FAILURE() << holes;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("cannot be compared"), std::string::npos) << error.what();
+        }
+    }
+}

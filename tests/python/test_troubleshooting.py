@@ -1,0 +1,91 @@
+"""docs/troubleshooting.md has an entry for every error that the add-on can show."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = " ".join((ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8").split())
+NATIVE_FOLDERS = ("core", "geometry", "conformal", "shape")  # what the add-on calls; the rest belongs to the command
+
+# Errors that no mesh in Blender can cause: wrong calls, guards of inner steps, and what the add-on has ruled out.
+NOT_FROM_BLENDER = (
+    "the mesh has no vertices", "the mesh has no faces", "does not exist", "twice", "is closed: no face can be added",
+    "already has a face on that side", "cannot be linked with the fans", "separate parts (faces",
+    "must be shrunk at least once", "is no inner vertex", "no path joins", "points of a polygon coincide",
+    "polygons cross", "a polygon", "there is no boundary loop", "dense ", "sparse factorization",
+    "the order must name", "a circle domain has one circle", "the first circle must be", "the match must name",
+    "their modules cannot be compared",
+)  # fmt: skip
+OPTION_ERRORS = "options.py", "batch.py"  # the panel's fields cannot take such values
+
+
+def literals(node):
+    """The texts that an expression can have, with {} for what is filled in."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return [node.value]
+    if isinstance(node, ast.IfExp):
+        return literals(node.body) + literals(node.orelse)
+    if isinstance(node, ast.JoinedStr):
+        return ["".join(v.value if isinstance(v, ast.Constant) else "{}" for v in node.values)]
+    return []
+
+
+def key(message):
+    """The first piece of a message, between what is filled in, colons and brackets, that says something."""
+    pieces = (piece.strip(" .,;'") for piece in re.split(r"\{\w*\}|: | \(|\)|; ", message))
+    return next((piece for piece in pieces if len(piece) > 6), None)
+
+
+def addon_messages():
+    for path in sorted((ROOT / "addon").glob("*.py")):
+        if path.name in OPTION_ERRORS:
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call) and node.exc.args:
+                for text in literals(node.exc.args[0]):
+                    if key(text):  # else another error's message, passed on
+                        yield path.name, text
+
+
+def native_messages():
+    thrown = re.compile(r"throw (?:Input|Topology|Solver)Error\((.*?)\)?;", re.DOTALL)
+    for folder in NATIVE_FOLDERS:
+        for path in sorted((ROOT / "native" / folder).glob("*.*")):
+            for match in thrown.finditer(path.read_text(encoding="utf-8")):
+                if "TopologyKind::" in match[1]:  # the add-on says these in words of its own
+                    continue
+                argument = re.sub(r'"\s*\+?\s*"', "", match[1])  # a literal over several lines
+                text = "{}".join(re.findall(r'"((?:[^"\\]|\\.)*)"', argument))
+                if not any(words in text for words in NOT_FROM_BLENDER):
+                    yield path.name, text
+
+
+def topology_kinds():
+    source = (ROOT / "native" / "core" / "errors.cpp").read_text(encoding="utf-8")
+    kinds = re.findall(r'case TopologyKind::(\w+): return "\1"', source)
+    return [kind for kind in kinds if kind != "disconnected"]  # parts are islands, each mapped by itself
+
+
+def reasons():
+    source = ast.parse((ROOT / "addon" / "report.py").read_text(encoding="utf-8"))
+    for node in source.body:
+        if isinstance(node, ast.Assign) and node.targets[0].id == "REASONS":
+            return ast.literal_eval(node.value)
+    raise AssertionError("addon/report.py has no REASONS")
+
+
+def test_messages_are_found_where_they_are_raised():
+    assert len(list(addon_messages())) >= 10 and len(list(native_messages())) >= 8 and len(topology_kinds()) == 5
+
+
+@pytest.mark.parametrize(("file", "message"), [*addon_messages(), *native_messages()])
+def test_every_error_has_an_entry(file, message):
+    assert key(message) in PAGE, f"{file}: docs/troubleshooting.md says nothing about {message!r}"
+
+
+@pytest.mark.parametrize("kind", topology_kinds())
+def test_every_kind_of_topology_error_has_an_entry(kind):
+    assert key(reasons()[kind].split(": ")[0]) in PAGE
