@@ -9,7 +9,9 @@
 #include "conformal/rim_room.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace koebe {
@@ -25,6 +27,27 @@ Moebius normal_position(const std::vector<Circle>& circles)
     return circles.size() == 2 ? center_circle(circles[1]) : Moebius{};
 }
 
+/// Makes circles smaller that meet another or leave the disk, as those of loops of a few vertices do where less than an
+/// edge is between them: r_k <= d_kj r_k / (r_k + r_j) for all j leaves every pair apart.
+/// @return the loops of the circles it changed
+std::vector<std::size_t> set_apart(std::vector<Circle>& circles)
+{
+    constexpr double share = 0.9;  // of the room between two centres
+    const std::vector<Circle> before = circles;
+    std::vector<std::size_t> changed;
+    for (std::size_t k = 1; k < circles.size(); ++k) {
+        double room = 1.0 - std::abs(before[k].center);
+        for (std::size_t j = 1; j < circles.size(); ++j)
+            if (j != k)
+                room = std::min(room, std::abs(before[k].center - before[j].center) * before[k].radius /
+                                          (before[k].radius + before[j].radius));
+        if (before[k].radius <= room) continue;
+        circles[k].radius = share * room;
+        changed.push_back(k);
+    }
+    return changed;
+}
+
 /// The images of the loops in normal position, each put on its circle: (m, 2), loop after loop. Fills the loop reports.
 MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeOutcome& outcome,
                           UniformizeResult& result)
@@ -33,6 +56,11 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     for (std::size_t k = 1; k < outcome.loops.size(); ++k)
         circles.push_back(fit_circle_least_squares(outcome.loops[k]));
     const Moebius moebius = normal_position(circles);
+    for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = moebius(circles[k]);
+    if (const auto changed = set_apart(circles); !changed.empty())
+        result.warnings.push_back("circles that met another made smaller, the mesh between them is too coarse: " +
+                                  std::to_string(changed.size()) + "; the first is that of loop " +
+                                  std::to_string(changed.front()));
 
     std::size_t boundary_count = 0;
     for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
@@ -40,7 +68,7 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     Eigen::Index row = 0;
     for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
         LoopReport report;
-        report.circle = k == 0 ? Circle{} : moebius(circles[k]);
+        report.circle = circles[k];
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
         const VectorXcd projected =

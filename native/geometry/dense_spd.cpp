@@ -38,7 +38,7 @@ void invert_lower(double* lower, int n, int stride)
     if (n <= 64) {
         int info = 0;
         dtrtri_("L", "N", &n, lower, &stride, &info);
-        if (info != 0) throw SolverError("triangular inverse failed, status " + std::to_string(info));
+        if (info != 0) throw SolverError("dense triangular inverse failed, status " + std::to_string(info));
         return;
     }
     const int top = n / 2, bottom = n - top;

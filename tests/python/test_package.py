@@ -181,3 +181,32 @@ def test_boundary_loops_and_the_disk_map():
     rim = koebe.boundary_loops(faces)[0]
     assert np.allclose(np.linalg.norm(points[rim], axis=1), 1.0)
     assert koebe.distortion(vertices, faces, points)["angle_error_deg"]["mean"] < 3
+
+
+def ladder(columns, rows, holes, height):
+    """Rectangles one wide and so high, each cut in two, without those in `holes`."""
+    x, y = np.meshgrid(np.arange(columns + 1.0), height * np.arange(rows + 1.0), indexing="ij")
+    vertices = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+    faces = []
+    for i in range(columns):
+        for j in range(rows):
+            if (i, j) not in holes:
+                a, b = i * (rows + 1) + j, (i + 1) * (rows + 1) + j
+                faces += [[a, b, b + 1], [a, b + 1, a + 1]]
+    return vertices, np.array(faces, dtype=np.int32)
+
+
+@pytest.mark.parametrize(
+    "columns, rows, holes, height", [(5, 3, {(1, 1), (3, 1)}, 6.0), (3, 9, {(1, 1), (1, 3), (1, 5), (1, 7)}, 0.2)]
+)
+def test_circles_of_a_mesh_too_coarse_between_them_do_not_meet(columns, rows, holes, height):
+    result = koebe.uniformize(*ladder(columns, rows, holes, height))
+    center = result.centers @ [1.0, 1.0j]
+    for i in range(1, len(center)):
+        assert abs(center[i]) + result.radii[i] < 1.0
+        for j in range(1, i):
+            assert abs(center[i] - center[j]) > result.radii[i] + result.radii[j]
+        uv = result.uv[result.loops[i]] @ [1.0, 1.0j]
+        assert np.allclose(np.abs(uv - center[i]), result.radii[i], atol=1e-12)
+    assert result.flipped == 0
+    assert any("circles that met" in warning for warning in result.warnings)
