@@ -8,13 +8,11 @@
 
 namespace koebe {
 
-/// A = Sigma + sum T_k, the loops in falling order, so that the outer one is last. A few open loops are solved by elimination of the rest R,
-/// f_R = -A_RR^-1 A_RP f_P; all of them against the outer one from one factor L of A on the inner loops, which gives the
-/// images too: N = (L L')^-1 is the potential with the outer loop held at 0, N_kk = |L^-1 E_k|^2.
+/// A = Sigma + sum T_k over all loops. A few open loops are solved by elimination of the rest R, f_R = -A_RR^-1 A_RP f_P.
 class CondensedState final : public FilledState {
 public:
     /// The first angles are those of the flux through each loop with all others open and at one voltage, Sigma_kk 1.
-    /// @param surface its boundary the concatenation of the loops
+    /// @param surface its boundary the concatenation of the loops, nothing grounded
     /// @param loops the outer loop first
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
     /// @param source (m) flux that arrives at each boundary vertex from a source inside, for one open loop
@@ -22,30 +20,23 @@ public:
                   const std::vector<VectorXd>& edges, VectorXd source);
 
     std::vector<VectorXcd> images() override;
-    std::vector<VectorXd> fluxes_against_outer() override;
-    VectorXd outer_flux() override;
 
     /// The flux through open loops, one after the other: of the harmonic function that is 0 on the first and 1 on the
     /// second, or of the source with one open loop at 0.
-    VectorXd flux(const std::vector<int>& open);
+    VectorXd flux(const std::vector<int>& open) const;
 
 private:
     void set_disk(int k, const MatrixXd& disk) override;
-    VectorXd eliminated_flux(const std::vector<int>& open) const;
     MatrixXd gather(const MatrixXd& matrix, const std::vector<int>& rows, const std::vector<int>& columns) const;
     VectorXd gather(const VectorXd& vector, const std::vector<int>& rows) const;
-    MatrixXd inverse_block(const std::vector<int>& open, const MatrixXd& inverse_lower) const;
-    const MatrixXd& inner_factor();
     auto diagonal_block(const MatrixXd& matrix, int k) const
     {
         return matrix.block(begin_[k], begin_[k], size_[k], size_[k]);
     }
 
-    std::vector<Index> begin_;         // of each loop among the rows
+    std::vector<Index> begin_;     // of each loop among the rows
     VectorXd source_;
-    MatrixXd sigma_, filled_;          // Sigma and A
-    MatrixXd inner_factor_;            // of A on the inner loops, where it is not stale
-    bool stale_ = true;
+    MatrixXd sigma_, filled_;      // Sigma and A
 };
 
 }  // namespace koebe

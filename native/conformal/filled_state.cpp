@@ -22,7 +22,7 @@ void FilledState::take_angles(const std::vector<int>& open, const VectorXd& flux
     for (const int k : open) {
         angles_[k] = centered_angles(angles_from_flux(flux.segment(row, size_[k]), edges_[k], raised), weights_[k],
                                      angles_[k]);
-        set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
+        if (fills(k)) set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
         row += size_[k];
     }
 }

@@ -22,13 +22,6 @@ public:
     /// loop: harmonic where it is filled.
     virtual std::vector<VectorXcd> images() = 0;
 
-    /// All inner loops opened at once, each for itself, the others filled, from the present state: the flux through each
-    /// at potential 1, the outer one at 0.
-    virtual std::vector<VectorXd> fluxes_against_outer() = 0;
-
-    /// The flux through the outer loop with the first inner one at potential 1 and all others filled.
-    virtual VectorXd outer_flux() = 0;
-
     /// New angles for open loops from the flux through them: the conjugate of the harmonic function.
     /// @param raised incremented by the number of steps along a loop that had to be raised
     void take_angles(const std::vector<int>& open, const VectorXd& flux, int& raised);
@@ -36,6 +29,9 @@ public:
 protected:
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
     FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges);
+
+    /// Whether loop k is ever filled.
+    virtual bool fills(int) const { return true; }
 
     /// Loop k is filled by this disk from now on: T_k, (n_k, n_k).
     virtual void set_disk(int k, const MatrixXd& disk) = 0;
@@ -46,6 +42,22 @@ protected:
     std::vector<Index> size_;        // of each loop
     std::vector<VectorXd> weights_;  // share of each vertex in the length of its loop
     std::vector<VectorXd> angles_;
+};
+
+/// The outer loop held at 0 in every step, and so never filled: A is that of the surface and the disks T_k in its inner
+/// loops.
+class GroundedState : public FilledState {
+public:
+    /// All inner loops opened at once, each for itself, the others filled, from the present state: the flux through each
+    /// at potential 1, the outer one at 0.
+    virtual std::vector<VectorXd> fluxes_against_outer() = 0;
+
+    /// The flux through the outer loop with the first inner one at potential 1 and all others filled.
+    virtual VectorXd outer_flux() = 0;
+
+protected:
+    using FilledState::FilledState;
+    bool fills(int k) const override { return k > 0; }
 };
 
 }  // namespace koebe

@@ -3,6 +3,7 @@
 #include "conformal/boundary_angles.h"
 #include "conformal/circle_fit.h"
 #include "conformal/condensed_state.h"
+#include "conformal/grounded_state.h"
 #include "conformal/sparse_state.h"
 
 #include <cmath>
@@ -12,8 +13,6 @@
 namespace koebe {
 namespace {
 
-/// More loops are opened all at once, each against the outer one: one factor for all then costs less than an elimination
-/// for each step.
 constexpr int most_loops_one_by_one = 8;
 
 /// What every step of a sweep opens: two loops, or with the conventional form one.
@@ -39,14 +38,16 @@ VectorXd deepest_source(const CondensedLaplacian& surface, const VectorXd& areas
 
 }  // namespace
 
+bool opened_at_once(int loop_count) { return loop_count <= 2 || loop_count > most_loops_one_by_one; }
+
 KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                              const VectorXd& areas, const UniformizeOptions& options, ExecutionContext& context)
 {
     KoebeOutcome outcome;
     const int loop_count = static_cast<int>(loops.size());
-    const bool at_once = loop_count > most_loops_one_by_one || !surface.has_sigma();
-    const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck && loop_count > 2);
+    const bool at_once = surface.grounded() || !surface.has_sigma();
+    const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
     const VectorXd flux_of_source = sourced ? surface.solve_interior(deepest_source(surface, areas)).boundary_flux
                                             : VectorXd::Zero(surface.boundary_size());
     if (loop_count == 1) {
@@ -55,21 +56,24 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         outcome.converged = true;
         return outcome;
     }
+    std::unique_ptr<GroundedState> grounded;
     std::unique_ptr<CondensedState> condensed;
-    std::unique_ptr<SparseState> sparse;
-    if (surface.has_sigma())
-        condensed = std::make_unique<CondensedState>(surface, loops, edges, flux_of_source);
+    if (!surface.has_sigma())
+        grounded = std::make_unique<SparseState>(laplacian, surface, loops, edges);
+    else if (surface.grounded())
+        grounded = std::make_unique<DenseGroundedState>(surface, loops, edges);
     else
-        sparse = std::make_unique<SparseState>(laplacian, surface, loops, edges);
-    FilledState& state = condensed ? static_cast<FilledState&>(*condensed) : *sparse;
+        condensed = std::make_unique<CondensedState>(surface, loops, edges, flux_of_source);
+    FilledState& state = grounded ? static_cast<FilledState&>(*grounded) : *condensed;
 
     const auto steps = sweep_steps(loop_count, options.method);
     const auto take_all = [&] {
-        const std::vector<VectorXd> fluxes = state.fluxes_against_outer();
+        const std::vector<VectorXd> fluxes = grounded->fluxes_against_outer();
         context.checkpoint();
         for (int k = 1; k < loop_count; ++k) state.take_angles({k}, fluxes[k - 1], outcome.raised_angles);
-        state.take_angles({0}, state.outer_flux(), outcome.raised_angles);
+        state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
     };
+    if (at_once) state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
     CircleState now = circle_state(state.images(), fit_circle_least_squares);
     // Steps that take effect together share the change and the roundness they lead to.
     const auto record = [&](std::size_t first, std::size_t last) {

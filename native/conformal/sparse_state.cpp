@@ -9,7 +9,7 @@ namespace koebe {
 
 SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
                          const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges)
-    : FilledState(loops, edges), loops_(loops), laplacian_(laplacian)
+    : GroundedState(loops, edges), loops_(loops), laplacian_(laplacian)
 {
     std::vector<char> outer(laplacian.rows(), 0);
     for (const Index v : loops[0]) outer[v] = 1;
@@ -31,12 +31,11 @@ SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian
     filled_ = empty_;
 
     int raised = 0;
-    for (int k = 0; k < loop_count(); ++k) take_angles({k}, surface.flux_of_part(loops[k]), raised);
+    for (int k = 1; k < loop_count(); ++k) take_angles({k}, surface.flux_of_part(loops[k]), raised);
 }
 
 void SparseState::set_disk(int k, const MatrixXd& disk)
 {
-    if (k == 0) return;
     stale_ = true;
     const VertexLoop& loop = loops_[k];
     for (Index c = 0; c < size_[k]; ++c) {

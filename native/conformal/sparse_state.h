@@ -12,7 +12,7 @@ namespace koebe {
 
 /// A = K + sum T_k over all vertices but those of the outer loop, the disks as small dense blocks: one symbolic analysis
 /// for all sweeps, a numeric factorization for each, and from it the images and the blocks N_kk of N = A^-1.
-class SparseState final : public FilledState {
+class SparseState final : public GroundedState {
 public:
     /// The first angles are those of the flux through each loop with all others open and at one voltage.
     /// @param surface of the same Laplacian

@@ -18,30 +18,41 @@ SparseMatrix cut_off(const SparseMatrix& laplacian, const std::vector<char>& on_
 }  // namespace
 
 struct CondensedLaplacian::Impl {
-    std::vector<Index> boundary;
-    // With Sigma: the factor of K + diag(0, 1). Without: that of K with the boundary cut off it, 1 in its place.
-    std::unique_ptr<SparseCholesky> cholesky;
+    SparseMatrix laplacian;                    // K, where something is cut off
+    std::vector<Index> boundary, ground, kept; // all of it, and its two parts
+    std::vector<char> is_cut;                  // the grounded vertices, or without Sigma all boundary vertices
+    std::unique_ptr<SparseCholesky> cholesky;  // of K + diag(0, 1 where kept), 1 in the place of what is cut off
     bool has_sigma = true;
-    SparseMatrix laplacian;         // K, without Sigma only, as is
-    std::vector<char> on_boundary;
+
+    /// -K z for values on the grounded part, and the values themselves there.
+    MatrixXd load(const MatrixXd& ground_values) const
+    {
+        MatrixXd z = MatrixXd::Zero(laplacian.rows(), ground_values.cols());
+        z(ground, Eigen::all) = ground_values;
+        MatrixXd result = -(laplacian * z);
+        result(ground, Eigen::all) = ground_values;
+        return result;
+    }
 };
 
 CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary,
-                                       Ordering ordering, std::size_t most_condensed)
+                                       Ordering ordering, Index grounded, std::size_t most_condensed)
     : impl_(std::make_unique<Impl>())
 {
     impl_->boundary = boundary;
-    impl_->has_sigma = boundary.size() <= most_condensed;
-    if (impl_->has_sigma) {
-        SparseMatrix shifted = laplacian;
-        for (const Index v : boundary) shifted.coeffRef(v, v) += 1.0;
-        impl_->cholesky = std::make_unique<SparseCholesky>(shifted, ordering, boundary);
-    } else {
+    impl_->has_sigma = boundary.size() - grounded <= most_condensed;
+    if (!impl_->has_sigma) grounded = static_cast<Index>(boundary.size());
+    impl_->ground.assign(boundary.begin(), boundary.begin() + grounded);
+    impl_->kept.assign(boundary.begin() + grounded, boundary.end());
+    SparseMatrix shifted = laplacian;
+    for (const Index v : impl_->kept) shifted.coeffRef(v, v) += 1.0;
+    if (grounded > 0) {
         impl_->laplacian = laplacian;
-        impl_->on_boundary.assign(laplacian.rows(), 0);
-        for (const Index v : boundary) impl_->on_boundary[v] = 1;
-        impl_->cholesky = std::make_unique<SparseCholesky>(cut_off(laplacian, impl_->on_boundary), ordering);
+        impl_->is_cut.assign(laplacian.rows(), 0);
+        for (const Index v : impl_->ground) impl_->is_cut[v] = 1;
+        shifted = cut_off(shifted, impl_->is_cut);
     }
+    impl_->cholesky = std::make_unique<SparseCholesky>(shifted, ordering, impl_->kept);
 }
 
 CondensedLaplacian::~CondensedLaplacian() = default;
@@ -52,11 +63,25 @@ Index CondensedLaplacian::boundary_size() const { return static_cast<Index>(impl
 
 bool CondensedLaplacian::has_sigma() const { return impl_->has_sigma; }
 
+bool CondensedLaplacian::grounded() const { return impl_->has_sigma && !impl_->ground.empty(); }
+
 MatrixXd CondensedLaplacian::sigma() const
 {
     MatrixXd result = impl_->cholesky->last_schur();
     result.diagonal().array() -= 1.0;
     return result;
+}
+
+MatrixXd CondensedLaplacian::load_of_grounded(const MatrixXd& values) const
+{
+    const MatrixXd load = impl_->load(values);
+    return impl_->cholesky->flux_to_last(load) + load(impl_->kept, Eigen::all);
+}
+
+VectorXd CondensedLaplacian::flux_to_grounded(const VectorXd& values) const
+{
+    const VectorXd u = impl_->cholesky->extend(values);
+    return -VectorXd(impl_->laplacian * u)(impl_->ground);
 }
 
 /// K_PP 1 - K_PI K_II^-1 K_IP 1.
@@ -71,7 +96,7 @@ VectorXd CondensedLaplacian::flux_of_part(const std::vector<Index>& part) const
         coupling.startVec(c);
         for (SparseMatrix::InnerIterator it(laplacian, part[c]); it; ++it) {
             flux[c] += it.value() * indicator[it.row()];
-            if (!impl_->on_boundary[it.row()]) coupling.insertBack(it.row(), c) = it.value();
+            if (!impl_->is_cut[it.row()]) coupling.insertBack(it.row(), c) = it.value();
         }
     }
     coupling.finalize();
@@ -80,24 +105,21 @@ VectorXd CondensedLaplacian::flux_of_part(const std::vector<Index>& part) const
 
 MatrixXd CondensedLaplacian::extend(const MatrixXd& boundary_values) const
 {
-    if (impl_->has_sigma) return impl_->cholesky->extend(boundary_values);
-    MatrixXd values = MatrixXd::Zero(impl_->laplacian.rows(), boundary_values.cols());
-    values(impl_->boundary, Eigen::all) = boundary_values;
-    MatrixXd load = -(impl_->laplacian * values);
-    load(impl_->boundary, Eigen::all) = boundary_values;
-    return impl_->cholesky->solve(load);
+    const Eigen::Index grounded = static_cast<Eigen::Index>(impl_->ground.size());
+    if (grounded == 0) return impl_->cholesky->extend(boundary_values);
+    return impl_->cholesky->extend(boundary_values.bottomRows(boundary_values.rows() - grounded),
+                                   impl_->load(boundary_values.topRows(grounded)));
 }
 
 InteriorSolution CondensedLaplacian::solve_interior(const VectorXd& load) const
 {
-    if (impl_->has_sigma) {
-        auto [values, flux] = impl_->cholesky->solve_inner(load);
-        return {std::move(values), std::move(flux)};
-    }
-    MatrixXd inner = load;
-    for (const Index v : impl_->boundary) inner(v, 0) = 0.0;
-    const VectorXd values = impl_->cholesky->solve(inner);
-    return {values, -VectorXd(impl_->laplacian * values)(impl_->boundary)};
+    VectorXd inner = load;
+    inner(impl_->ground).setZero();
+    auto [values, flux] = impl_->cholesky->solve_inner(inner);
+    InteriorSolution result{std::move(values), VectorXd(impl_->boundary.size())};
+    if (!impl_->ground.empty()) result.boundary_flux << -VectorXd(impl_->laplacian * result.values)(impl_->ground), flux;
+    else result.boundary_flux = flux;
+    return result;
 }
 
 }  // namespace koebe

@@ -19,16 +19,18 @@ struct InteriorSolution {
 /// Sigma = K_BB - K_BI K_II^-1 K_IB = L_BB L_BB' - 1, the leading part is the factor of K_II
 /// (docs/method.md, "One factorization").
 ///
-/// Of long boundaries nothing dense is kept: then there is no Sigma, and K_II is factored alone.
+/// A part of the boundary can be grounded: it counts with the interior, but is held at 0, so that Sigma is of the rest
+/// alone. Of long boundaries nothing dense is kept: then there is no Sigma, and K_II is factored alone.
 class CondensedLaplacian {
 public:
     /// @param laplacian (V, V) cotan Laplacian, both triangles stored
-    /// @param boundary the vertices to keep, in the order of the rows of sigma(); unused vertices must have been
-    ///        given a positive diagonal or be left out of the matrix
+    /// @param boundary all boundary vertices; unused vertices must have been given a positive diagonal or be left out of
+    ///        the matrix
+    /// @param grounded so many of them, from the first on, are grounded; sigma() has the others, in their order
+    /// @param most_condensed others up to which there is a Sigma: at 3,000 a dense matrix has 72 MB
     /// @throws SolverError if K_II is not positive definite
-    /// @param most_condensed boundary vertices up to which there is a Sigma: at 3,000 a dense matrix has 72 MB
     CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering,
-                       std::size_t most_condensed = 3000);
+                       Index grounded = 0, std::size_t most_condensed = 3000);
     ~CondensedLaplacian();
     CondensedLaplacian(CondensedLaplacian&&) noexcept;
     CondensedLaplacian& operator=(CondensedLaplacian&&) noexcept;
@@ -36,8 +38,18 @@ public:
     /// Whether there is a sigma().
     bool has_sigma() const;
 
-    /// The Dirichlet-to-Neumann matrix (m, m), symmetric positive semidefinite, Sigma 1 = 0.
+    /// Whether a part of the boundary is grounded.
+    bool grounded() const;
+
+    /// The Dirichlet-to-Neumann matrix of the boundary that is not grounded, symmetric and positive semidefinite; Sigma
+    /// 1 = 0 if nothing is.
     MatrixXd sigma() const;
+
+    /// What values on the grounded part draw from the others at 0: -Sigma_RG z. @param values (g, C)
+    MatrixXd load_of_grounded(const MatrixXd& values) const;
+
+    /// The flux into the grounded part from values on the others: -Sigma_GR u. @param values (m - g)
+    VectorXd flux_to_grounded(const VectorXd& values) const;
 
     /// The flux through each of some boundary vertices, Sigma_PP 1, when they have potential 1 and all others 0;
     /// where there is no sigma(). @param part the vertices

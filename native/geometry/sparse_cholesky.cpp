@@ -19,6 +19,8 @@ struct SparseCholesky::Impl {
 
     Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
     Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
+    MatrixXd half_solve(const MatrixXd& f);
+    MatrixXd last_in_given_order(const MatrixXd& trailing_rows) const;
 };
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last)
@@ -72,13 +74,29 @@ MatrixXd SparseCholesky::last_schur() const
     return product(place, place);
 }
 
-/// L' x = (0, L_BB' x_B) has x_I = -L_II^-T L_BI' x_B.
-MatrixXd SparseCholesky::extend(const MatrixXd& last_values) const
+/// L y = (f_I, 0) has y_I = L_II^-1 f_I and L_BB y_B = -L_BI y_I; in the factor's own order.
+MatrixXd SparseCholesky::Impl::half_solve(const MatrixXd& f)
+{
+    MatrixXd load = MatrixXd::Zero(l.size(), f.cols());
+    for (Index j = 0; j < inner_count(); ++j) load.row(j) = f.row(l.order()[j]);
+    return l.solve(CHOLMOD_L, load);
+}
+
+MatrixXd SparseCholesky::Impl::last_in_given_order(const MatrixXd& trailing_rows) const
+{
+    MatrixXd result(trailing_rows.rows(), trailing_rows.cols());
+    for (std::size_t b = 0; b < last.size(); ++b) result.row(b) = trailing_rows.row(place_in_trailing(b));
+    return result;
+}
+
+/// L' x = (y_I, L_BB' x_B) has x_I = L_II^-T (y_I - L_BI' x_B).
+MatrixXd SparseCholesky::extend(const MatrixXd& last_values, const MatrixXd& f) const
 {
     const Index count = static_cast<Index>(impl_->last.size());
     MatrixXd values(count, last_values.cols());
     for (Index b = 0; b < count; ++b) values.row(impl_->place_in_trailing(b)) = last_values.row(b);
-    MatrixXd load = MatrixXd::Zero(impl_->l.size(), last_values.cols());
+    MatrixXd load =
+        f.size() > 0 ? impl_->half_solve(f) : MatrixXd(MatrixXd::Zero(impl_->l.size(), last_values.cols()));
     load.bottomRows(count) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * values;
     const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, load);
 
@@ -88,21 +106,23 @@ MatrixXd SparseCholesky::extend(const MatrixXd& last_values) const
     return result;
 }
 
-/// L y = (f, 0) gives y_I = L_II^-1 f and L_BB y_B = -L_BI y_I = -A_BI A_II^-1 f.
+MatrixXd SparseCholesky::flux_to_last(const MatrixXd& f) const
+{
+    const MatrixXd half = impl_->half_solve(f);
+    return impl_->last_in_given_order(impl_->trailing.triangularView<Eigen::Lower>() *
+                                      half.bottomRows(static_cast<Index>(impl_->last.size())));
+}
+
 std::pair<VectorXd, VectorXd> SparseCholesky::solve_inner(const VectorXd& f) const
 {
-    const Index count = static_cast<Index>(impl_->last.size()), inner = impl_->inner_count();
-    MatrixXd load = MatrixXd::Zero(impl_->l.size(), 1);
-    for (Index j = 0; j < inner; ++j) load(j, 0) = f[impl_->l.order()[j]];
-    MatrixXd half = impl_->l.solve(CHOLMOD_L, load);
-    const VectorXd flux = impl_->trailing.triangularView<Eigen::Lower>() * half.col(0).tail(count);
+    const Index count = static_cast<Index>(impl_->last.size());
+    MatrixXd half = impl_->half_solve(f);
+    const MatrixXd flux = impl_->trailing.triangularView<Eigen::Lower>() * half.bottomRows(count);
     half.bottomRows(count).setZero();
     const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, half);
-
-    std::pair<VectorXd, VectorXd> result{VectorXd(impl_->l.size()), VectorXd(count)};
-    for (Index j = 0; j < impl_->l.size(); ++j) result.first[impl_->l.order()[j]] = solution(j, 0);
-    for (Index b = 0; b < count; ++b) result.second[b] = flux[impl_->place_in_trailing(b)];
-    return result;
+    VectorXd values(impl_->l.size());
+    for (Index j = 0; j < impl_->l.size(); ++j) values[impl_->l.order()[j]] = solution(j, 0);
+    return {std::move(values), impl_->last_in_given_order(flux)};
 }
 
 std::vector<MatrixXd> SparseCholesky::inverse_blocks(const std::vector<std::vector<Index>>& sets) const

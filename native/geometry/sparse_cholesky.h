@@ -35,8 +35,11 @@ public:
     /// The Schur complement on B, its rows in the order in which B was given.
     MatrixXd last_schur() const;
 
-    /// x with the given values on B, (b, C), and (A x)_I = 0: (n, C).
-    MatrixXd extend(const MatrixXd& last_values) const;
+    /// x with the given values on B, (b, C), and (A x)_I = f_I: (n, C). @param f (n, C), not read on B; empty: 0
+    MatrixXd extend(const MatrixXd& last_values, const MatrixXd& f = {}) const;
+
+    /// -A_BI A_II^-1 f_I, in the order of B: (b, C). @param f (n, C), not read on B
+    MatrixXd flux_to_last(const MatrixXd& f) const;
 
     /// x with (A x)_I = f_I and x = 0 on B, and -(A x)_B, in the order of B. @param f (n), not read on B
     std::pair<VectorXd, VectorXd> solve_inner(const VectorXd& f) const;
