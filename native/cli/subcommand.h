@@ -13,6 +13,7 @@ struct Subcommand {
 };
 
 Subcommand add_fill(CLI::App& app);
+Subcommand add_ricci(CLI::App& app);
 Subcommand add_uniformize(CLI::App& app);
 
 }  // namespace koebe::cli
