@@ -8,7 +8,8 @@ namespace koebe {
 namespace {
 
 constexpr double longest_step = 4.0;    // of any entry of u: a factor of 55 in a length
-constexpr double shortest_step = 1e-9;  // of the Newton step
+constexpr double widest_range = 60.0;   // of u: where no minimum exists it runs away
+constexpr double shortest_step = 1e-9;  // of the first step tried
 constexpr double first_shift = 1e-12;   // of the mean diagonal
 constexpr double last_shift = 1e-2;
 
@@ -73,14 +74,19 @@ NewtonReport ConvexNewton::minimize(ConvexEnergy& energy, VectorXd& u, const New
             report.reason = "no convergence in " + std::to_string(report.steps) + " Newton steps";
             return report;
         }
+        if (u.maxCoeff() - u.minCoeff() > widest_range) {
+            report.reason = "the scale factors run away: nothing has this curvature";
+            return report;
+        }
         context.checkpoint();
         VectorXd direction = solve(energy.hessian(), -gradient);
         direction.array() -= direction.mean();
         const double slope = gradient.dot(direction);
-        double step = std::min(1.0, longest_step / std::max(direction.lpNorm<Eigen::Infinity>(), 1e-300));
+        const double first = std::min(1.0, longest_step / std::max(direction.lpNorm<Eigen::Infinity>(), 1e-300));
+        double step = first;
         VectorXd next;
         for (;; step *= 0.5) {
-            if (!(slope < 0.0) || !(step > shortest_step)) {
+            if (!(slope < 0.0) || !(step > shortest_step * first)) {
                 report.reason = "no step lowers the energy";
                 return report;
             }

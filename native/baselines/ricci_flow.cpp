@@ -86,7 +86,7 @@ public:
             lay_out(result);
             CircleState next = circle_state(outcome.loops, fit_circle_least_squares);
             const double change = circle_change(now, next);
-            outcome.history.push_back({outcome.steps, {0, 0}, change, next.mean_roundness});
+            outcome.history.push_back({outcome.steps, {0, 0}, change, next.mean_roundness, next.circles});
             now = std::move(next);
             context.advance(1.0 - std::pow(0.8, outcome.sweeps));
             if (!report.converged) {

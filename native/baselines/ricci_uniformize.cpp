@@ -3,6 +3,7 @@
 #include "conformal/circle_fit.h"
 #include "conformal/distortion.h"
 #include "conformal/domain.h"
+#include "conformal/flap_map.h"
 #include "conformal/flip_removal.h"
 #include "conformal/flip_report.h"
 #include "conformal/moebius.h"
@@ -22,6 +23,7 @@ namespace koebe {
 namespace {
 
 constexpr double on_circle = 1e-6;        // a length in the unit disk
+constexpr double flat = 1e-5;             // radians of curvature left at a vertex
 constexpr double worth_a_warning = 1e-3;  // relative change of a length
 
 using Clock = std::chrono::steady_clock;
@@ -59,6 +61,20 @@ VectorXcd in_normal_position(const RicciFlowResult& flow, const Domain& domain, 
         result.loops.push_back(std::move(report));
     }
     return positions;
+}
+
+/// What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to. Only hangs the
+/// flaps back.
+PlanarPoints leave_flips(const NamedSurface& whole, const FlapCut& cut, const PlanarPoints& core_uv,
+                         std::vector<LoopReport>& reports, ExecutionContext& context)
+{
+    for (std::size_t k = 0; k < reports.size(); ++k)
+        for (const Index v : whole.loops[k]) reports[k].vertices.push_back(whole.original[v]);
+    if (cut.flaps.empty()) return core_uv;
+    PlanarPoints uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
+    uv(cut.vertices, Eigen::all) = core_uv;
+    hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
+    return uv;
 }
 
 /// Adds the vertices that are not on the circles: the flow puts none there by force.
@@ -125,7 +141,9 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     const std::size_t own_flips = flipped_faces(domain.surface.triangles, core_uv).size();
     const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original};
     UntangleReport untangled;
-    const PlanarPoints uv = remove_flips(named, cut, std::move(core_uv), result.loops, untangled, context);
+    const PlanarPoints uv = flow.curvature_error < flat
+                                ? remove_flips(named, cut, std::move(core_uv), result.loops, untangled, context)
+                                : leave_flips(named, cut, core_uv, result.loops, context);
     report_off_circle(whole, uv, result.loops);
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
     result.uv = PlanarPoints::Zero(vertices.rows(), 2);

@@ -16,9 +16,9 @@ struct RicciOptions {
 /// Maps a surface with holes to a circle domain by the discrete Ricci flow (baselines/ricci_flow.h).
 ///
 /// Before and after it is what uniformize does: flaps cut off first and hung back, flipped faces untangled, two loops
-/// made concentric. The flow's own map is neither put on circles nor balanced. Method and engine of the result are
-/// those of the options and mean nothing. The warnings say by how much the packing has changed the metric, how many
-/// faces the flow's own map flips, and why it has not converged.
+/// made concentric; only where curvature is left the flips stay. The flow's own map is neither put on circles nor
+/// balanced. Method and engine of the result are those of the options and mean nothing. The warnings say by how much
+/// the packing has changed the metric, how many faces the flow's own map flips, and why it has not converged.
 /// @throws InputError, TopologyError, SolverError, Cancelled; non-convergence is reported, not thrown
 UniformizeResult ricci_uniformize(const Vertices& vertices, const Triangles& triangles, const RicciOptions& options,
                                   ExecutionContext& context);
