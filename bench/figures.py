@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Two of the paper's figures: level sets of a harmonic function and its conjugate, and a circle domain
+"""Some of the paper's figures: level sets of a harmonic function and its conjugate, and a circle domain
 reflected in its circles again and again."""
 
 import json
@@ -27,6 +27,9 @@ WARM, COLD, EDGE = "#c8553d", "#1d5f78", "#1b2a41"
 def svg(width, height, parts):
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}">'
     return "\n".join([head, f'<rect width="{width}" height="{height}" fill="#ffffff"/>', *parts, "</svg>\n"])
+
+
+MOST_LEVELS = 15  # then level lines run into each other
 
 
 # ---------------------------------------------------------------- level sets
@@ -89,15 +92,17 @@ def path_of(lines):
     return "".join(words)
 
 
-def level_sets(out):
-    """A surface with one hole, and the annulus: f and its conjugate, the real and imaginary part of a logarithm."""
-    mesh, mapped = out / "one_hole.obj", out / "one_hole_mapped.obj"
-    subprocess.run([convergence.RATES, "surface", "1", "12000", mesh], check=True)
+def level_sets(out, holes):
+    """A surface with one hole and the annulus, or without and the disk: f and its conjugate, the real and imaginary
+    part of a logarithm."""
+    mesh, mapped = out / "level_sets.obj", out / "level_sets_mapped.obj"
+    subprocess.run([convergence.RATES, "surface", str(holes), "12000", mesh], check=True)
     subprocess.run([KOEBE, "uniformize", mesh, mapped, "--quiet"], check=True)
     points, disk, triangles = read_obj(mapped)
     z = disk @ [1.0, 1j]
     f, conjugate = -np.log(np.abs(z)), np.angle(z)
     step = 2.0 * math.pi / 36.0
+    drawn = triangles[f[triangles].max(axis=1) < (MOST_LEVELS + 3) * step]  # the logarithm has a pole in the disk
     tilt = math.radians(38.0)
     seen = np.column_stack([points[:, 0], math.cos(tilt) * points[:, 1] + math.sin(tilt) * points[:, 2]])
     low, high = seen.min(axis=0), seen.max(axis=0)
@@ -108,8 +113,11 @@ def level_sets(out):
         border = path_of(chains(boundary_graph(triangles, place)))
         parts.append(f'<path fill="{PAPER}" fill-rule="evenodd" d="{border}"/>')
         for values, period, color in ((f, None, WARM), (conjugate, 2 * math.pi, COLD)):
-            lines = level_lines(values, place, triangles, step, period)
+            lines = level_lines(values, place, drawn, step, period)
             parts.append(f'<path stroke="{color}" d="{path_of(lines)}"/>')
+        if f.max() > MOST_LEVELS * step:
+            last = path_of(level_lines(f, place, drawn, MOST_LEVELS * step))
+            parts.append(f'<path fill="{PAPER}" stroke="{WARM}" d="{last}"/>')
         parts.append(f'<path stroke="{EDGE}" stroke-width="24" d="{border}"/>')
     return svg(720, 360, [*parts, "</g>"])
 
@@ -185,6 +193,7 @@ def write_png(path, colors):
 
 
 def draw(out):
-    """Both, into the folder."""
-    (out / "level_sets.svg").write_text(level_sets(out), encoding="utf-8")
+    """All of them, into the folder."""
+    for holes, name in ((1, "level_sets.svg"), (0, "level_sets_disk.svg")):
+        (out / name).write_text(level_sets(out, holes), encoding="utf-8")
     write_png(out / "schottky.png", schottky(out, "perforated_panel"))

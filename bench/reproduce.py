@@ -43,7 +43,8 @@ RUNS = {
     "GK mesh": ("uniformize", "--method", "gk", "--engine", "mesh"),
     "CK mesh": ("uniformize", "--method", "ck", "--engine", "mesh"),
     "RF": ("ricci",),
-    "RF acute": ("ricci", "--packing", "acute", "--target", "proportional"),
+    "RF, given": ("ricci", "--triangulation", "given"),
+    "RF, acute": ("ricci", "--triangulation", "given", "--packing", "acute", "--target", "proportional"),
 }
 
 

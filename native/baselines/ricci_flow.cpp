@@ -55,17 +55,17 @@ VectorXd chord_angles(const VectorXd& edges)
 
 class RicciFlow {
 public:
-    RicciFlow(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
-              const std::vector<VertexLoop>& loops, const RicciFlowOptions& options)
-        : triangles_(triangles),
+    RicciFlow(const IntrinsicMetric& metric, Index vertex_count, const std::vector<VertexLoop>& loops,
+              const RicciFlowOptions& options)
+        : triangles_(metric.triangles),
           loops_(loops),
           options_(options),
-          twin_(pair_halfedges(triangles, vertex_count)),
-          packing_(circle_packing(triangles, lengths, vertex_count, options.packing)),
+          twin_(metric.twin),
+          packing_(circle_packing(triangles_, metric.lengths, vertex_count, options.packing)),
           u_(packing_.log_radii),
-          energy_(triangles, packing_, mask(vertex_count, loops))
+          energy_(triangles_, packing_, mask(vertex_count, loops))
     {
-        for (const VertexLoop& loop : loops) halfedges_.push_back(loop_halfedges(triangles, twin_, loop));
+        for (const VertexLoop& loop : loops) halfedges_.push_back(loop_halfedges(triangles_, twin_, loop));
     }
 
     RicciFlowResult run(ExecutionContext& context)
@@ -102,7 +102,7 @@ public:
         if (!result.collapsed.empty()) {
             outcome.converged = false;
             result.reason = std::to_string(result.collapsed.size()) +
-                            " faces have collapsed (no metric on this triangulation has the curvature wanted)" +
+                            " collapsed faces (no metric on this triangulation has the curvature wanted)" +
                             (result.reason.empty() ? "" : "; " + result.reason);
         }
         return result;
@@ -165,7 +165,7 @@ private:
     const Triangles& triangles_;
     const std::vector<VertexLoop>& loops_;
     RicciFlowOptions options_;
-    std::vector<Index> twin_;
+    const std::vector<Index>& twin_;
     CirclePacking packing_;
     VectorXd u_;
     RicciEnergy energy_;
@@ -207,11 +207,10 @@ VectorXd turning_angles(const VectorXd& edges, BoundaryTarget target)
     return turning;
 }
 
-RicciFlowResult ricci_flow(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
-                           const std::vector<VertexLoop>& loops, const RicciFlowOptions& options,
-                           ExecutionContext& context)
+RicciFlowResult ricci_flow(const IntrinsicMetric& metric, Index vertex_count, const std::vector<VertexLoop>& loops,
+                           const RicciFlowOptions& options, ExecutionContext& context)
 {
-    return RicciFlow(triangles, lengths, vertex_count, loops, options).run(context);
+    return RicciFlow(metric, vertex_count, loops, options).run(context);
 }
 
 }  // namespace koebe

@@ -5,6 +5,7 @@
 #include "baselines/convex_newton.h"
 #include "conformal/koebe_iteration.h"
 #include "core/execution.h"
+#include "geometry/intrinsic_metric.h"
 
 #include <string>
 #include <vector>
@@ -43,12 +44,12 @@ struct RicciFlowResult {
 /// mode of a change comes back with the factor -1, on the outer loop with +1 (a Moebius map), higher ones with
 /// -1/k and 1/k. The metric is unfolded, and positions fitted to the edges.
 ///
-/// @param triangles (F, 3) a surface of genus 0 @param lengths (F, 3) with strict triangle inequalities
+/// @param metric a surface of genus 0 with strict triangle inequalities. The flow flips no edge: needles collapse, of
+///        which an intrinsic Delaunay triangulation has fewer
 /// @param loops the outer one first, surface on the left
 /// @throws SolverError, Cancelled; no convergence is reported
-RicciFlowResult ricci_flow(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
-                           const std::vector<VertexLoop>& loops, const RicciFlowOptions& options,
-                           ExecutionContext& context);
+RicciFlowResult ricci_flow(const IntrinsicMetric& metric, Index vertex_count, const std::vector<VertexLoop>& loops,
+                           const RicciFlowOptions& options, ExecutionContext& context);
 
 /// The energy itself.
 class RicciEnergy : public ConvexEnergy {

@@ -112,7 +112,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 
     context.begin_stage("metric", 0.05, 0.1);
     auto stage = Clock::now();
-    const IntrinsicMetric metric = intrinsic_metric(domain.vertices, domain.surface, {.delaunay = false});
+    const IntrinsicMetric metric = intrinsic_metric(domain.vertices, domain.surface, {.delaunay = options.delaunay});
     result.seconds.metric = seconds_since(stage);
 
     context.begin_stage("iterate", 0.1, 0.9);
@@ -124,8 +124,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
                                   .newton = {}};
     const RicciFlowResult flow = [&] {
         const DenseThreads threads(options.common.threads, 0, result.face_count);
-        return ricci_flow(metric.triangles, metric.lengths, domain.surface.vertex_count, domain.loops, flow_options,
-                          context);
+        return ricci_flow(metric, domain.surface.vertex_count, domain.loops, flow_options, context);
     }();
     result.converged = flow.outcome.converged;
     result.sweeps = flow.outcome.sweeps;

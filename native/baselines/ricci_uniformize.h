@@ -11,6 +11,7 @@ struct RicciOptions {
     UniformizeOptions common;  ///< outer, tolerance, max_sweeps (updates of the target) and threads count
     Packing packing = Packing::inversive;
     BoundaryTarget target = BoundaryTarget::inscribed;
+    bool delaunay = true;  ///< flip the surface's edges to intrinsic Delaunay first, as uniformize does
 };
 
 /// Maps a surface with holes to a circle domain by the discrete Ricci flow (baselines/ricci_flow.h).

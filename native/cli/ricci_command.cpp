@@ -11,14 +11,15 @@ namespace koebe::cli {
 namespace {
 
 struct Request : MapRequest {
-    std::string packing = "inversive", target = "inscribed";
+    std::string packing = "inversive", target = "inscribed", triangulation = "delaunay";
 };
 
 RicciOptions ricci_options(const Request& request)
 {
     return {.common = request.options,
             .packing = request.packing == "acute" ? Packing::acute : Packing::inversive,
-            .target = request.target == "inscribed" ? BoundaryTarget::inscribed : BoundaryTarget::proportional};
+            .target = request.target == "inscribed" ? BoundaryTarget::inscribed : BoundaryTarget::proportional,
+            .delaunay = request.triangulation == "delaunay"};
 }
 
 }  // namespace
@@ -38,6 +39,11 @@ Subcommand add_ricci(CLI::App& app)
         ->add_option("--target", request->target,
                      "curvature of a loop's edges, inscribed: as chords of a circle, proportional: by length")
         ->check(CLI::IsMember({"inscribed", "proportional"}))
+        ->capture_default_str();
+    options
+        ->add_option("--triangulation", request->triangulation,
+                     "delaunay: edges are flipped on the surface before, given: those of the file")
+        ->check(CLI::IsMember({"delaunay", "given"}))
         ->capture_default_str();
     add_map_options(*options, *request);
     options->get_option("--tolerance")->description("on the circles' change in an update, a length in the unit disk");

@@ -27,7 +27,7 @@ double mollify(EdgeLengths& lengths, double margin)
 class DelaunayFlipper {
 public:
     DelaunayFlipper(IntrinsicMetric& metric, const Surface& surface)
-        : triangles_(metric.triangles), lengths_(metric.lengths), twin_(surface.twin),
+        : triangles_(metric.triangles), lengths_(metric.lengths), twin_(metric.twin),
           loop_of_(surface.vertex_count, -1)
     {
         for (std::size_t k = 0; k < surface.loops.size(); ++k)
@@ -94,7 +94,7 @@ private:
 
     Triangles& triangles_;
     EdgeLengths& lengths_;
-    std::vector<Index> twin_;
+    std::vector<Index>& twin_;
     std::vector<Index> loop_of_;
 };
 
@@ -106,6 +106,7 @@ IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surfac
     IntrinsicMetric metric;
     metric.triangles = surface.triangles;
     metric.lengths = edge_lengths(vertices, surface.triangles);
+    metric.twin = surface.twin;
     if (options.mollify) metric.mollification = mollify(metric.lengths, options.margin);
     if (options.delaunay) metric.flips = DelaunayFlipper(metric, surface).run();
     return metric;

@@ -6,6 +6,7 @@
 #include "circle_domain.h"
 #include "conformal/circle_fit.h"
 #include "core/connectivity.h"
+#include "geometry/edge_flip.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 using namespace koebe;
 using namespace koebe::test;
@@ -41,7 +43,8 @@ struct Sample {
     RicciFlowResult flow(const RicciFlowOptions& options) const
     {
         ExecutionContext context;
-        return ricci_flow(domain.triangles, lengths, vertex_count, domain.loops, options, context);
+        return ricci_flow({domain.triangles, lengths, pair_halfedges(domain.triangles, vertex_count)}, vertex_count,
+                          domain.loops, options, context);
     }
     double circle_error(const RicciFlowResult& result) const
     {
@@ -220,7 +223,8 @@ TEST(RicciFlow, a_boundary_vertex_with_one_face_at_a_hole_cannot_be_met_and_is_r
     loops[1].insert(loops[1].begin() + 1, sample.vertex_count);
     ExecutionContext context;
     const RicciFlowResult result =
-        ricci_flow(triangles, lengths, sample.vertex_count + 1, loops, {.max_updates = 20, .newton = {}}, context);
+        ricci_flow({triangles, lengths, pair_halfedges(triangles, sample.vertex_count + 1)}, sample.vertex_count + 1,
+                   loops, {.max_updates = 20, .newton = {}}, context);
     EXPECT_FALSE(result.outcome.converged);
     EXPECT_FALSE(result.reason.empty());
     EXPECT_TRUE(result.positions.allFinite());
@@ -244,4 +248,41 @@ TEST(RicciFlow, two_loops_become_concentric)
     EXPECT_LT(std::abs(result.loops[1].circle.center), 1e-6);
     EXPECT_NEAR(-std::log(result.loops[1].circle.radius),
                 std::acosh(inversive_distance(domain.circles[0], domain.circles[1])), 0.02);
+}
+
+TEST(RicciFlow, needles_of_the_given_triangulation_collapse_and_intrinsic_delaunay_flips_spare_them)
+{
+    // A good mesh whose inner edges have been flipped at random, as long as the faces stay the right way round.
+    const Sample sample(1500, Lift::polynomial);
+    const Vertices vertices = lift(sample.domain.points, Lift::polynomial);
+    const auto area = [&](Index a, Index b, Index c) {
+        const Eigen::RowVector3d u = vertices.row(b) - vertices.row(a), v = vertices.row(c) - vertices.row(a);
+        return u[0] * v[1] - u[1] * v[0];
+    };
+    Triangles triangles = sample.domain.triangles;
+    EdgeLengths lengths = sample.lengths;
+    std::vector<Index> twin = pair_halfedges(triangles, sample.vertex_count);
+    std::mt19937 generator(3);
+    std::set<std::pair<Index, Index>> edges;
+    for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
+        edges.insert(std::minmax(origin(triangles, h), target(triangles, h)));
+    for (int i = 0; i < 4000; ++i) {
+        const Index h = static_cast<Index>(generator() % twin.size()), t = twin[h];
+        if (t == no_twin) continue;
+        const Index a = origin(triangles, h), b = origin(triangles, t);
+        const Index c = origin(triangles, previous_halfedge(h)), d = origin(triangles, previous_halfedge(t));
+        if (sample.boundary[a] || sample.boundary[b] || sample.boundary[c] || sample.boundary[d]) continue;
+        if (area(d, c, a) <= 0.0 || area(c, d, b) <= 0.0 || !edges.insert(std::minmax(c, d)).second) continue;
+        edges.erase(std::minmax(a, b));
+        flip_edge(triangles, lengths, twin, h, (vertices.row(c) - vertices.row(d)).norm());
+    }
+    ExecutionContext context;
+    const UniformizeResult given = ricci_uniformize(vertices, triangles, {.common = {}, .delaunay = false}, context);
+    const UniformizeResult flipped = ricci_uniformize(vertices, triangles, {}, context);
+    EXPECT_FALSE(given.converged);
+    EXPECT_TRUE(flipped.converged);
+    for (const UniformizeResult* result : {&given, &flipped}) {
+        EXPECT_TRUE(result->uv.allFinite());
+        for (const LoopReport& loop : result->loops) EXPECT_FALSE(loop.vertices.empty());
+    }
 }

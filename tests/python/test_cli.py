@@ -282,6 +282,7 @@ def test_out_may_be_in(mesh):
         ["ricci", "in.obj", "out.obj", "--method", "gk"],
         ["ricci", "in.obj", "out.obj", "--packing", "obtuse"],
         ["ricci", "in.obj", "out.obj", "--target", "round"],
+        ["ricci", "in.obj", "out.obj", "--triangulation", "fan"],
         ["ricci", "in.obj", "out.obj", "--svg", "out.obj"],
     ],
 )
