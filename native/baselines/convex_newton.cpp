@@ -79,7 +79,13 @@ NewtonReport ConvexNewton::minimize(ConvexEnergy& energy, VectorXd& u, const New
             return report;
         }
         context.checkpoint();
-        VectorXd direction = solve(energy.hessian(), -gradient);
+        VectorXd direction;
+        try {
+            direction = solve(energy.hessian(), -gradient);
+        } catch (const SolverError&) {
+            report.reason = "the Hessian is singular up to round-off";
+            return report;
+        }
         direction.array() -= direction.mean();
         const double slope = gradient.dot(direction);
         const double first = std::min(1.0, longest_step / std::max(direction.lpNorm<Eigen::Infinity>(), 1e-300));

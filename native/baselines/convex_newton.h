@@ -39,7 +39,7 @@ public:
     /// Minimizes the energy from u on. A step is halved until the derivative along it is no larger than half of what
     /// it was at the start, which a convex energy with a continuous gradient reaches; the energy itself is not needed,
     /// whose differences are lost to round-off near the minimum. The mean of u stays.
-    /// @throws SolverError, Cancelled
+    /// @throws Cancelled
     NewtonReport minimize(ConvexEnergy& energy, VectorXd& u, const NewtonOptions& options, ExecutionContext& context);
 
 private:

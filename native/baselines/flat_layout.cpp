@@ -46,7 +46,7 @@ VectorXcd unfolded_edges(const Triangles& triangles, const EdgeLengths& lengths,
 VectorXcd positions_from_edges(const Triangles& triangles, const EdgeLengths& lengths, const VectorXcd& edges,
                                Index vertex_count)
 {
-    const EdgeLengths weights = lengths.array().square().inverse();
+    const EdgeLengths weights = lengths.array().inverse();
     SparseMatrix laplacian = cotan_laplacian(triangles, weights, vertex_count);
     MatrixXd load = MatrixXd::Zero(vertex_count, 2);
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {

@@ -12,7 +12,7 @@ namespace koebe {
 /// half-edges of every edge are opposite.
 VectorXcd unfolded_edges(const Triangles& triangles, const EdgeLengths& lengths, const std::vector<Index>& twin);
 
-/// (V) positions whose differences are nearest to the edges in relative least squares, sum |dz - e|^2 / l^2: exact
+/// (V) positions whose differences are nearest to the edges in weighted least squares, sum |dz - e|^2 / l: exact
 /// where the edges close up round every hole, the gap shared evenly where they do not. 0 at vertices of no face.
 /// @throws SolverError
 VectorXcd positions_from_edges(const Triangles& triangles, const EdgeLengths& lengths, const VectorXcd& edges,

@@ -53,6 +53,16 @@ VectorXd chord_angles(const VectorXd& edges)
     return result * (pi / result.sum());
 }
 
+/// Along a tree where the lengths differ by so much that no least squares are left of them in double precision.
+VectorXcd laid_out(const Triangles& triangles, const EdgeLengths& lengths, const VectorXcd& edges, Index vertex_count)
+{
+    try {
+        return positions_from_edges(triangles, lengths, edges, vertex_count);
+    } catch (const SolverError&) {
+        return positions_along_tree(triangles, edges, vertex_count);
+    }
+}
+
 class RicciFlow {
 public:
     RicciFlow(const IntrinsicMetric& metric, Index vertex_count, const std::vector<VertexLoop>& loops,
@@ -102,7 +112,8 @@ public:
         if (!result.collapsed.empty()) {
             outcome.converged = false;
             result.reason = std::to_string(result.collapsed.size()) +
-                            " collapsed faces (no metric on this triangulation has the curvature wanted)" +
+                            (result.collapsed.size() == 1 ? " face has" : " faces have") +
+                            " collapsed (no metric on this triangulation has the curvature wanted)" +
                             (result.reason.empty() ? "" : "; " + result.reason);
         }
         return result;
@@ -145,7 +156,7 @@ private:
     {
         const EdgeLengths& lengths = energy_.lengths();
         const VectorXcd edges = unfolded_edges(triangles_, lengths, twin_);
-        const VectorXcd plane = positions_from_edges(triangles_, lengths, edges, static_cast<Index>(u_.size()));
+        const VectorXcd plane = laid_out(triangles_, lengths, edges, static_cast<Index>(u_.size()));
         result.closing_gap = 0.0;
         for (std::size_t k = 0; k < loops_.size(); ++k) {
             Complex gap = 0.0;

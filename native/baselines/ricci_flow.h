@@ -47,7 +47,7 @@ struct RicciFlowResult {
 /// @param metric a surface of genus 0 with strict triangle inequalities. The flow flips no edge: needles collapse, of
 ///        which an intrinsic Delaunay triangulation has fewer
 /// @param loops the outer one first, surface on the left
-/// @throws SolverError, Cancelled; no convergence is reported
+/// @throws Cancelled; no convergence is reported
 RicciFlowResult ricci_flow(const IntrinsicMetric& metric, Index vertex_count, const std::vector<VertexLoop>& loops,
                            const RicciFlowOptions& options, ExecutionContext& context);
 

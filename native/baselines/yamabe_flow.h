@@ -63,7 +63,7 @@ private:
 /// have its minimum where faces have collapsed: then no metric of the class on this triangulation has the curvature.
 /// @param triangles (F, 3) oriented, manifold @param lengths (F, 3) in any unit, which may break the triangle
 /// inequality
-/// @throws InputError the target's size or sum is wrong; SolverError, Cancelled. No convergence is reported.
+/// @throws InputError the target's size or sum is wrong; Cancelled. No convergence is reported.
 YamabeResult yamabe_flow(const Triangles& triangles, const EdgeLengths& lengths, const VectorXd& target,
                          const YamabeOptions& options, ExecutionContext& context);
 

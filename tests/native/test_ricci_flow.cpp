@@ -286,3 +286,43 @@ TEST(RicciFlow, needles_of_the_given_triangulation_collapse_and_intrinsic_delaun
         for (const LoopReport& loop : result->loops) EXPECT_FALSE(loop.vertices.empty());
     }
 }
+
+TEST(FlatLayout, a_flat_mesh_comes_back_by_both_ways_and_a_gap_is_shared)
+{
+    const Sample sample(900, Lift::plane);
+    const std::vector<Index> twin = pair_halfedges(sample.domain.triangles, sample.vertex_count);
+    VectorXcd edges = unfolded_edges(sample.domain.triangles, sample.lengths, twin);
+    const auto off = [&](const VectorXcd& positions) {
+        // The best motion taken out.
+        const VectorXcd a = sample.domain.points.array() - sample.domain.points.mean();
+        const VectorXcd b = positions.array() - positions.mean();
+        const Complex turn = b.dot(a) / b.squaredNorm();
+        EXPECT_NEAR(std::abs(turn), 1.0, 1e-3);
+        return (a - turn * b).cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(off(positions_along_tree(sample.domain.triangles, edges, sample.vertex_count)), 1e-11);
+    EXPECT_LT(off(positions_from_edges(sample.domain.triangles, sample.lengths, edges, sample.vertex_count)), 1e-11);
+    edges[5] *= 1.01;  // one half-edge that does not close up: felt nearby, and by less than itself
+    const double moved = off(positions_from_edges(sample.domain.triangles, sample.lengths, edges, sample.vertex_count));
+    EXPECT_GT(moved, 1e-6);
+    EXPECT_LT(moved, 0.01 * std::abs(edges[5]));
+}
+
+TEST(ConvexNewton, a_curvature_that_no_metric_has_makes_the_factors_run_away_and_is_reported)
+{
+    // Two triangles on an edge: 3 pi of curvature at one corner would take a negative angle there.
+    Triangles triangles(2, 3);
+    triangles << 0, 1, 2, 2, 1, 3;
+    const std::vector<char> boundary(4, 1);
+    RicciEnergy energy(triangles, circle_packing(triangles, EdgeLengths::Ones(2, 3), 4, Packing::inversive), boundary);
+    VectorXd target(4);
+    target << 1.5 * pi, 0.0, 0.0, 0.5 * pi;
+    energy.set_target(target);
+    VectorXd u = VectorXd::Zero(4);
+    ExecutionContext context;
+    const NewtonReport report = ConvexNewton().minimize(energy, u, {}, context);
+    EXPECT_FALSE(report.converged);
+    EXPECT_FALSE(report.reason.empty());
+    EXPECT_EQ(report.residuals.size(), static_cast<std::size_t>(report.steps + 1));
+    EXPECT_GT(report.residuals.back(), 0.1);
+}
