@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -15,8 +14,7 @@ namespace koebe {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double hole_damping = 2.0 / 3.0;                        // the factors of all modes then lie within 1/3
-constexpr double slower = 0.5, faster = 1.15, least_pace = 0.02;  // where changes grow: holes that nearly touch
+constexpr double hole_damping = 2.0 / 3.0;  // the factors of all modes then lie within 1/3
 constexpr double newton_per_target = 1e-3;  // a target that still moves need not be met better than that
 
 /// The half-edges of a loop, in the order of its vertices.
@@ -86,9 +84,7 @@ public:
         result.packing_change = packing_.changed;
         KoebeOutcome& outcome = result.outcome;
         CircleState now;
-        double last = std::numeric_limits<double>::infinity();
         while (!outcome.converged && outcome.sweeps < options_.max_updates) {
-            const double pace = pace_;
             const double moved = update_target();
             energy_.set_target(target_);
             NewtonOptions newton = options_.newton;
@@ -101,15 +97,13 @@ public:
             CircleState next = circle_state(outcome.loops, fit_circle_least_squares);
             const double change = circle_change(now, next);
             outcome.history.push_back({outcome.steps, {0, 0}, change, next.mean_roundness, next.circles});
-            pace_ = change < last ? std::min(1.0, pace_ * faster) : std::max(least_pace, pace_ * slower);
-            last = change;
             now = std::move(next);
             context.advance(1.0 - std::pow(0.8, outcome.sweeps));
             if (!report.converged) {
                 result.reason = report.reason + ": curvature off by up to " + std::to_string(result.curvature_error);
                 break;
             }
-            outcome.converged = change < pace * options_.tolerance && moved < options_.tolerance;
+            outcome.converged = change < options_.tolerance && moved < options_.tolerance;
         }
         if (!outcome.converged && result.reason.empty())
             result.reason = "the boundary's target still moves after " + std::to_string(outcome.sweeps) + " updates";
@@ -134,7 +128,7 @@ private:
         return boundary;
     }
 
-    /// Moves the target towards that of the present lengths; how far off it was, in radians, at most.
+    /// Moves the target towards that of the present lengths; by how much, in radians, at most.
     double update_target()
     {
         energy_.set_target(VectorXd::Zero(u_.size()));
@@ -148,10 +142,10 @@ private:
             for (std::size_t b = 0; b < loops_[k].size(); ++b) {
                 const Index v = loops_[k][b];
                 const bool first = target_.size() == 0;
-                const double damping = first ? 1.0 : k == 0 ? pace_ : hole_damping * pace_;
+                const double damping = first || k == 0 ? 1.0 : hole_damping;
                 const double old = first ? 0.0 : target_[v];
                 wanted[v] = old + damping * (turning[b] - old);
-                moved = std::max(moved, std::abs(turning[b] - old));
+                moved = std::max(moved, std::abs(wanted[v] - old));
             }
         }
         target_ = std::move(wanted);
@@ -189,7 +183,6 @@ private:
     ConvexNewton newton_;
     std::vector<std::vector<Index>> halfedges_;
     VectorXd target_;
-    double pace_ = 1.0;  // of the changes of the target
 };
 
 }  // namespace

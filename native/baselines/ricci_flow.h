@@ -42,8 +42,7 @@ struct RicciFlowResult {
 /// centres' weights. The target is 0 inside; that of the boundary depends on the lengths it leads to, and is updated
 /// until the circles stand still. Changes of the target are damped to 2/3 at holes: along a round hole the first
 /// mode of a change comes back with the factor -1, on the outer loop with +1 (a Moebius map), higher ones with
-/// -1/k and 1/k. Where holes nearly touch that is not enough: when the circles move more than before, the pace is
-/// halved. The metric is unfolded, and positions fitted to the edges.
+/// -1/k and 1/k. The metric is unfolded, and positions fitted to the edges.
 ///
 /// @param metric a surface of genus 0 with strict triangle inequalities. The flow flips no edge: needles collapse, of
 ///        which an intrinsic Delaunay triangulation has fewer
