@@ -57,7 +57,8 @@ def log_plot(panels, x_label, y_label, lowest=1e-14, highest=1.0):
             if not seen:
                 continue
             path = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in seen)
-            out.append(f'<path d="{path}" fill="none" stroke="{color}" stroke-width="1.6" stroke-dasharray="{dashes}"/>')
+            stroke = f'stroke="{color}" stroke-width="1.6" stroke-dasharray="{dashes}"'
+            out.append(f'<path d="{path}" fill="none" {stroke}/>')
             out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.3" fill="{color}"/>' for x, y in seen]
     at = LEFT
     for name, color, dashes, _ in panels[0][1]:

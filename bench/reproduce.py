@@ -129,7 +129,8 @@ def compare(surfaces, runs):
 def markdown(rows):
     """The table of all runs, and that of the steps."""
     lines = [
-        "| size of | holes | vertices | faces | method | converged | steps | mean e(γ) | largest | angle error | flipped "
+        "| size of | holes | vertices | faces | method | converged | steps | mean e(γ) | largest | angle error | "
+        "flipped "
         "| time / GK condensed |",
         "|" + " --- |" * 12,
     ]

@@ -149,7 +149,8 @@ AnnulusMap map_by_cylinder(const Triangles& triangles, const EdgeLengths& length
 {
     constexpr double two_pi = 2.0 * std::numbers::pi;
     ExecutionContext context;
-    const YamabeResult metric = yamabe_flow(triangles, lengths, VectorXd::Zero(vertex_count), {.flips = flips, .newton = {}}, context);
+    const YamabeResult metric =
+        yamabe_flow(triangles, lengths, VectorXd::Zero(vertex_count), {.flips = flips, .newton = {}}, context);
     const VectorXcd edges = unfolded_edges(metric.triangles, metric.lengths, metric.twin);
     VectorXcd strip = positions_along_tree(metric.triangles, edges, vertex_count) / period_of(metric, edges, outer);
     strip.array() -= strip[outer.front()];

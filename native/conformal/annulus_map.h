@@ -49,8 +49,8 @@ struct AnnulusMap {
 /// @param triangles (F, 3) oriented, exactly two boundary loops
 /// @param lengths (F, 3) edge lengths, in any unit, which may even differ between parts that are conformally flat
 /// @param outer, inner the boundary loops, surface on the left
-/// @return orientation kept: the outer loop runs counter-clockwise. At 1 is the first vertex of the cut, or of the outer
-///         loop with the Yamabe backend, which reports it if it does not converge
+/// @return orientation kept: the outer loop runs counter-clockwise. At 1 is the first vertex of the cut, or of the
+///         outer loop with the Yamabe backend, which reports it if it does not converge
 /// @throws TopologyError the loops are not connected; SolverError
 AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                        const VertexLoop& outer, const VertexLoop& inner, const AnnulusMapOptions& options = {});
