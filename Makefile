@@ -20,7 +20,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .NOTPARALLEL:
 .SECONDARY:
 .PHONY: help build native wheel package test test-native test-python test-blender test-gui test-asan \
-        demo bench bench-addon samples clean distclean
+        demo bench reproduce bench-addon samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -84,6 +84,9 @@ demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.
 
 bench: build $(DONE)/install-blender ## time and accuracy: out/bench/
 	$(PYTHON) bench/run.py
+
+reproduce: build $(DONE)/install-blender ## the paper's comparison, its rates and figures: out/reproduce/
+	$(PYTHON) bench/reproduce.py
 
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python bench/addon_overhead.py

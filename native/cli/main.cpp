@@ -47,7 +47,8 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done; 2 wrong usage; 3 the mesh cannot be mapped; 4 not converged (files are written);\n"
                "130 interrupted (nothing is written).");
-    const std::vector<Subcommand> commands{add_uniformize(app), add_fill(app), add_module(app), add_compare(app)};
+    const std::vector<Subcommand> commands{add_uniformize(app), add_fill(app), add_module(app), add_compare(app),
+                                           add_ricci(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,5 +1,7 @@
 #include "conformal/annulus_map.h"
 
+#include "baselines/flat_layout.h"
+#include "baselines/yamabe_flow.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "geometry/sparse_cholesky.h"
@@ -130,10 +132,52 @@ VectorXcd exponential(const Triangles& triangles, const AnnulusMap& map)
     return positions;
 }
 
-}  // namespace
+/// The vector once round a loop, which is a closed geodesic of the unfolded cylinder.
+Complex period_of(const YamabeResult& metric, const VectorXcd& edges, const VertexLoop& loop)
+{
+    std::vector<char> member(metric.u.size(), 0);
+    for (const Index v : loop) member[v] = 1;
+    Complex period = 0.0;
+    for (Index h = 0; h < static_cast<Index>(metric.twin.size()); ++h)
+        if (metric.twin[h] == no_twin && member[origin(metric.triangles, h)]) period += edges[h];
+    return period;
+}
 
-AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
-                       const VertexLoop& outer, const VertexLoop& inner)
+/// exp(2 pi i w / L) of the flat cylinder.
+AnnulusMap map_by_cylinder(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                           const VertexLoop& outer, const VertexLoop& inner, bool flips)
+{
+    constexpr double two_pi = 2.0 * std::numbers::pi;
+    ExecutionContext context;
+    const YamabeResult metric =
+        yamabe_flow(triangles, lengths, VectorXd::Zero(vertex_count), {.flips = flips, .newton = {}}, context);
+    const VectorXcd edges = unfolded_edges(metric.triangles, metric.lengths, metric.twin);
+    VectorXcd strip = positions_along_tree(metric.triangles, edges, vertex_count) / period_of(metric, edges, outer);
+    strip.array() -= strip[outer.front()];
+    const auto mean_height = [&](const VertexLoop& loop) {
+        double sum = 0.0;
+        for (const Index v : loop) sum += strip[v].imag();
+        return sum / static_cast<double>(loop.size());
+    };
+    strip.array() -= Complex(0.0, mean_height(outer));
+
+    AnnulusMap map;
+    map.positions = (Complex(0.0, two_pi) * strip).array().exp();
+    const std::vector<char> unused = unused_vertices(triangles, vertex_count);
+    for (Index v = 0; v < vertex_count; ++v)
+        if (unused[v]) map.positions[v] = 0.0;
+    map.inner_radius = std::exp(-two_pi * mean_height(inner));
+    map.lambda = 1.0 / mean_height(inner);
+    map.converged = metric.converged;
+    map.collapsed = static_cast<Index>(metric.collapsed.size());
+    map.steps = metric.newton.steps;
+    map.curvature_error = metric.newton.residuals.back();
+    return map;
+}
+
+/// The holomorphic 1-form.
+AnnulusMap map_by_one_form(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                           const VertexLoop& outer, const VertexLoop& inner)
 {
     const EdgeLengths weights = half_cotangents(lengths);
     const SparseMatrix laplacian = cotan_laplacian(triangles, weights, vertex_count);
@@ -152,6 +196,16 @@ AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, I
     map.inner_radius = std::exp(-2.0 * std::numbers::pi / map.lambda);
     map.positions = exponential(triangles, map);
     return map;
+}
+
+}  // namespace
+
+AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                       const VertexLoop& outer, const VertexLoop& inner, const AnnulusMapOptions& options)
+{
+    return options.backend == AnnulusBackend::yamabe
+               ? map_by_cylinder(triangles, lengths, vertex_count, outer, inner, options.flips)
+               : map_by_one_form(triangles, lengths, vertex_count, outer, inner);
 }
 
 }  // namespace koebe

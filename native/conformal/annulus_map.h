@@ -9,6 +9,13 @@
 
 namespace koebe {
 
+enum class AnnulusBackend { harmonic, yamabe };  ///< a holomorphic 1-form, or the flat cylinder's metric
+
+struct AnnulusMapOptions {
+    AnnulusBackend backend = AnnulusBackend::harmonic;
+    bool flips = true;  ///< of the Yamabe flow's edges (baselines/yamabe_flow.h)
+};
+
 /// The map, and every step of its construction.
 struct AnnulusMap {
     VectorXcd positions;        ///< (V) |z| = 1 on the outer loop, |z| = inner_radius on the inner one; 0 if unused
@@ -19,6 +26,12 @@ struct AnnulusMap {
     VectorXd g0;             ///< (3F) per corner: 1 at the path's vertices seen from its right side, else 0
     VectorXd g1;             ///< (V) makes dg0 + dg1 harmonic, nothing flowing through the loops
     double lambda = 0.0;     ///< omega = df + i lambda (dg0 + dg1) is holomorphic
+
+    // The Yamabe backend leaves the cut, f, g0 and g1 empty.
+    bool converged = true;         ///< false: curvature is left, or faces have collapsed; the positions are no map
+    int steps = 0;                 ///< Newton steps
+    double curvature_error = 0.0;  ///< largest curvature left at a vertex, radians
+    Index collapsed = 0;           ///< faces whose lengths on the cylinder break the triangle inequality
 };
 
 /// Maps a topological annulus conformally onto r < |z| < 1 by the holomorphic 1-form omega = df + i lambda (dg0 + dg1).
@@ -29,12 +42,17 @@ struct AnnulusMap {
 /// minimizes energy over area of f + i lambda g. The integral of omega on the sliced mesh is f + i lambda (g0 + g1),
 /// with period k = -lambda around the outer loop, and z = exp(2 pi / k (f + i lambda g)).
 ///
+/// The Yamabe backend (paper, abstract) finds the conformally equivalent metric without curvature inside and along both
+/// loops: that of a flat cylinder of girth L and height H, laid out as w in the strip; z = exp(2 pi i w / L) and
+/// r = exp(-2 pi H / L). The two agree to the order of the discretization.
+///
 /// @param triangles (F, 3) oriented, exactly two boundary loops
 /// @param lengths (F, 3) edge lengths, in any unit, which may even differ between parts that are conformally flat
 /// @param outer, inner the boundary loops, surface on the left
-/// @return orientation kept: the outer loop runs counter-clockwise. Where the first vertex of the cut is: 1.
+/// @return orientation kept: the outer loop runs counter-clockwise. At 1 is the first vertex of the cut, or of the
+///         outer loop with the Yamabe backend, which reports it if it does not converge
 /// @throws TopologyError the loops are not connected; SolverError
 AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
-                       const VertexLoop& outer, const VertexLoop& inner);
+                       const VertexLoop& outer, const VertexLoop& inner, const AnnulusMapOptions& options = {});
 
 }  // namespace koebe

@@ -82,7 +82,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         for (std::size_t s = first; s < last; ++s)
             outcome.history.push_back({++outcome.steps, std::pair(steps[s].front(), steps[s].back()),
                                        circle_change(now, next),
-                                       s + 1 == last ? next.mean_roundness : now.mean_roundness});
+                                       s + 1 == last ? next.mean_roundness : now.mean_roundness, next.circles});
         now = std::move(next);
         context.advance(1.0 - std::pow(0.5, outcome.sweeps + static_cast<double>(last) / steps.size()));
     };

@@ -186,7 +186,8 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
             result.positions = state.disk_image();
             outcome.loops = gather_loops(result.positions, loops);
             CircleState next = circle_state(outcome.loops, fit_circle_paper);
-            outcome.history.push_back({++outcome.steps, pairs[p], circle_change(now, next), next.mean_roundness});
+            outcome.history.push_back({++outcome.steps, pairs[p], circle_change(now, next), next.mean_roundness,
+                                       next.circles});
             now = std::move(next);
         }
         ++outcome.sweeps;

@@ -26,6 +26,11 @@ struct UniformizeOptions {
     int threads = 0;           ///< of the dense and sparse kernels; 0: all cores
 };
 
+struct Circle {
+    Complex center{0.0, 0.0};
+    double radius = 1.0;
+};
+
 /// One step of the Koebe iteration. The condensed engine's steps of one sweep take effect together: they share the
 /// sweep's change, and its roundness stands in the last of them, the one before in the others.
 struct KoebeStep {
@@ -33,11 +38,7 @@ struct KoebeStep {
     std::pair<int, int> pair{0, 0};  ///< the two loops left open; (0, k) for the conventional form
     double change = 0.0;             ///< (sum |c' - c|^2 + |r' - r|^2)^(1/2) over all circles (paper, section 4.4)
     double mean_roundness = 0.0;     ///< mean e(gamma_k) over all loops (paper, section 5)
-};
-
-struct Circle {
-    Complex center{0.0, 0.0};
-    double radius = 1.0;
+    std::vector<Circle> circles;     ///< of the loops after the step, or after those that take effect together
 };
 
 struct LoopReport {

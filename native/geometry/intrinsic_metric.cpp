@@ -1,6 +1,7 @@
 #include "geometry/intrinsic_metric.h"
 
 #include "core/connectivity.h"
+#include "geometry/edge_flip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ double mollify(EdgeLengths& lengths, double margin)
 class DelaunayFlipper {
 public:
     DelaunayFlipper(IntrinsicMetric& metric, const Surface& surface)
-        : triangles_(metric.triangles), lengths_(metric.lengths), twin_(surface.twin),
+        : triangles_(metric.triangles), lengths_(metric.lengths), twin_(metric.twin),
           loop_of_(surface.vertex_count, -1)
     {
         for (std::size_t k = 0; k < surface.loops.size(); ++k)
@@ -47,7 +48,7 @@ public:
             stack.pop_back();
             if (twin_[h] == no_twin || excess(h) <= tolerance || !may_flip(h)) continue;
             const Index f = face_of(h), g = face_of(twin_[h]);
-            flip(h);
+            flip_edge(triangles_, lengths_, twin_, h, opposite_diagonal(h, twin_[h]));
             ++flips;
             for (const Index face : {f, g})
                 for (Index e = 3 * face; e < 3 * face + 3; ++e)
@@ -78,54 +79,6 @@ private:
         return c != d && face_of(h) != face_of(twin_[h]) && (loop_of_[c] < 0 || loop_of_[c] != loop_of_[d]);
     }
 
-    /// Replaces the edge a-b of the quadrilateral a d b c by c-d.
-    void flip(Index h)
-    {
-        const Index t = twin_[h];
-        const Index bc = next_halfedge(h), ca = previous_halfedge(h);
-        const Index ad = next_halfedge(t), db = previous_halfedge(t);
-        const Index a = origin(triangles_, h), b = origin(triangles_, t);
-        const Index c = origin(triangles_, ca), d = origin(triangles_, db);
-        const double diagonal = opposite_diagonal(h, t);
-
-        struct Side {
-            double length;
-            Index twin;
-        };
-        const Side side_bc{length(bc), twin_[bc]}, side_ca{length(ca), twin_[ca]};
-        const Side side_ad{length(ad), twin_[ad]}, side_db{length(db), twin_[db]};
-
-        const Index f = 3 * face_of(h), g = 3 * face_of(t);
-        const auto write = [&](Index base, Index p, Index q, Index r, double diagonal_length, const Side& qr,
-                               const Side& rp) {
-            triangles_.data()[base] = p;
-            triangles_.data()[base + 1] = q;
-            triangles_.data()[base + 2] = r;
-            lengths_.data()[base] = diagonal_length;
-            lengths_.data()[base + 1] = qr.length;
-            lengths_.data()[base + 2] = rp.length;
-        };
-        write(f, d, c, a, diagonal, side_ca, side_ad);
-        write(g, c, d, b, diagonal, side_db, side_bc);
-        const auto link = [&](Index slot, Index other) {
-            twin_[slot] = other;
-            if (other != no_twin) twin_[other] = slot;
-        };
-        // A side may be glued to another side of the same quadrilateral: translate such twins first.
-        const auto moved = [&](Index twin) {
-            if (twin == bc) return g + 2;
-            if (twin == ca) return f + 1;
-            if (twin == ad) return f + 2;
-            if (twin == db) return g + 1;
-            return twin;
-        };
-        link(f, g);
-        link(f + 1, moved(side_ca.twin));
-        link(f + 2, moved(side_ad.twin));
-        link(g + 1, moved(side_db.twin));
-        link(g + 2, moved(side_bc.twin));
-    }
-
     /// Length of c-d, the two triangles unfolded into the plane.
     double opposite_diagonal(Index h, Index t) const
     {
@@ -141,7 +94,7 @@ private:
 
     Triangles& triangles_;
     EdgeLengths& lengths_;
-    std::vector<Index> twin_;
+    std::vector<Index>& twin_;
     std::vector<Index> loop_of_;
 };
 
@@ -153,6 +106,7 @@ IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surfac
     IntrinsicMetric metric;
     metric.triangles = surface.triangles;
     metric.lengths = edge_lengths(vertices, surface.triangles);
+    metric.twin = surface.twin;
     if (options.mollify) metric.mollification = mollify(metric.lengths, options.margin);
     if (options.delaunay) metric.flips = DelaunayFlipper(metric, surface).run();
     return metric;

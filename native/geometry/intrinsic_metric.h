@@ -16,6 +16,7 @@ struct IntrinsicMetricOptions {
 struct IntrinsicMetric {
     Triangles triangles;
     EdgeLengths lengths;
+    std::vector<Index> twin;     ///< (3F) opposite half-edges: flips may leave two edges between the same vertices
     double mollification = 0.0;  ///< added to every edge length, in the unit of the positions
     int flips = 0;
 };

@@ -100,6 +100,10 @@ PYBIND11_MODULE(_koebe, m)
         .value("vertex", OuterLoop::vertex);
     py::enum_<Balance>(m, "Balance").value("none", Balance::none).value("area", Balance::area);
 
+    py::enum_<AnnulusBackend>(m, "AnnulusBackend")
+        .value("harmonic", AnnulusBackend::harmonic)
+        .value("yamabe", AnnulusBackend::yamabe);
+
     py::class_<CancelToken>(m, "CancelToken", "A flag that any thread may raise to stop a computation.")
         .def(py::init<>())
         .def("cancel", &CancelToken::cancel)
@@ -165,7 +169,8 @@ PYBIND11_MODULE(_koebe, m)
                                 .positions);
           });
     m.def("annulus_map",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             AnnulusBackend backend) {
               const py::gil_scoped_release release;
               const Vertices positions = vertices;
               const Surface surface = surface_with_loops(positions, triangles, 2);
@@ -178,7 +183,11 @@ PYBIND11_MODULE(_koebe, m)
               const int outer = length(surface.loops[0]) >= length(surface.loops[1]) ? 0 : 1;
               const AnnulusMap map =
                   annulus_map(surface.triangles, edge_lengths(positions, surface.triangles), surface.vertex_count,
-                              surface.loops[outer], surface.loops[1 - outer]);
+                              surface.loops[outer], surface.loops[1 - outer], {.backend = backend});
+              if (!map.converged)
+                  throw SolverError("the discrete Yamabe flow left a curvature of " +
+                                    std::to_string(map.curvature_error) + " and " + std::to_string(map.collapsed) +
+                                    " collapsed faces after " + std::to_string(map.steps) + " steps");
               return std::make_pair(planar(map.positions), map.inner_radius);
           });
     m.def("distortion",

@@ -31,7 +31,7 @@ UniformizeResult sample_result()
     result.converged = true;
     result.sweeps = 2;
     result.steps = 3;
-    result.history = {{1, {0, 1}, 0.5, 0.25}, {2, {1, 0}, 0.125, 0.0625}};
+    result.history = {{1, {0, 1}, 0.5, 0.25, {}}, {2, {1, 0}, 0.125, 0.0625, {}}};
     result.distortion.flipped = {1, 2};
     result.distortion.below_resolution = {2};
     result.distortion.conformal_energy = 1.0 / 3.0;

@@ -278,6 +278,12 @@ def test_out_may_be_in(mesh):
         ["uniformize", "in.obj", "out.obj", "--json"],
         ["uniformize", "in.obj", "out.obj", "--json", "./out.obj"],
         ["fill", "in.obj", "out.obj", "--loops", "one"],
+        ["ricci", "in.obj"],
+        ["ricci", "in.obj", "out.obj", "--method", "gk"],
+        ["ricci", "in.obj", "out.obj", "--packing", "obtuse"],
+        ["ricci", "in.obj", "out.obj", "--target", "round"],
+        ["ricci", "in.obj", "out.obj", "--triangulation", "fan"],
+        ["ricci", "in.obj", "out.obj", "--svg", "out.obj"],
     ],
 )
 def test_wrong_usage_is_2_and_writes_nothing(mesh, arguments):
@@ -287,7 +293,7 @@ def test_wrong_usage_is_2_and_writes_nothing(mesh, arguments):
     assert names(mesh) == {"in.obj"}
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["uniformize", "--help"], ["fill", "--help"]])
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["uniformize", "--help"], ["fill", "--help"], ["ricci", "--help"]])
 def test_help_and_version_are_0(arguments):
     run = koebe(*arguments)
     assert run.returncode == 0 and run.stdout and not run.stderr
@@ -385,7 +391,7 @@ def hostile_meshes():
 
 
 @pytest.mark.parametrize("name, content, error", hostile_meshes())
-@pytest.mark.parametrize("command", ["uniformize", "fill"])
+@pytest.mark.parametrize("command", ["uniformize", "fill", "ricci"])
 def test_bad_meshes_are_3_with_one_line(tmp_path, command, name, content, error):
     (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
     (tmp_path / "out.obj").write_text("old")
@@ -422,7 +428,7 @@ def test_disconnected_faces_are_those_of_the_file(tmp_path):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-@pytest.mark.parametrize("command", ["uniformize", "fill"])
+@pytest.mark.parametrize("command", ["uniformize", "fill", "ricci"])
 def test_an_interrupt_is_130_and_nothing_is_written(tmp_path, command, number):
     os.mkfifo(tmp_path / "in.obj")  # the command waits for its input until the signal is sent
     arguments = [command, tmp_path / "in.obj", tmp_path / "out.obj"]
@@ -478,6 +484,46 @@ def test_an_error_on_a_terminal_is_one_clean_line(mesh):
     code, seen = on_terminal("uniformize", mesh / "in.obj", mesh / "out.obj")
     assert code == CANNOT_BE_MAPPED
     assert seen.rsplit("\033[K", 1)[-1].startswith("TopologyError(closed): ")
+
+
+# ---------------------------------------------------------------- ricci
+
+
+def test_ricci_has_the_files_and_the_report_of_uniformize(mesh):
+    files = lambda name: ("--json", mesh / f"{name}.json", "--svg", mesh / f"{name}.svg")  # noqa: E731
+    run = koebe("ricci", mesh / "in.obj", mesh / "ricci.obj", *files("ricci"))
+    assert run.returncode == 0, run.stderr
+    assert re.fullmatch(r".*ricci\.obj: 4 loops, \d+ sweeps, roundness .*, 0 flipped, [0-9.]+ s\n", run.stdout)
+    assert koebe("uniformize", mesh / "in.obj", mesh / "koebe.obj", *files("koebe")).returncode == 0
+    ricci, gk = (json.loads((mesh / f"{name}.json").read_text()) for name in ("ricci", "koebe"))
+    assert list(ricci) == list(gk)
+    assert (ricci["method"], ricci["engine"], ricci["input"]) == ("ricci", "circle_packing", "in.obj")
+    assert ricci["converged"] and ricci["steps"] >= ricci["sweeps"] == len(ricci["history"])
+    assert max(loop["roundness"] for loop in ricci["loops"]) < 1e-5
+    # The same circles, but for an automorphism of the disk: intersections of pairs.
+    assert np.allclose(inversive_distances(ricci), inversive_distances(gk), rtol=0.05)
+    assert np.array_equal(Obj(mesh / "ricci.obj").vertices, Obj(mesh / "koebe.obj").vertices)
+
+
+def inversive_distances(report):
+    circles = [(complex(*loop["center"]), loop["radius"]) for loop in report["loops"]]
+    pairs = [(a, b) for i, a in enumerate(circles) for b in circles[:i]]
+    return [abs(r * r + s * s - abs(c - d) ** 2) / (2 * r * s) for (c, r), (d, s) in pairs]
+
+
+@pytest.mark.parametrize("options", [["--max-sweeps", "2"], ["--target", "proportional"]])
+def test_ricci_not_converged_is_4_and_all_files_are_written(mesh, options):
+    run = koebe(
+        *("ricci", mesh / "in.obj", mesh / "out.obj", *options),
+        *("--json", mesh / "report.json", "--svg", mesh / "picture.svg"),
+    )
+    assert run.returncode == NOT_CONVERGED
+    assert run.stdout.endswith(", not converged\n")
+    assert names(mesh) == {"in.obj", "out.obj", "report.json", "picture.svg"}
+    report = json.loads((mesh / "report.json").read_text())
+    assert report["converged"] is False
+    assert any(w.startswith("not converged: ") for w in report["warnings"])
+    assert np.isfinite(Obj(mesh / "out.obj").uv).all()
 
 
 # ---------------------------------------------------------------- fill

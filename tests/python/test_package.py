@@ -37,6 +37,17 @@ def test_a_bent_round_annulus_gets_its_radius_back():
     assert np.allclose(np.linalg.norm(points[result.loops[0]], axis=1), 1.0)
 
 
+def test_the_annulus_by_its_flat_cylinder_is_that_by_a_harmonic_function():
+    points, radius = koebe.annulus_map(VERTICES, FACES)
+    flowed, flowed_radius = koebe.annulus_map(VERTICES, FACES, backend="yamabe")
+    assert flowed_radius == pytest.approx(radius, rel=0.01) and flowed_radius != radius
+    z, w = (p @ [1, 1j] for p in (points, flowed))
+    turn = np.vdot(w, z)
+    assert np.abs(z - turn / abs(turn) * w).max() < 0.01
+    with pytest.raises(koebe.InputError, match="backend must be one of harmonic, yamabe"):
+        koebe.annulus_map(VERTICES, FACES, backend="ricci")
+
+
 def test_every_legal_array_gives_the_same_result_and_is_left_alone():
     expected = koebe.uniformize(VERTICES, FACES).uv
     fortran = np.asfortranarray(VERTICES)

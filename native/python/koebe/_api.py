@@ -104,12 +104,16 @@ def disk_map(vertices: Any, triangles: Any) -> np.ndarray:
     return _koebe.disk_map(as_vertices(vertices), as_triangles(triangles))
 
 
-def annulus_map(vertices: Any, triangles: Any) -> tuple[np.ndarray, float]:
+def annulus_map(vertices: Any, triangles: Any, backend: str = "harmonic") -> tuple[np.ndarray, float]:
     """The map of a surface with two boundary loops to the annulus r < |z| < 1 (paper, section 4.2).
 
-    Returns (V, 2) float64 points and r. The longer loop goes to the unit circle.
+    backend   'harmonic': by a holomorphic 1-form. 'yamabe': by the discrete Yamabe flow to a flat cylinder, with
+              edges flipped on the way; the two agree to the order of the discretization
+    Returns (V, 2) float64 points and r. The longer loop goes to the unit circle. Raises SolverError if the flow does
+    not converge.
     """
-    return _koebe.annulus_map(as_vertices(vertices), as_triangles(triangles))
+    chosen = _choice(_koebe.AnnulusBackend, "backend", backend)
+    return _koebe.annulus_map(as_vertices(vertices), as_triangles(triangles), chosen)
 
 
 def fill_holes(

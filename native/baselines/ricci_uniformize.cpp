@@ -1,0 +1,177 @@
+#include "baselines/ricci_uniformize.h"
+
+#include "conformal/circle_fit.h"
+#include "conformal/distortion.h"
+#include "conformal/domain.h"
+#include "conformal/flap_map.h"
+#include "conformal/flip_removal.h"
+#include "conformal/flip_report.h"
+#include "conformal/moebius.h"
+#include "core/detachable_run.h"
+#include "geometry/dense_spd.h"
+#include "geometry/intrinsic_metric.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double on_circle = 1e-6;        // a length in the unit disk
+constexpr double flat = 1e-5;             // radians of curvature left at a vertex
+constexpr double worth_a_warning = 1e-3;  // relative change of a length
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+double peak_memory_mb()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+std::string with_number(const char* format, double number)
+{
+    char text[160];
+    std::snprintf(text, sizeof text, format, number);
+    return text;
+}
+
+/// Two loops concentric; the circles of the loops into the report.
+VectorXcd in_normal_position(const RicciFlowResult& flow, const Domain& domain, UniformizeResult& result)
+{
+    std::vector<Circle> circles;
+    for (const VectorXcd& loop : flow.outcome.loops) circles.push_back(fit_circle_least_squares(loop));
+    circles[0] = Circle{};
+    Moebius moebius;
+    if (circles.size() == 2 && std::abs(circles[1].center) + circles[1].radius < 1.0)
+        moebius = center_circle(circles[1]);
+    const VectorXcd positions = moebius(flow.positions);
+    for (std::size_t k = 0; k < circles.size(); ++k) {
+        LoopReport report;
+        report.circle = k == 0 ? circles[0] : moebius(circles[k]);
+        report.roundness = roundness(gather_loop(positions, domain.loops[k]), report.circle);
+        result.loops.push_back(std::move(report));
+    }
+    return positions;
+}
+
+/// What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to. Only hangs the
+/// flaps back.
+PlanarPoints leave_flips(const NamedSurface& whole, const FlapCut& cut, const PlanarPoints& core_uv,
+                         std::vector<LoopReport>& reports, ExecutionContext& context)
+{
+    for (std::size_t k = 0; k < reports.size(); ++k)
+        for (const Index v : whole.loops[k]) reports[k].vertices.push_back(whole.original[v]);
+    if (cut.flaps.empty()) return core_uv;
+    PlanarPoints uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
+    uv(cut.vertices, Eigen::all) = core_uv;
+    hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
+    return uv;
+}
+
+/// Adds the vertices that are not on the circles: the flow puts none there by force.
+void report_off_circle(const Domain& whole, const PlanarPoints& uv, std::vector<LoopReport>& reports)
+{
+    for (std::size_t k = 0; k < reports.size(); ++k) {
+        std::vector<Index>& off = reports[k].off_circle;
+        for (const Index v : whole.loops[k]) {
+            const double distance = std::abs(Complex(uv(v, 0), uv(v, 1)) - reports[k].circle.center);
+            if (!(std::abs(distance - reports[k].circle.radius) < on_circle)) off.push_back(whole.original[v]);
+        }
+        std::sort(off.begin(), off.end());
+        off.erase(std::unique(off.begin(), off.end()), off.end());
+    }
+}
+
+UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const RicciOptions& options,
+                              ExecutionContext& context)
+{
+    UniformizeResult result;
+    result.method = options.common.method;
+    result.engine = options.common.engine;
+    result.vertex_count = static_cast<Index>(vertices.rows());
+    result.face_count = static_cast<Index>(triangles.rows());
+    const auto begin = Clock::now();
+
+    context.begin_stage("topology", 0.0, 0.05);
+    const Domain whole = prepare_domain(vertices, triangles, options.common);
+    FlapCut cut = cut_flaps(whole.vertices, whole.surface, whole.loops);
+    std::optional<Domain> core;
+    if (!cut.flaps.empty()) core = core_domain(whole, cut);
+    const Domain& domain = core ? *core : whole;
+    result.outer_loop = domain.outer_rank;
+    result.seconds.topology = seconds_since(begin);
+
+    context.begin_stage("metric", 0.05, 0.1);
+    auto stage = Clock::now();
+    const IntrinsicMetric metric = intrinsic_metric(domain.vertices, domain.surface, {.delaunay = options.delaunay});
+    result.seconds.metric = seconds_since(stage);
+
+    context.begin_stage("iterate", 0.1, 0.9);
+    stage = Clock::now();
+    RicciFlowOptions flow_options{.packing = options.packing,
+                                  .target = options.target,
+                                  .tolerance = options.common.tolerance,
+                                  .max_updates = options.common.max_sweeps,
+                                  .newton = {}};
+    const RicciFlowResult flow = [&] {
+        const DenseThreads threads(options.common.threads, 0, result.face_count);
+        return ricci_flow(metric, domain.surface.vertex_count, domain.loops, flow_options, context);
+    }();
+    result.converged = flow.outcome.converged;
+    result.sweeps = flow.outcome.sweeps;
+    result.steps = flow.outcome.steps;
+    result.history = flow.outcome.history;
+    result.seconds.iterate = seconds_since(stage);
+
+    context.begin_stage("finish", 0.9, 1.0);
+    stage = Clock::now();
+    const VectorXcd positions = in_normal_position(flow, domain, result);
+    PlanarPoints core_uv(positions.size(), 2);
+    core_uv << positions.real(), positions.imag();
+    const std::size_t own_flips = flipped_faces(domain.surface.triangles, core_uv).size();
+    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original};
+    UntangleReport untangled;
+    const PlanarPoints uv = flow.curvature_error < flat
+                                ? remove_flips(named, cut, std::move(core_uv), result.loops, untangled, context)
+                                : leave_flips(named, cut, core_uv, result.loops, context);
+    report_off_circle(whole, uv, result.loops);
+    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
+    result.uv = PlanarPoints::Zero(vertices.rows(), 2);
+    result.uv(whole.original, Eigen::all) = uv;
+
+    if (!result.converged) result.warnings.push_back("not converged: " + flow.reason);
+    if (flow.packing_change > worth_a_warning)
+        result.warnings.push_back(
+            with_number("the circle packing changes edge lengths by up to %.2g of themselves", flow.packing_change));
+    if (flow.closing_gap > on_circle)
+        result.warnings.push_back(with_number("holes close up to %.2g of their length", flow.closing_gap));
+    if (own_flips > 0) result.warnings.push_back("faces flipped by the flow's own map: " + std::to_string(own_flips));
+    for (std::string& sentence : flip_warnings(named, uv, cut.flaps, untangled, result.distortion))
+        result.warnings.push_back(std::move(sentence));
+    result.seconds.finish = seconds_since(stage);
+    result.seconds.total = seconds_since(begin);
+    result.peak_memory_mb = peak_memory_mb();
+    context.advance(1.0);
+    return result;
+}
+
+}  // namespace
+
+UniformizeResult ricci_uniformize(const Vertices& vertices, const Triangles& triangles, const RicciOptions& options,
+                                  ExecutionContext& context)
+{
+    return run_detachable<UniformizeResult>(context, [vertices, triangles, options](ExecutionContext& own) {
+        return run_pipeline(vertices, triangles, options, own);
+    });
+}
+
+}  // namespace koebe

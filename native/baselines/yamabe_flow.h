@@ -1,0 +1,70 @@
+// Discrete Yamabe flow: the conformally equivalent metric with given curvature.
+#pragma once
+
+#include "baselines/convex_newton.h"
+#include "geometry/laplacian.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct YamabeOptions {
+    /// Edges are flipped wherever u makes them fail to be Delaunay, with lengths by Ptolemy's relation.
+    bool flips = true;
+    NewtonOptions newton;
+};
+
+struct YamabeResult {
+    VectorXd u;               ///< (V) logarithmic scale factors, of mean 0
+    Triangles triangles;      ///< (F, 3) as given, but for flips
+    EdgeLengths lengths;      ///< (F, 3) of the new metric
+    std::vector<Index> twin;  ///< (3F)
+    int flips = 0;
+    std::vector<Index> collapsed;  ///< faces whose new lengths break the triangle inequality
+    NewtonReport newton;
+    bool converged = false;  ///< Newton's method has, and no face has collapsed
+};
+
+/// The energy of the discrete conformal metrics l_ij exp((u_i + u_j) / 2): its gradient is the curvature less the
+/// target, its Hessian the cotan Laplacian of the scaled lengths (Luo 2004; Springborn, Schroeder, Pinkall 2008,
+/// section 4). With flips the triangulation is Delaunay in the scaled metric at every u, which removes the bounds of a
+/// fixed triangulation (Gu, Luo, Sun, Wu 2018; Gillespie, Springborn, Crane 2021); a flip takes the length of the new
+/// diagonal from Ptolemy's relation, which commutes with the scaling, also where the triangle inequality fails. Only
+/// inner edges flip, and none whose new edge would join a vertex to itself; the surface is not doubled along its
+/// boundary, so that faces on boundary edges may still collapse.
+class YamabeEnergy : public ConvexEnergy {
+public:
+    /// @param target (V) curvature wanted, radians, of sum 2 pi chi
+    YamabeEnergy(const Triangles& triangles, const EdgeLengths& lengths, const VectorXd& target, bool flips);
+
+    VectorXd gradient(const VectorXd& u) override;
+    SparseMatrix hessian() const override;
+
+    const Triangles& triangles() const { return triangles_; }
+    const EdgeLengths& scaled_lengths() const { return scaled_; }  ///< at the point of the last gradient
+    const std::vector<Index>& twin() const { return twin_; }
+    int flips() const { return flips_; }
+
+private:
+    void make_delaunay(const VectorXd& u);
+    double scaled_length(Index h, const VectorXd& u) const;
+    double cosine(Index h, const VectorXd& u) const;
+
+    Triangles triangles_;
+    EdgeLengths lengths_, scaled_;
+    std::vector<Index> twin_;
+    std::vector<char> boundary_;
+    VectorXd target_;
+    bool flipping_;
+    int flips_ = 0;
+};
+
+/// Newton's method on that energy from u = 0. Without flips the energy, extended beyond the triangle inequality, may
+/// have its minimum where faces have collapsed: then no metric of the class on this triangulation has the curvature.
+/// @param triangles (F, 3) oriented, manifold @param lengths (F, 3) in any unit, which may break the triangle
+/// inequality
+/// @throws InputError the target's size or sum is wrong; Cancelled. No convergence is reported.
+YamabeResult yamabe_flow(const Triangles& triangles, const EdgeLengths& lengths, const VectorXd& target,
+                         const YamabeOptions& options, ExecutionContext& context);
+
+}  // namespace koebe
