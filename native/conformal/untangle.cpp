@@ -8,7 +8,7 @@
 namespace koebe {
 namespace {
 
-constexpr int ring_counts[] = {2, 4, 8};
+constexpr int ring_counts[] = {2, 4, 8, 16};
 constexpr PatchShape shapes[] = {PatchShape::surface, PatchShape::equilateral};
 constexpr std::size_t most_tries = 16;    // single vertices freed in turn for one patch
 constexpr std::size_t most_work = 60000;  // faces, summed over all attempts to free
@@ -85,7 +85,7 @@ private:
     bool attempt(const std::vector<Index>& patch)
     {
         bool better = false;
-        for (const int rings : {2, 4})
+        for (const int rings : {2, 4, 8})
             for (const PatchShape shape : shapes) {
                 const auto tangled = map_.tangled(patch);
                 if (tangled.empty()) return true;
