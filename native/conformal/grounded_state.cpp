@@ -16,7 +16,10 @@ DenseGroundedState::DenseGroundedState(const CondensedLaplacian& surface, const 
         begin_[k] = static_cast<Index>(given_.size());
         for (Index b = 0; b < size_[k]; ++b) given_.push_back(first[k] + b);
     }
-    sigma_ = surface.sigma()(given_, given_);
+    const MatrixXd sigma = surface.sigma();
+    const Index inner = static_cast<Index>(given_.size());
+    sigma_ = sigma.bottomRightCorner(inner, inner)(given_, given_);
+    if (!surface.grounded()) coupling_ = sigma.bottomLeftCorner(inner, size_[0]);
     filled_ = sigma_;
     int raised = 0;
     for (int k = 1; k < loop_count(); ++k)
@@ -42,7 +45,8 @@ std::vector<VectorXcd> DenseGroundedState::images()
     const VectorXcd outer = rim();
     MatrixXd parts(size_[0], 2);
     parts << outer.real(), outer.imag();
-    MatrixXd z = surface_.load_of_grounded(parts)(given_, Eigen::all);
+    const MatrixXd load = surface_.grounded() ? surface_.load_of_grounded(parts) : MatrixXd(-(coupling_ * parts));
+    MatrixXd z = load(given_, Eigen::all);
     const auto lower = factor().triangularView<Eigen::Lower>();
     lower.solveInPlace(z);
     lower.transpose().solveInPlace(z);
@@ -75,7 +79,7 @@ VectorXd DenseGroundedState::outer_flux()
     factor().triangularView<Eigen::Lower>().transpose().solveInPlace(u);
     VectorXd values(u.size());
     values(given_) = u;
-    return surface_.flux_to_grounded(values);
+    return surface_.grounded() ? surface_.flux_to_grounded(values) : VectorXd(-(coupling_.transpose() * values));
 }
 
 }  // namespace koebe

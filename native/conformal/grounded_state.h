@@ -13,7 +13,7 @@ namespace koebe {
 class DenseGroundedState final : public GroundedState {
 public:
     /// The first angles are those of the flux through each inner loop with all others open and at one voltage.
-    /// @param surface its boundary the concatenation of the loops, the outer one first and grounded; must outlive this
+    /// @param surface its boundary the concatenation of the loops, the outer one first, grounded or not; must outlive this
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
     DenseGroundedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
                        const std::vector<VectorXd>& edges);
@@ -28,8 +28,9 @@ private:
 
     const CondensedLaplacian& surface_;
     std::vector<Index> begin_;  // of each inner loop among the rows
-    std::vector<Index> given_;  // the row of the surface's Sigma that stands in each row
+    std::vector<Index> given_;  // for each row its number among the inner boundary vertices as given
     MatrixXd sigma_, filled_;   // Sigma and A
+    MatrixXd coupling_;         // Sigma_R0, rows as given, unless the surface is grounded
     MatrixXd factor_;           // L, where it is not stale
     bool stale_ = true;
 };

@@ -13,7 +13,8 @@
 namespace koebe {
 namespace {
 
-constexpr int most_loops_one_by_one = 8;
+/// With more loops one factor for all of them costs less than an elimination for each step; one or two leave no choice.
+bool opened_at_once(const std::vector<VertexLoop>& loops) { return loops.size() <= 2 || loops.size() > 8; }
 
 /// What every step of a sweep opens: two loops, or with the conventional form one.
 std::vector<std::vector<int>> sweep_steps(int loop_count, Method method)
@@ -38,7 +39,12 @@ VectorXd deepest_source(const CondensedLaplacian& surface, const VectorXd& areas
 
 }  // namespace
 
-bool opened_at_once(int loop_count) { return loop_count <= 2 || loop_count > most_loops_one_by_one; }
+Index best_grounded(const std::vector<VertexLoop>& loops)
+{
+    std::size_t boundary = 0;
+    for (const VertexLoop& loop : loops) boundary += loop.size();
+    return opened_at_once(loops) && 3 * loops[0].size() >= boundary ? static_cast<Index>(loops[0].size()) : 0;
+}
 
 KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
@@ -46,7 +52,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
 {
     KoebeOutcome outcome;
     const int loop_count = static_cast<int>(loops.size());
-    const bool at_once = surface.grounded() || !surface.has_sigma();
+    const bool at_once = opened_at_once(loops) || !surface.has_sigma();
     const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
     const VectorXd flux_of_source = sourced ? surface.solve_interior(deepest_source(surface, areas)).boundary_flux
                                             : VectorXd::Zero(surface.boundary_size());
@@ -60,7 +66,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
     std::unique_ptr<CondensedState> condensed;
     if (!surface.has_sigma())
         grounded = std::make_unique<SparseState>(laplacian, surface, loops, edges);
-    else if (surface.grounded())
+    else if (at_once)
         grounded = std::make_unique<DenseGroundedState>(surface, loops, edges);
     else
         condensed = std::make_unique<CondensedState>(surface, loops, edges, flux_of_source);
@@ -73,8 +79,8 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         for (int k = 1; k < loop_count; ++k) state.take_angles({k}, fluxes[k - 1], outcome.raised_angles);
         state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
     };
-    if (at_once) state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
-    CircleState now = circle_state(state.images(), fit_circle_least_squares);
+    CircleState now;
+    if (!at_once) now = circle_state(state.images(), fit_circle_least_squares);
     // Steps that take effect together share the change and the roundness they lead to.
     const auto record = [&](std::size_t first, std::size_t last) {
         outcome.loops = state.images();

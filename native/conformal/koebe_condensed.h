@@ -9,9 +9,10 @@
 
 namespace koebe {
 
-/// Whether the iteration opens all loops at once, and wants the outer one grounded: with more than 8, where one factor for
-/// all costs less than an elimination for each step, and with one or two, which leave no choice.
-bool opened_at_once(int loop_count);
+/// How many boundary vertices, the outer loop's or none, the Laplacian is best condensed without (`grounded` in
+/// CondensedLaplacian): where all loops are opened at once and the outer one has a third of all boundary vertices or more.
+/// Fewer cost less in Sigma than a substitution in each sweep.
+Index best_grounded(const std::vector<VertexLoop>& loops);
 
 /// Runs the iteration (paper, section 4.4) on the state of one angle per boundary vertex.
 ///
@@ -21,7 +22,7 @@ bool opened_at_once(int loop_count);
 /// A_PP f_P + A_PR f_R through its nodes has the conjugate function as its running sum: the new angles. (T_i and T_j
 /// vanish on constants.) A CK step opens one loop, kept at 0, and a source inside S takes the place of the other.
 ///
-/// With nothing grounded the steps of a sweep follow each other, and R is eliminated in each. Else all loops are opened
+/// From 3 to 8 loops the steps of a sweep follow each other, and R is eliminated in each. Else all loops are opened
 /// from the same state, each against the outer one, and one factor of A serves them all: with N the inverse of A on the
 /// inner loops, the flux through loop k at potential 1 is (N_kk)^-1 1. The outer loop, open in every step, is never
 /// filled, and takes its angles from the flux of the pair (0, 1) in the new state. Both methods are then the same, but for
@@ -30,7 +31,7 @@ bool opened_at_once(int loop_count);
 /// Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected inversion.
 ///
 /// @param laplacian of the surface
-/// @param surface the same condensed, its boundary the concatenation of the loops, the outer one grounded or not
+/// @param surface the same condensed, its boundary the concatenation of the loops, best_grounded(loops) of it grounded
 /// @param loops the outer loop first
 /// @param edges per loop: length on the surface of the edge from each vertex to the next, all positive
 /// @param areas (V) area around each vertex: for the choice of the source, the vertex deepest inside

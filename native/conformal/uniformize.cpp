@@ -104,9 +104,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     std::vector<Index> boundary;
     for (const VertexLoop& loop : domain.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
     const DenseThreads threads(options.threads, static_cast<Index>(boundary.size()), result.face_count);
-    const Index grounded =
-        opened_at_once(static_cast<int>(domain.loops.size())) ? static_cast<Index>(domain.loops[0].size()) : 0;
-    const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, grounded);
+    const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, best_grounded(domain.loops));
     result.seconds.factor = stage.lap();
 
     context.begin_stage("iterate", 0.5, 0.9);

@@ -30,9 +30,7 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
             length[b] = (surface.row(loop[(b + 1) % loop.size()]) - surface.row(loop[b])).norm();
         edges.push_back(length);
     }
-    const Index grounded = opened_at_once(static_cast<int>(domain.loops.size()))
-                               ? static_cast<Index>(domain.loops[0].size())
-                               : 0;
+    const Index grounded = best_grounded(domain.loops);
     const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, grounded, most_condensed);
     EXPECT_EQ(condensed.has_sigma(), boundary.size() - grounded <= most_condensed);
     UniformizeOptions options;
