@@ -75,9 +75,10 @@ Distortion measure_distortion(const Vertices& vertices, const Triangles& triangl
         const double uv_area = 0.5 * (ax * by - ay * bx);
         image_area += uv_area;
         const double area = 0.5 * flat.p1x * flat.p2y;
-        const double longest = std::max({flat.p1x, std::hypot(flat.p2x, flat.p2y),
-                                         std::hypot(flat.p2x - flat.p1x, flat.p2y)});
-        if (!(2.0 * area > thin * longest * longest)) continue;
+        const double height_squared = flat.p2y * flat.p2y, rest = flat.p2x - flat.p1x;
+        const double longest_squared = std::max(
+            {flat.p1x * flat.p1x, flat.p2x * flat.p2x + height_squared, rest * rest + height_squared});
+        if (!(2.0 * area > thin * longest_squared)) continue;
 
         const auto before = corner_angles(flat.p1x, 0.0, flat.p2x, flat.p2y);
         const auto after = corner_angles(ax, ay, bx, by);
@@ -94,7 +95,8 @@ Distortion measure_distortion(const Vertices& vertices, const Triangles& triangl
         const double fy_x = (bx - fx_x * flat.p2x) / flat.p2y, fy_y = (by - fx_y * flat.p2x) / flat.p2y;
         const Complex fz(0.5 * (fx_x + fy_y), 0.5 * (fx_y - fy_x)), fzbar(0.5 * (fx_x - fy_y), 0.5 * (fx_y + fy_x));
         dirichlet += 0.5 * area * (fx_x * fx_x + fx_y * fx_y + fy_x * fy_x + fy_y * fy_y);
-        const double mu = std::abs(fz) > 0.0 ? std::abs(fzbar) / std::abs(fz) : 1.0;
+        const double fz_squared = std::norm(fz);
+        const double mu = fz_squared > 0.0 ? std::sqrt(std::norm(fzbar) / fz_squared) : 1.0;
         mu_sum += area * mu;
         result.beltrami.max = std::max(result.beltrami.max, mu);
 
