@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender mesh -> arrays -> UV layer. Reads everything, writes nothing but one UV layer's coordinates."""
 
+import itertools
+
 import bmesh
 import bpy
 import numpy as np
@@ -143,14 +145,15 @@ def write_edited_uv(obj, layer_name, surface, corners, uv):
     if layer_name not in mesh.uv_layers:
         mesh.uv_layers.new(name=layer_name, do_init=False)
     mesh.uv_layers.active = mesh.uv_layers[layer_name]
-    order = np.argsort(corners)
-    faces = np.searchsorted(surface.face_start, corners[order], side="right") - 1
+    values = np.empty((len(surface.corner_vertex), 2), dtype=np.float32)
+    values[corners] = uv
+    mapped = np.zeros(len(values), dtype=bool)
+    mapped[corners] = True
     edited = bmesh.from_edit_mesh(mesh)
-    edited.faces.ensure_lookup_table()
     layer = edited.loops.layers.uv[layer_name]
-    numbers = iter(uv[order].ravel().tolist())  # a list of pairs would keep the garbage collector busy
+    numbers = iter(values[mapped].ravel().tolist())  # a list of pairs would keep the garbage collector busy
     points = zip(numbers, numbers, strict=True)
-    for face in np.unique(faces).tolist():
-        for corner in edited.faces[face].loops:
+    for face in itertools.compress(edited.faces, mapped[surface.face_start].tolist()):
+        for corner in face.loops:
             corner[layer].uv = next(points)
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
