@@ -6,7 +6,7 @@
 
 import dataclasses
 
-from . import checker, distortion_display, native, transfer
+from . import checker, compat, distortion_display, native, transfer
 from .pipeline import Task, map_surfaces
 
 
@@ -66,15 +66,25 @@ class Job:
         for obj, task in zip(self.objects, self.tasks, strict=True):
             transfer.check_writable(obj, task.surface, self.options.layer)
 
+    @property
+    def writable_in_edit_mode(self):
+        """Whether `write` can do it there, and faster than by a change of mode."""
+        averaged = self.options.checker and self.options.checker_even and len(self.objects) > 1
+        colored = any(distortion_display.shown(obj) is not None for obj in self.objects)
+        return compat.slow_mode_change() and not (averaged or colored)
+
     def write(self):
         """Write the UV layer of every object with a mapped island, and put the checker on if asked.
 
-        The objects must not be in Edit Mode; call `check_writable` first.
+        The objects must not be in Edit Mode, unless `writable_in_edit_mode`; call `check_writable` first.
         """
         for obj, outcome in zip(self.objects, self.outcomes, strict=True):
             if not outcome.mapped:
                 continue
-            transfer.write_uv(obj, self.options.layer, *outcome.corner_uv())
+            if obj.mode == "EDIT":
+                transfer.write_edited_uv(obj, self.options.layer, outcome.task.surface, *outcome.corner_uv())
+            else:
+                transfer.write_uv(obj, self.options.layer, *outcome.corner_uv())
             kind = distortion_display.shown(obj)
             if kind is not None:
                 distortion_display.put_on(obj, self.options.layer, kind)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators. They gather, run and write; what is computed is in `job` and below."""
 
+import contextlib
+
 import bpy
 
 from . import checker, report, results
@@ -63,7 +65,7 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
             self.report({"ERROR"}, "Koebe UV: nothing was mapped. " + ". ".join(failures))
             return {"CANCELLED"}
         try:
-            with object_mode(context):
+            with contextlib.nullcontext() if job.writable_in_edit_mode else object_mode(context):
                 job.check_writable()
                 job.write()
         except TransferError as error:

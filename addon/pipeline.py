@@ -107,6 +107,11 @@ class SurfaceOutcome:
         """Whether every mapped island reached the tolerance."""
         return all(outcome.result.converged for outcome in self.mapped)
 
+    def work_out(self):
+        """Compute now, on this thread, what the results will be asked for."""
+        for outcome in self.mapped:
+            outcome.uv, outcome.flipped  # noqa: B018
+
     def corner_uv(self):
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
         corners = [outcome.sheet.corners for outcome in self.mapped]
@@ -136,6 +141,8 @@ def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
         _shape(koebe, outcome, options)
         outcomes.append(outcome)
     _lay_out(outcomes, options)
+    for outcome in outcomes:
+        outcome.work_out()
     return outcomes
 
 

@@ -171,3 +171,30 @@ def test_the_old_place_is_kept_as_in_object_mode():
         found.append(scenes.corner_uv(obj.data, "Koebe"))
     assert np.array_equal(*found)
     assert found[0].min() > 0.5  # where it was, not in the whole square
+
+
+@pytest.mark.parametrize("existing", [False, True])
+def test_islands_and_shape_keys_are_as_in_object_mode(existing):
+    """The corners of an island are not in a row, and some Blenders get them without a change of mode."""
+    found = []
+    for mode in ("OBJECT", "EDIT"):
+        obj = scenes.add_panel()
+        middle = np.abs(scenes.read(obj.data.vertices, "co", np.float32, 3)[:, 0]) < 1e-5
+        ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
+        obj.data.edges.foreach_set("use_seam", middle[ends].all(axis=1))
+        for name in ("Basis", "Bent"):
+            obj.shape_key_add(name=name)
+        obj.data.shape_keys.key_blocks["Bent"].data[0].co = (9, 9, 9)
+        obj.data.uv_layers.new(name="Other")
+        if existing:
+            obj.data.uv_layers.new(name="Koebe")
+        bpy.ops.object.mode_set(mode=mode)
+        if mode == "EDIT":
+            bpy.ops.mesh.select_all(action="SELECT")
+        assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert obj.data.uv_layers.active.name == "Koebe"
+        assert obj.data.shape_keys.key_blocks["Bent"].data[0].co[:] == (9, 9, 9)
+        assert len(bpy.context.window_manager.koebe_uv.islands) > 1
+        found.append(scenes.corner_uv(obj.data, "Koebe"))
+    assert np.array_equal(*found)
