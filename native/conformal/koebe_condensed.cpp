@@ -80,7 +80,10 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
     };
     CircleState now;
-    if (!at_once) now = circle_state(state.images(), fit_circle_least_squares);
+    if (loop_count > 2) {
+        if (at_once) state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
+        now = circle_state(state.images(), fit_circle_least_squares);
+    }
     // Steps that take effect together share the change and the roundness they lead to.
     const auto record = [&](std::size_t first, std::size_t last) {
         outcome.loops = state.images();
