@@ -2,10 +2,10 @@
 
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/mapping_options.h"
 #include "cli/mesh_input.h"
 #include "cli/progress_line.h"
 #include "cli/validators.h"
-
 #include "io/atomic_file.h"
 #include "io/obj_writer.h"
 #include "report/svg.h"
@@ -102,15 +102,9 @@ void add_map_options(CLI::App& app, MapRequest& request)
         ->check(outer_loop_choice())
         ->type_name("auto|longest|VERTEX")
         ->capture_default_str();
-    app.add_option("--tolerance", options.tolerance, "on the circles' change in a sweep, a length in the unit disk")
-        ->check(positive_number())
-        ->capture_default_str();
-    app.add_option("--max-sweeps", options.max_sweeps, "sweeps over all loops before giving up")
-        ->check(whole_number(1))
-        ->capture_default_str();
+    add_mapping_options(app, options);
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
     app.add_option("--svg", request.svg, "write a picture of the circle domain there")->type_name("FILE");
-    app.add_option("--threads", options.threads, "0: all cores")->check(whole_number(0))->capture_default_str();
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
 }
 

@@ -1,6 +1,7 @@
 // koebe module IN
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/mapping_options.h"
 #include "cli/shape_input.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"

@@ -2,7 +2,6 @@
 
 #include "cli/mesh_input.h"
 #include "cli/progress_line.h"
-#include "cli/validators.h"
 #include "conformal/uniformize.h"
 #include "core/topology.h"
 #include "shape/conformal_module.h"
@@ -11,17 +10,6 @@
 #include <filesystem>
 
 namespace koebe::cli {
-
-void add_mapping_options(CLI::App& app, UniformizeOptions& options)
-{
-    app.add_option("--tolerance", options.tolerance, "on the circles' change in a sweep, a length in the unit disk")
-        ->check(positive_number())
-        ->capture_default_str();
-    app.add_option("--max-sweeps", options.max_sweeps, "sweeps over all loops before giving up")
-        ->check(whole_number(1))
-        ->capture_default_str();
-    app.add_option("--threads", options.threads, "0: all cores")->check(whole_number(0))->capture_default_str();
-}
 
 ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token)
 {

@@ -19,9 +19,6 @@ struct ShapeInput {
     bool converged = false;
 };
 
-/// --tolerance, --max-sweeps and --threads.
-void add_mapping_options(CLI::App& app, UniformizeOptions& options);
-
 /// @throws FileError, InputError, TopologyError, SolverError, Cancelled
 ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token);
 

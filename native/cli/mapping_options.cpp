@@ -1,0 +1,18 @@
+#include "cli/mapping_options.h"
+
+#include "cli/validators.h"
+
+namespace koebe::cli {
+
+void add_mapping_options(CLI::App& app, UniformizeOptions& options)
+{
+    app.add_option("--tolerance", options.tolerance, "on the circles' change in a sweep, a length in the unit disk")
+        ->check(positive_number())
+        ->capture_default_str();
+    app.add_option("--max-sweeps", options.max_sweeps, "sweeps over all loops before giving up")
+        ->check(whole_number(1))
+        ->capture_default_str();
+    app.add_option("--threads", options.threads, "0: all cores")->check(whole_number(0))->capture_default_str();
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,13 @@
+// The options that every command has which computes a map.
+#pragma once
+
+#include "conformal/result.h"
+
+#include <CLI/CLI.hpp>
+
+namespace koebe::cli {
+
+/// --tolerance, --max-sweeps, --threads.
+void add_mapping_options(CLI::App& app, UniformizeOptions& options);
+
+}  // namespace koebe::cli
