@@ -8,10 +8,9 @@
 #include "conformal/flip_report.h"
 #include "conformal/moebius.h"
 #include "core/detachable_run.h"
+#include "core/peak_memory.h"
 #include "geometry/dense_spd.h"
 #include "geometry/intrinsic_metric.h"
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -29,13 +28,6 @@ constexpr double worth_a_warning = 1e-3;  // relative change of a length
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-double peak_memory_mb()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 std::string with_number(const char* format, double number)
 {

@@ -73,12 +73,6 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
     FilledState& state = grounded ? static_cast<FilledState&>(*grounded) : *condensed;
 
     const auto steps = sweep_steps(loop_count, options.method);
-    const auto take_all = [&] {
-        const std::vector<VectorXd> fluxes = grounded->fluxes_against_outer();
-        context.checkpoint();
-        for (int k = 1; k < loop_count; ++k) state.take_angles({k}, fluxes[k - 1], outcome.raised_angles);
-        state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
-    };
     CircleState now;
     if (loop_count > 2) {
         if (at_once) state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
@@ -99,7 +93,10 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         const CircleState at_sweep_start = now;
         outcome.raised_angles = 0;
         if (at_once) {
-            take_all();
+            const std::vector<VectorXd> fluxes = grounded->fluxes_against_outer();
+            context.checkpoint();
+            for (int k = 1; k < loop_count; ++k) state.take_angles({k}, fluxes[k - 1], outcome.raised_angles);
+            state.take_angles({0}, grounded->outer_flux(), outcome.raised_angles);
             record(0, steps.size());
         }
         for (std::size_t s = 0; !at_once && s < steps.size(); ++s) {

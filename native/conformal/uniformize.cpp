@@ -9,11 +9,10 @@
 #include "conformal/koebe_mesh.h"
 #include "conformal/placement.h"
 #include "core/detachable_run.h"
+#include "core/peak_memory.h"
 #include "core/topology.h"
 #include "geometry/dense_spd.h"
 #include "geometry/intrinsic_metric.h"
-
-#include <sys/resource.h>
 
 #include <chrono>
 #include <optional>
@@ -36,13 +35,6 @@ public:
 private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-double peak_memory_mb()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 /// A disk without inner vertices has no harmonic function to speak of: its loop, evenly by length.
 KoebeOutcome polygon_outcome(const Domain& domain)

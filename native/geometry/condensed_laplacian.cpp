@@ -1,13 +1,14 @@
 #include "geometry/condensed_laplacian.h"
 
+#include <utility>
+
 namespace koebe {
 
 namespace {
 
 /// K on the interior, the unit matrix on the boundary, nothing between them.
-SparseMatrix cut_off(const SparseMatrix& laplacian, const std::vector<char>& on_boundary)
+SparseMatrix cut_off(SparseMatrix result, const std::vector<char>& on_boundary)
 {
-    SparseMatrix result = laplacian;
     for (Index column = 0; column < static_cast<Index>(result.cols()); ++column)
         for (SparseMatrix::InnerIterator it(result, column); it; ++it)
             if (on_boundary[it.row()] || on_boundary[column]) it.valueRef() = it.row() == column ? 1.0 : 0.0;
@@ -19,7 +20,7 @@ SparseMatrix cut_off(const SparseMatrix& laplacian, const std::vector<char>& on_
 
 struct CondensedLaplacian::Impl {
     SparseMatrix laplacian;                    // K, where something is cut off
-    std::vector<Index> boundary, ground, kept; // all of it, and its two parts
+    std::vector<Index> ground, kept;           // the two parts of the boundary, in their order
     std::vector<char> is_cut;                  // the grounded vertices, or without Sigma all boundary vertices
     std::unique_ptr<SparseCholesky> cholesky;  // of K + diag(0, 1 where kept), 1 in the place of what is cut off
     bool has_sigma = true;
@@ -39,7 +40,6 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
                                        Ordering ordering, Index grounded, std::size_t most_condensed)
     : impl_(std::make_unique<Impl>())
 {
-    impl_->boundary = boundary;
     impl_->has_sigma = boundary.size() - grounded <= most_condensed;
     if (!impl_->has_sigma) grounded = static_cast<Index>(boundary.size());
     impl_->ground.assign(boundary.begin(), boundary.begin() + grounded);
@@ -50,7 +50,7 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
         impl_->laplacian = laplacian;
         impl_->is_cut.assign(laplacian.rows(), 0);
         for (const Index v : impl_->ground) impl_->is_cut[v] = 1;
-        shifted = cut_off(shifted, impl_->is_cut);
+        shifted = cut_off(std::move(shifted), impl_->is_cut);
     }
     impl_->cholesky = std::make_unique<SparseCholesky>(shifted, ordering, impl_->kept);
 }
@@ -59,7 +59,10 @@ CondensedLaplacian::~CondensedLaplacian() = default;
 CondensedLaplacian::CondensedLaplacian(CondensedLaplacian&&) noexcept = default;
 CondensedLaplacian& CondensedLaplacian::operator=(CondensedLaplacian&&) noexcept = default;
 
-Index CondensedLaplacian::boundary_size() const { return static_cast<Index>(impl_->boundary.size()); }
+Index CondensedLaplacian::boundary_size() const 
+{
+    return static_cast<Index>(impl_->ground.size() + impl_->kept.size());
+}
 
 bool CondensedLaplacian::has_sigma() const { return impl_->has_sigma; }
 
@@ -116,10 +119,10 @@ InteriorSolution CondensedLaplacian::solve_interior(const VectorXd& load) const
     VectorXd inner = load;
     inner(impl_->ground).setZero();
     auto [values, flux] = impl_->cholesky->solve_inner(inner);
-    InteriorSolution result{std::move(values), VectorXd(impl_->boundary.size())};
-    if (!impl_->ground.empty()) result.boundary_flux << -VectorXd(impl_->laplacian * result.values)(impl_->ground), flux;
-    else result.boundary_flux = flux;
-    return result;
+    if (impl_->ground.empty()) return {std::move(values), std::move(flux)};
+    VectorXd boundary_flux(boundary_size());
+    boundary_flux << -VectorXd(impl_->laplacian * values)(impl_->ground), flux;
+    return {std::move(values), std::move(boundary_flux)};
 }
 
 }  // namespace koebe

@@ -129,12 +129,23 @@ TEST(YamabeFlow, the_gradient_is_monotone_where_faces_collapse_too)
         }
 }
 
-TEST(YamabeFlow, a_metric_that_has_its_curvature_already_stays)
+namespace {
+
+/// The vertices on the rim of lattice(8).
+std::vector<char> rim_of_lattice(const Lattice& mesh)
 {
-    const Lattice mesh = lattice(8);
     std::vector<char> boundary(mesh.vertex_count, 0);
     for (Index v = 0; v < mesh.vertex_count; ++v)
         boundary[v] = v % 9 == 0 || v % 9 == 8 || v < 9 || v >= mesh.vertex_count - 9;
+    return boundary;
+}
+
+}  // namespace
+
+TEST(YamabeFlow, a_metric_that_has_its_curvature_already_stays)
+{
+    const Lattice mesh = lattice(8);
+    const std::vector<char> boundary = rim_of_lattice(mesh);
     const VectorXd own = discrete_curvature(mesh.triangles, mesh.lengths, boundary);
     for (Index v = 0; v < mesh.vertex_count; ++v)
         if (!boundary[v]) {
@@ -150,9 +161,7 @@ TEST(YamabeFlow, a_metric_that_has_its_curvature_already_stays)
 TEST(YamabeFlow, it_undoes_a_conformal_change_of_the_metric)
 {
     const Lattice mesh = lattice(8);
-    std::vector<char> boundary(mesh.vertex_count, 0);
-    for (Index v = 0; v < mesh.vertex_count; ++v)
-        boundary[v] = v % 9 == 0 || v % 9 == 8 || v < 9 || v >= mesh.vertex_count - 9;
+    const std::vector<char> boundary = rim_of_lattice(mesh);
     const VectorXd own = discrete_curvature(mesh.triangles, mesh.lengths, boundary);
     VectorXd u = random_factors(mesh.vertex_count, 0.5);
     u.array() -= u.mean();
