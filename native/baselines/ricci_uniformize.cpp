@@ -55,20 +55,6 @@ VectorXcd in_normal_position(const RicciFlowResult& flow, const Domain& domain, 
     return positions;
 }
 
-/// What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to. Only hangs the
-/// flaps back.
-PlanarPoints leave_flips(const NamedSurface& whole, const FlapCut& cut, const PlanarPoints& core_uv,
-                         std::vector<LoopReport>& reports, ExecutionContext& context)
-{
-    for (std::size_t k = 0; k < reports.size(); ++k)
-        for (const Index v : whole.loops[k]) reports[k].vertices.push_back(whole.original[v]);
-    if (cut.flaps.empty()) return core_uv;
-    PlanarPoints uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
-    uv(cut.vertices, Eigen::all) = core_uv;
-    hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
-    return uv;
-}
-
 /// Adds the vertices that are not on the circles: the flow puts none there by force.
 void report_off_circle(const Domain& whole, const PlanarPoints& uv, std::vector<LoopReport>& reports)
 {
@@ -131,10 +117,13 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     core_uv << positions.real(), positions.imag();
     const std::size_t own_flips = flipped_faces(domain.surface.triangles, core_uv).size();
     const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original};
-    UntangleReport untangled;
-    const PlanarPoints uv = flow.curvature_error < flat
-                                ? remove_flips(named, cut, std::move(core_uv), result.loops, untangled, context)
-                                : leave_flips(named, cut, core_uv, result.loops, context);
+    // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
+    const UntangledMap map =
+        flow.curvature_error < flat
+            ? remove_flips(named, cut, std::move(core_uv), reported_circles(result.loops), context)
+            : hang_back(named, cut, std::move(core_uv), context);
+    const PlanarPoints& uv = map.uv;
+    report_loops(named, map, result.loops);
     report_off_circle(whole, uv, result.loops);
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
     result.uv = PlanarPoints::Zero(vertices.rows(), 2);
@@ -147,7 +136,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (flow.closing_gap > on_circle)
         result.warnings.push_back(with_number("holes close up to %.2g of their length", flow.closing_gap));
     if (own_flips > 0) result.warnings.push_back("faces flipped by the flow's own map: " + std::to_string(own_flips));
-    for (std::string& sentence : flip_warnings(named, uv, cut.flaps, untangled, result.distortion))
+    for (std::string& sentence : flip_warnings(named, uv, cut.flaps, map.report, result.distortion))
         result.warnings.push_back(std::move(sentence));
     result.seconds.finish = seconds_since(stage);
     result.seconds.total = seconds_since(begin);

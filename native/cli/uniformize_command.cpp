@@ -30,6 +30,7 @@ void add_options(CLI::App& app, Request& request)
     app.add_option("--balance", request.balance, "area: the Moebius map of least area distortion")
         ->check(one_of({"none", "area"}))
         ->capture_default_str();
+    app.add_flag("--polish", request.options.polish, "lower the angle error, circles unchanged; slower");
     add_map_options(app, request);
 }
 

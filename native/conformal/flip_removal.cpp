@@ -7,25 +7,38 @@
 
 namespace koebe {
 
-PlanarPoints remove_flips(const NamedSurface& whole, const FlapCut& cut, PlanarPoints core_uv,
-                          std::vector<LoopReport>& reports, UntangleReport& untangled, ExecutionContext& context)
+UntangledMap hang_back(const NamedSurface& whole, const FlapCut& cut, PlanarPoints core_uv, ExecutionContext& context)
 {
-    PlanarPoints uv = std::move(core_uv);
-    std::vector<Index> off_circle;
-    if (!cut.flaps.empty()) {
-        PlanarPoints whole_uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
-        whole_uv(cut.vertices, Eigen::all) = uv;
-        uv = std::move(whole_uv);
-        off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, uv, context);
-    }
+    if (cut.flaps.empty()) return {std::move(core_uv), {}, {}};
+    UntangledMap map;
+    map.uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
+    map.uv(cut.vertices, Eigen::all) = core_uv;
+    map.off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, map.uv, context);
+    std::sort(map.off_circle.begin(), map.off_circle.end());
+    return map;
+}
+
+UntangledMap remove_flips(const NamedSurface& whole, const FlapCut& cut, PlanarPoints core_uv,
+                          const std::vector<Circle>& circles, ExecutionContext& context)
+{
+    UntangledMap map = hang_back(whole, cut, std::move(core_uv), context);
     context.advance(0.3);
+    map.report = untangle(whole.vertices, whole.surface, whole.loops, circles, map.off_circle, map.uv, context);
+    context.advance(0.7);
+    map.off_circle.insert(map.off_circle.end(), map.report.freed.begin(), map.report.freed.end());
+    std::sort(map.off_circle.begin(), map.off_circle.end());
+    return map;
+}
+
+std::vector<Circle> reported_circles(const std::vector<LoopReport>& reports)
+{
     std::vector<Circle> circles;
     for (const LoopReport& report : reports) circles.push_back(report.circle);
-    untangled = untangle(whole.vertices, whole.surface, whole.loops, circles, off_circle, uv, context);
-    context.advance(0.7);
+    return circles;
+}
 
-    off_circle.insert(off_circle.end(), untangled.freed.begin(), untangled.freed.end());
-    std::sort(off_circle.begin(), off_circle.end());
+void report_loops(const NamedSurface& whole, const UntangledMap& map, std::vector<LoopReport>& reports)
+{
     for (std::size_t k = 0; k < whole.loops.size(); ++k) {
         LoopReport& report = reports[k];
         report.vertices.clear();
@@ -33,14 +46,13 @@ PlanarPoints remove_flips(const NamedSurface& whole, const FlapCut& cut, PlanarP
         Eigen::Index on_circle = 0;
         for (const Index v : whole.loops[k]) {
             report.vertices.push_back(whole.original[v]);
-            if (std::binary_search(off_circle.begin(), off_circle.end(), v))
+            if (std::binary_search(map.off_circle.begin(), map.off_circle.end(), v))
                 report.off_circle.push_back(whole.original[v]);
             else
-                points[on_circle++] = {uv(v, 0), uv(v, 1)};
+                points[on_circle++] = {map.uv(v, 0), map.uv(v, 1)};
         }
         report.roundness_projected = roundness(points.head(on_circle), report.circle);
     }
-    return uv;
 }
 
 }  // namespace koebe

@@ -18,12 +18,25 @@ struct NamedSurface {
     const std::vector<Index>& original;    ///< vertex of the input for each
 };
 
-/// Hangs the flaps back (hang_flaps), turns flipped faces back (untangle), and completes the loop reports: all vertices
-/// of each loop, and those that are off its circle.
+struct UntangledMap {
+    PlanarPoints uv;                ///< (V, 2)
+    std::vector<Index> off_circle;  ///< loop vertices that are not on their circles, rising
+    UntangleReport report;
+};
+
+/// Hangs the flaps back (hang_flaps), flips left as they are.
 /// @param core_uv of the core's vertices; of the surface's own if there are no flaps
-/// @param reports with the circles of the map
-/// @return (V, 2)
-PlanarPoints remove_flips(const NamedSurface& whole, const FlapCut& cut, PlanarPoints core_uv,
-                          std::vector<LoopReport>& reports, UntangleReport& untangled, ExecutionContext& context);
+UntangledMap hang_back(const NamedSurface& whole, const FlapCut& cut, PlanarPoints core_uv, ExecutionContext& context);
+
+/// Hangs the flaps back and turns flipped faces back (untangle).
+/// @param core_uv as above @param circles of the loops
+UntangledMap remove_flips(const NamedSurface& whole, const FlapCut& cut, PlanarPoints core_uv,
+                          const std::vector<Circle>& circles, ExecutionContext& context);
+
+std::vector<Circle> reported_circles(const std::vector<LoopReport>& reports);
+
+/// Completes the loop reports, which have their circles: all vertices of each loop, those that are off its circle, and how
+/// round the others lie.
+void report_loops(const NamedSurface& whole, const UntangledMap& map, std::vector<LoopReport>& reports);
 
 }  // namespace koebe

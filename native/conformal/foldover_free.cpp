@@ -1,11 +1,13 @@
 #include "conformal/foldover_free.h"
 
+#include "geometry/sparse_cholesky.h"
+
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace koebe {
 namespace {
@@ -15,6 +17,7 @@ using Hessian = Eigen::Matrix<double, 6, 6>;
 using Mobility = FoldoverProblem::Mobility;
 
 constexpr double least_epsilon = 1e-6;  // Garanzha et al. 2021, section 3.2
+constexpr double shift = 1e-9;         // of the Hessian's diagonal, over itself
 constexpr double armijo = 1e-4;
 constexpr int halvings = 24;
 constexpr int patience = 30;  // iterations without a better worst determinant, while folded
@@ -76,6 +79,8 @@ private:
         return maps_[f] * corners;
     }
 
+    double weight(Eigen::Index f) const { return problem_.weight.size() > 0 ? problem_.weight[f] : 1.0; }
+
     static double determinant(const Eigen::Vector4d& j) { return j[0] * j[3] - j[1] * j[2]; }
 
     double worst_determinant(const PlanarPoints& points) const
@@ -100,7 +105,8 @@ private:
         for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
             const Eigen::Vector4d j = jacobian(points, f);
             const double d = determinant(j);
-            sum += (j.squaredNorm() + options_.area_weight * (d * d + 1.0)) / regularized(d - problem_.floor[f])[0];
+            sum += weight(f) * (j.squaredNorm() + options_.area_weight * (d * d + 1.0)) /
+                   regularized(d - problem_.floor[f])[0];
         }
         return sum;
     }
@@ -127,8 +133,8 @@ private:
                             slope * (n_gradient * d_gradient.transpose() + d_gradient * n_gradient.transpose());
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(h);
         h = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
-        gradient = maps_[f].transpose() * g;
-        hessian = maps_[f].transpose() * h * maps_[f];
+        gradient = weight(f) * (maps_[f].transpose() * g);
+        hessian = weight(f) * (maps_[f].transpose() * h * maps_[f]);
     }
 
     /// The directions in which a vertex moves, as rows; none if it is held.
@@ -187,12 +193,8 @@ private:
         }
         SparseMatrix hessian(unknowns_, unknowns_);
         hessian.setFromTriplets(entries_.begin(), entries_.end());
-        for (Index i = 0; i < unknowns_; ++i) hessian.coeffRef(i, i) *= 1.0 + 1e-9;
-        if (!analyzed_) solver_.analyzePattern(hessian);
-        analyzed_ = true;
-        solver_.factorize(hessian);
-        VectorXd step = -gradient;
-        if (solver_.info() == Eigen::Success) step = solver_.solve(step);
+        for (Index i = 0; i < unknowns_; ++i) hessian.coeffRef(i, i) *= 1.0 + shift;
+        VectorXd step = newton_direction(hessian, gradient);
         double slope = gradient.dot(step);
         if (!(slope < 0.0) || !step.allFinite()) {
             step = -gradient.cwiseQuotient(hessian.diagonal().cwiseMax(1e-300));
@@ -210,6 +212,21 @@ private:
         return false;
     }
 
+    /// -H^-1 gradient, or 0 if H is singular.
+    VectorXd newton_direction(const SparseMatrix& hessian, const VectorXd& gradient)
+    {
+        try {
+            if (solver_)
+                solver_->refactorize(hessian);
+            else
+                solver_.emplace(hessian);
+            return -solver_->solve(gradient);
+        } catch (const SolverError&) {
+            solver_.reset();
+            return VectorXd::Zero(unknowns_);
+        }
+    }
+
     FoldoverProblem& problem_;
     FoldoverOptions options_;
     std::vector<Index> first_unknown_;  // per vertex, -1 if held
@@ -217,8 +234,7 @@ private:
     std::vector<Eigen::Matrix<double, 4, 6>> maps_;
     double epsilon_ = 1.0;
     std::vector<Eigen::Triplet<double, Index>> entries_;
-    Eigen::SimplicialLDLT<SparseMatrix> solver_;
-    bool analyzed_ = false;
+    std::optional<SparseCholesky> solver_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ struct FoldoverProblem {
     Triangles triangles;                     ///< (F, 3)
     std::vector<Eigen::Matrix2d> reference;  ///< (F) columns: edges 0-1 and 0-2 of the wanted shape, of positive area
     VectorXd floor;                          ///< (F) the determinant to stay above, in the reference's areas
+    VectorXd weight;                         ///< (F) of each face in the sum; empty: 1
     std::vector<Mobility> mobility;          ///< (V) sliding: along its circle
     std::vector<Circle> circles;             ///< (V) of sliding vertices
 };

@@ -4,6 +4,7 @@
 #include "conformal/circle_fit.h"
 #include "conformal/circle_projection.h"
 #include "conformal/distortion.h"
+#include "conformal/flip_removal.h"
 #include "conformal/flux_balance.h"
 #include "conformal/moebius.h"
 #include "conformal/rim_room.h"
@@ -84,13 +85,6 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     return boundary;
 }
 
-std::vector<Circle> reported_circles(const UniformizeResult& result)
-{
-    std::vector<Circle> circles;
-    for (const LoopReport& report : result.loops) circles.push_back(report.circle);
-    return circles;
-}
-
 }  // namespace
 
 PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain,
@@ -98,7 +92,7 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix&
                         UniformizeResult& result, int& outer)
 {
     MatrixXd boundary = place_on_circles(domain, cut, outcome, result);
-    std::vector<Circle> circles = reported_circles(result);
+    std::vector<Circle> circles = reported_circles(result.loops);
     balance_flux(condensed, laplacian, domain.loops, circles, boundary);
     PlanarPoints uv = condensed.extend(boundary);
     if (options.balance == Balance::area) {

@@ -23,6 +23,7 @@ struct UniformizeOptions {
     double tolerance = 1e-6;   ///< on the circles' change in a sweep, a length in the unit disk
     int max_sweeps = 50;
     Balance balance = Balance::none;
+    bool polish = false;       ///< least angle error with the circles as they are, at the end (angle_polish.h)
     int threads = 0;           ///< of the dense and sparse kernels; 0: all cores
 };
 
@@ -101,6 +102,7 @@ struct UniformizeResult {
     std::vector<KoebeStep> history;
     Distortion distortion;
     std::optional<AreaDistortion> unbalanced_area;  ///< before the balance, if one was asked for
+    std::optional<AngleError> unpolished_angle_error_deg;  ///< before the polish, if one was asked for
     StageSeconds seconds;
     double peak_memory_mb = 0.0;
     std::vector<std::string> warnings;

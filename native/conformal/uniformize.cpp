@@ -1,5 +1,6 @@
 #include "conformal/uniformize.h"
 
+#include "conformal/angle_polish.h"
 #include "conformal/boundary_angles.h"
 #include "conformal/distortion.h"
 #include "conformal/domain.h"
@@ -127,15 +128,20 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         better.seconds.total = total.lap();
         return better;
     }
-    UntangleReport untangled;
-    const PlanarPoints uv = remove_flips({whole.vertices, whole.surface, whole.loops, whole.original}, cut,
-                                         std::move(core_uv), result.loops, untangled, context);
-    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
+    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original};
+    const std::vector<Circle> circles = reported_circles(result.loops);
+    UntangledMap map = remove_flips(named, cut, std::move(core_uv), circles, context);
+    if (options.polish) {
+        result.unpolished_angle_error_deg =
+            measure_distortion(whole.vertices, whole.surface.triangles, map.uv).angle_error_deg;
+        polish_angles(whole.vertices, whole.surface, whole.loops, circles, map.off_circle, map.uv, context);
+    }
+    report_loops(named, map, result.loops);
+    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
     result.uv = PlanarPoints::Zero(vertices.rows(), 2);
-    result.uv(whole.original, Eigen::all) = uv;
+    result.uv(whole.original, Eigen::all) = map.uv;
     add_warnings(whole, outcome, result);
-    const auto flip_sentences = flip_warnings({whole.vertices, whole.surface, whole.loops, whole.original}, uv,
-                                              cut.flaps, untangled, result.distortion);
+    const auto flip_sentences = flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion);
     result.warnings.insert(result.warnings.end(), flip_sentences.begin(), flip_sentences.end());
     result.seconds.finish = stage.lap();
     result.seconds.total = total.lap();

@@ -26,20 +26,20 @@ public:
     UntangleReport run()
     {
         UntangleReport report;
-        for (const Index f : map_.tangled()) report.repairs += map_.nudge(f);
+        for (const Index f : map_.tangled()) report.repairs += nudge_face(map_, f);
         report.tangled = map_.tangled();
         for (const int rings : ring_counts)
             for (const PatchBoundary boundary : {PatchBoundary::held, PatchBoundary::sliding})
                 for (const PatchShape shape : shapes) {
                     if (report.tangled.empty()) return report;
                     if (boundary == PatchBoundary::sliding && !options_.slide) continue;
-                    for (const auto& patch : map_.patches(report.tangled, rings, boundary))
-                        report.repairs += map_.repair(patch, shape, boundary, context_);
+                    for (const auto& patch : patches_around(map_, report.tangled, rings, boundary))
+                        report.repairs += repair_patch(map_, patch, shape, boundary, context_);
                     report.tangled = map_.tangled();
                 }
         for (int round = 0; round < most_rounds && !report.tangled.empty(); ++round) {
             bool progress = false;
-            for (const auto& patch : map_.patches(report.tangled, 2, freedom())) {
+            for (const auto& patch : patches_around(map_, report.tangled, 2, freedom())) {
                 const std::size_t before = map_.tangled(patch).size();
                 if (before == 0) continue;
                 const auto freed = free_some(patch, round);
@@ -74,7 +74,7 @@ private:
             for (const Index v : met)
                 if (std::find(result.begin(), result.end(), v) == result.end()) result.push_back(v);
             std::vector<Index> wider;
-            for (const auto& group : map_.patches(map_.tangled(patch), ring + 1, freedom()))
+            for (const auto& group : patches_around(map_, map_.tangled(patch), ring + 1, freedom()))
                 wider.insert(wider.end(), group.begin(), group.end());
             faces = std::move(wider);
         }
@@ -89,10 +89,10 @@ private:
             for (const PatchShape shape : shapes) {
                 const auto tangled = map_.tangled(patch);
                 if (tangled.empty()) return true;
-                for (const auto& wider : map_.patches(tangled, rings, freedom())) {
+                for (const auto& wider : patches_around(map_, tangled, rings, freedom())) {
                     if (work_ > most_work) return better;
                     work_ += wider.size();
-                    better = map_.repair(wider, shape, freedom(), context_) || better;
+                    better = repair_patch(map_, wider, shape, freedom(), context_) || better;
                 }
             }
         return better;

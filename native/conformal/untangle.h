@@ -20,7 +20,7 @@ struct UntangleReport {
 };
 
 /// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, from
-/// the mildest measure to the harshest, until none is left: 2, 4 and 8 rings around them with the loops held; the same
+/// the mildest measure to the harshest, until none is left: 2, 4, 8 and 16 rings around them with the loops held; the same
 /// with the loops' vertices sliding along their circles; the same with a few vertices freed from their circles, which
 /// a face between vertices that span more than half a circle may need. The last is given up after a bounded amount of
 /// work.

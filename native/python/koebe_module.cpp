@@ -118,7 +118,8 @@ PYBIND11_MODULE(_koebe, m)
         .def_readwrite("tolerance", &UniformizeOptions::tolerance)
         .def_readwrite("max_sweeps", &UniformizeOptions::max_sweeps)
         .def_readwrite("balance", &UniformizeOptions::balance)
-        .def_readwrite("threads", &UniformizeOptions::threads);
+        .def_readwrite("threads", &UniformizeOptions::threads)
+        .def_readwrite("polish", &UniformizeOptions::polish);
 
     py::class_<UniformizeResult>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })

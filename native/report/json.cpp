@@ -78,6 +78,8 @@ Json to_json(const UniformizeResult& result)
                 {"loops", array_json(result.loops, loop_json)}};
     report.update(to_json(result.distortion));
     if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);
+    if (result.unpolished_angle_error_deg)
+        report["angle_error_deg"]["before_polish"] = result.unpolished_angle_error_deg->mean;
     report.update({{"seconds", seconds_json(result.seconds)},
                    {"peak_memory_mb", result.peak_memory_mb},
                    {"warnings", result.warnings}});

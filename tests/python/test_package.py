@@ -109,6 +109,15 @@ def test_options_are_checked(option):
         koebe.uniformize(VERTICES, FACES, **option)
 
 
+def test_polish_lowers_the_angle_error_and_leaves_the_circles():
+    vertices, faces = VERTICES, FACES
+    plain, polished = (koebe.uniformize(vertices, faces, polish=polish) for polish in (False, True))
+    before = polished.to_dict()["angle_error_deg"]["before_polish"]
+    assert before == plain.angle_error_deg["mean"] > polished.angle_error_deg["mean"]
+    assert "before_polish" not in plain.to_dict()["angle_error_deg"]
+    assert np.array_equal(plain.centers, polished.centers) and np.array_equal(plain.radii, polished.radii)
+
+
 def test_progress_is_on_the_calling_thread_and_never_goes_back():
     seen = []
     koebe.uniformize(VERTICES, FACES, progress=lambda f, s: seen.append((f, s, threading.get_ident())))

@@ -21,7 +21,7 @@ def _choice(enumeration: Any, option: str, value: str) -> Any:
     return members[value]
 
 
-def _options(method, engine, outer, tolerance, max_sweeps, balance, threads) -> "_koebe.UniformizeOptions":
+def _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = _choice(_koebe.Method, "method", method)
     options.engine = _choice(_koebe.Engine, "engine", engine)
@@ -42,6 +42,7 @@ def _options(method, engine, outer, tolerance, max_sweeps, balance, threads) -> 
     options.tolerance = float(tolerance)
     options.max_sweeps = int(max_sweeps)
     options.threads = int(threads)
+    options.polish = bool(polish)
     return options
 
 
@@ -57,6 +58,7 @@ def uniformize(
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
     threads: int = 0,
+    polish: bool = False,
 ) -> UniformizeResult:
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
@@ -71,11 +73,12 @@ def uniformize(
     progress     called as progress(fraction, stage) on the calling thread; fraction never goes back
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
     threads      of the dense and sparse kernels; 0 takes all cores
+    polish       at the end, lower the angle error with the circles as they are; takes many times as long
 
     One loop gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe
     iteration (section 4.4). Raises InputError, TopologyError, SolverError or Cancelled.
     """
-    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads)
+    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish)
     native = _koebe.uniformize(
         as_vertices(vertices), as_triangles(triangles), options, progress, cancel or _koebe.CancelToken()
     )

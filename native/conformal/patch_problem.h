@@ -1,0 +1,33 @@
+// A part of a map as a foldover-free problem.
+#pragma once
+
+#include "conformal/foldover_free.h"
+#include "conformal/patch_shapes.h"
+#include "conformal/tangled_map.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace koebe {
+
+struct PatchProblem {
+    FoldoverProblem problem;
+    std::vector<Index> vertices;  ///< of the surface, rising: the first rows of problem.points
+
+    /// -1 for a vertex outside the patch.
+    Index row(Index vertex) const
+    {
+        const auto found = std::lower_bound(vertices.begin(), vertices.end(), vertex);
+        return found == vertices.end() || *found != vertex ? -1 : static_cast<Index>(found - vertices.begin());
+    }
+    bool moves(std::size_t row) const { return problem.mobility[row] != FoldoverProblem::Mobility::held; }
+};
+
+/// Some faces of the surface with the shapes they should have. Vertices on the edge of the patch are held, those on circles
+/// slide. Every determinant must stay above what a face can lose by rounding to 32 bits; a face that is right as stored
+/// needs at most half of what it has, or thin faces elsewhere would keep the minimizer busy.
+/// @param faces of the surface, rising
+PatchProblem patch_problem(const TangledMap& map, const std::vector<Index>& faces, PatchShape shape,
+                           PatchBoundary boundary);
+
+}  // namespace koebe

@@ -1,0 +1,115 @@
+#include "conformal/tangled_map.h"
+
+#include "conformal/stored_uv.h"
+#include "geometry/planar_predicates.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace koebe {
+namespace {
+
+constexpr double noticeable = 5e-7;   // disk units: half of what counts as on the circle
+constexpr double least_edge = 1e-11;  // disk units: 1e5 times the rounding of 64-bit positions
+
+}  // namespace
+
+TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                       const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv)
+    : vertices_(vertices),
+      surface_(surface),
+      loops_(loops),
+      circles_(circles),
+      uv_(uv),
+      place_(surface.vertex_count, Place::inside),
+      flap_(surface.vertex_count, 0),
+      loop_of_(surface.vertex_count, -1),
+      begin_(surface.vertex_count + 1, 0),
+      faces_of_(surface.triangles.size())
+{
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        for (const Index v : loops[k]) {
+            loop_of_[v] = static_cast<int>(k);
+            place_[v] = Place::on_circle;
+        }
+    for (const Index v : off_circle) {
+        place_[v] = Place::off_circle;
+        flap_[v] = 1;
+    }
+    const Triangles& triangles = surface.triangles;
+    for (Eigen::Index i = 0; i < triangles.size(); ++i) ++begin_[triangles.data()[i] + 1];
+    for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+    std::vector<Index> cursor(begin_.begin(), begin_.end() - 1);
+    for (Eigen::Index i = 0; i < triangles.size(); ++i)
+        faces_of_[cursor[triangles.data()[i]]++] = static_cast<Index>(i / 3);
+}
+
+std::vector<Index> TangledMap::tangled() const
+{
+    std::vector<Index> result;
+    for (Eigen::Index f = 0; f < triangles().rows(); ++f)
+        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution())
+            result.push_back(static_cast<Index>(f));
+    return result;
+}
+
+std::vector<Index> TangledMap::tangled(const std::vector<Index>& faces) const
+{
+    std::vector<Index> result;
+    for (const Index f : faces)
+        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution()) result.push_back(f);
+    return result;
+}
+
+std::size_t TangledMap::flipped(const std::vector<Index>& faces) const
+{
+    return std::count_if(faces.begin(), faces.end(),
+                         [&](Index f) { return StoredFace(triangles(), uv_, f).flipped(); });
+}
+
+bool TangledMap::collapsed(Index vertex) const
+{
+    for (Index i = begin_[vertex]; i < begin_[vertex + 1]; ++i)
+        for (int k = 0; k < 3; ++k)
+            if ((uv_.row(triangles()(faces_of_[i], k)) - uv_.row(vertex)).norm() > least_edge) return false;
+    return true;
+}
+
+bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
+{
+    const bool may = place_[vertex] == Place::inside || boundary == PatchBoundary::sliding ||
+                     (place_[vertex] == Place::off_circle && boundary == PatchBoundary::freed);
+    return may && !collapsed(vertex);
+}
+
+bool TangledMap::hangs(Index face) const
+{
+    return std::any_of(triangles().row(face).begin(), triangles().row(face).end(),
+                       [&](Index v) { return flap_[v] != 0; });
+}
+
+bool TangledMap::near_circle(Index vertex) const
+{
+    const Circle& circle = circles_[loop_of_[vertex]];
+    return std::abs(std::abs(Complex(uv_(vertex, 0), uv_(vertex, 1)) - circle.center) - circle.radius) <= noticeable;
+}
+
+bool TangledMap::loops_cross(const std::vector<Index>& moved) const
+{
+    const auto at = [&](Index v) { return Complex(uv_(v, 0), uv_(v, 1)); };
+    for (const VertexLoop& loop : loops_)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Index a = loop[i], b = loop[(i + 1) % loop.size()];
+            if (!std::binary_search(moved.begin(), moved.end(), a) &&
+                !std::binary_search(moved.begin(), moved.end(), b))
+                continue;
+            for (const VertexLoop& other : loops_)
+                for (std::size_t j = 0; j < other.size(); ++j) {
+                    const Index c = other[j], d = other[(j + 1) % other.size()];
+                    if (c != a && c != b && d != a && d != b && segments_meet(at(a), at(b), at(c), at(d))) return true;
+                }
+        }
+    return false;
+}
+
+}  // namespace koebe
