@@ -22,7 +22,8 @@ constexpr double concentric = 1e-6;  // of the inner radius
 class SmallCircles {
 public:
     SmallCircles(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
-                 const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary)
+                 const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
+                 AnnulusPosition annulus)
         : condensed_(condensed),
           laplacian_(laplacian),
           loops_(loops),
@@ -31,7 +32,7 @@ public:
     {
         for (const VertexLoop& loop : loops) begin_.push_back(begin_.back() + static_cast<Eigen::Index>(loop.size()));
         for (std::size_t k = 1; k < loops.size(); ++k)
-            if (loops.size() == 2 || circles[k].radius < small_radius) small_.push_back(k);
+            if (annulus == AnnulusPosition::concentric || circles[k].radius < small_radius) small_.push_back(k);
         std::stable_sort(small_.begin(), small_.end(),
                          [&](std::size_t a, std::size_t b) { return circles[a].radius < circles[b].radius; });
         small_.resize(std::min(small_.size(), most_small));
@@ -184,11 +185,13 @@ private:
 }  // namespace
 
 void balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
-                  const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary)
+                  const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
+                  AnnulusPosition annulus)
 {
-    SmallCircles small(condensed, laplacian, loops, circles, boundary);
+    if (loops.size() != 2) annulus = AnnulusPosition::free;
+    SmallCircles small(condensed, laplacian, loops, circles, boundary, annulus);
     if (small.empty()) return;
-    if (loops.size() == 2)
+    if (annulus == AnnulusPosition::concentric)
         small.center_annulus();
     else
         small.minimize_energy();
