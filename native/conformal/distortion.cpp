@@ -1,12 +1,12 @@
 #include "conformal/distortion.h"
 
 #include "conformal/stored_uv.h"
+#include "core/length.h"
 #include "geometry/laplacian.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,21 +27,18 @@ FlatTriangle lay_flat(const Vertices& vertices, const Triangles& triangles, Eige
 {
     const Eigen::RowVector3d e1 = vertices.row(triangles(f, 1)) - vertices.row(triangles(f, 0));
     const Eigen::RowVector3d e2 = vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 0));
-    const double length = e1.stableNorm();
+    const double length = length_of(e1);
     if (!(length > 0.0)) return {0.0, 0.0, 0.0};
     const Eigen::RowVector3d direction = e1 / length;
-    return {length, direction.dot(e2), direction.cross(e2).stableNorm()};
+    return {length, direction.dot(e2), length_of(direction.cross(e2))};
 }
 
-std::array<double, 3> corner_angles(double ax, double ay, double bx, double by)
+/// The angle from the corner (a, b) to the corner (c, d), both counted as positive and below pi.
+double angle_change(double ax, double ay, double bx, double by, double cx, double cy, double dx, double dy)
 {
-    // Corners of the triangle 0, a, b.
-    const auto angle = [](double x1, double y1, double x2, double y2) {
-        return std::atan2(std::abs(x1 * y2 - y1 * x2), x1 * x2 + y1 * y2);
-    };
-    const double first = angle(ax, ay, bx, by);
-    const double second = angle(-ax, -ay, bx - ax, by - ay);
-    return {first, second, std::numbers::pi - first - second};
+    const double cos1 = ax * bx + ay * by, sin1 = std::abs(ax * by - ay * bx);
+    const double cos2 = cx * dx + cy * dy, sin2 = std::abs(cx * dy - cy * dx);
+    return std::atan2(sin2 * cos1 - cos2 * sin1, cos1 * cos2 + sin1 * sin2);
 }
 
 }  // namespace
@@ -80,10 +77,11 @@ Distortion measure_distortion(const Vertices& vertices, const Triangles& triangl
             {flat.p1x * flat.p1x, flat.p2x * flat.p2x + height_squared, rest * rest + height_squared});
         if (!(2.0 * area > thin * longest_squared)) continue;
 
-        const auto before = corner_angles(flat.p1x, 0.0, flat.p2x, flat.p2y);
-        const auto after = corner_angles(ax, ay, bx, by);
-        for (int k = 0; k < 3; ++k) {
-            const double error = degrees * std::abs(after[k] - before[k]);
+        // Corners 0 and 1 of the triangles 0, p1, p2 and 0, a, b; the third takes up what they change.
+        const double first = angle_change(flat.p1x, 0.0, flat.p2x, flat.p2y, ax, ay, bx, by);
+        const double second = angle_change(-flat.p1x, 0.0, rest, flat.p2y, -ax, -ay, bx - ax, by - ay);
+        for (const double change : {first, second, first + second}) {
+            const double error = degrees * std::abs(change);
             angle_sum += error;
             angle_squares += error * error;
             result.angle_error_deg.max = std::max(result.angle_error_deg.max, error);

@@ -38,7 +38,6 @@ public:
         small_.resize(std::min(small_.size(), most_small));
     }
 
-    bool empty() const { return small_.empty(); }
     const VectorXcd& points() const { return points_; }
 
     /// Two loops: the inner one's centre where no flux runs, then a Moebius map that makes it concentric, until nothing
@@ -64,9 +63,9 @@ public:
         }
     }
 
-    void minimize_energy()
+    /// @return whether anything moved
+    bool minimize_energy()
     {
-        if (!any_flux()) return;
         // Columns 3 i, 3 i + 1, 3 i + 2: the indicator of small loop i, and cosine and sine along it.
         const Eigen::Index count = static_cast<Eigen::Index>(small_.size());
         MatrixXd patterns = MatrixXd::Zero(points_.size(), 3 * count);
@@ -94,7 +93,7 @@ public:
             worthwhile = worthwhile || std::abs(solution[2 * i] - old.center) > noticeable * old.radius ||
                          std::abs(solution[2 * i + 1] - old.radius) > noticeable_scale * old.radius;
         }
-        if (!worthwhile) return;
+        if (!worthwhile) return false;
         const auto centers = Eigen::seqN(0, count, 2), radii = Eigen::seqN(1, count, 2);
         const Eigen::LDLT<Eigen::MatrixXcd> for_centers(Eigen::MatrixXcd(system(centers, centers)));
         const Eigen::MatrixXcd coupling = system(centers, radii);
@@ -107,30 +106,30 @@ public:
             if (crowded.empty()) {
                 circles_ = moved;
                 points_ = rest + basis * solution;
-                return;
+                return true;
             }
             // In a corner too narrow for them circles are made smaller, and their centres found again.
             for (const std::size_t k : crowded)
                 solution[2 * (std::find(small_.begin(), small_.end(), k) - small_.begin()) + 1] *= 0.5;
             solution(centers) = -for_centers.solve(rest_load + coupling * VectorXcd(solution(radii)));
         }
+        return false;
     }
 
-private:
-    /// Whether as much flux runs to a small circle as a noticeable offset would cause.
-    bool any_flux() const
+    /// Whether as much flux runs to a small circle as a noticeable offset would cause. @param uv the harmonic extension
+    bool any_flux(const PlanarPoints& uv) const
     {
-        MatrixXd parts(points_.size(), 2);
-        parts << points_.real(), points_.imag();
-        const Eigen::MatrixXcd flux = flux_of(parts);
         return std::any_of(small_.begin(), small_.end(), [&](std::size_t k) {
+            Eigen::RowVector2d flux(0.0, 0.0);
+            for (const Index v : loops_[k])
+                for (SparseMatrix::InnerIterator it(laplacian_, v); it; ++it) flux += it.value() * uv.row(it.row());
             // Flux over offset: that between concentric circles of radii r and 1.
             const double capacity = 2.0 * std::numbers::pi / std::log(1.0 / circles_[k].radius);
-            return flux.middleRows(begin_[k], size(k)).colwise().sum().norm() >
-                   noticeable * capacity * circles_[k].radius;
+            return flux.norm() > noticeable * capacity * circles_[k].radius;
         });
     }
 
+private:
     Eigen::Index size(std::size_t k) const { return begin_[k + 1] - begin_[k]; }
     Eigen::VectorBlock<VectorXcd> segment(VectorXcd& values, std::size_t k) const
     {
@@ -184,18 +183,21 @@ private:
 
 }  // namespace
 
-void balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
-                  const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
-                  AnnulusPosition annulus)
+PlanarPoints balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
+                          const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
+                          AnnulusPosition annulus)
 {
     if (loops.size() != 2) annulus = AnnulusPosition::free;
     SmallCircles small(condensed, laplacian, loops, circles, boundary, annulus);
-    if (small.empty()) return;
-    if (annulus == AnnulusPosition::concentric)
+    PlanarPoints uv;
+    if (annulus == AnnulusPosition::concentric) {
         small.center_annulus();
-    else
-        small.minimize_energy();
+    } else {
+        uv = condensed.extend(boundary);
+        if (!small.any_flux(uv) || !small.minimize_energy()) return uv;
+    }
     boundary << small.points().real(), small.points().imag();
+    return condensed.extend(boundary);
 }
 
 }  // namespace koebe

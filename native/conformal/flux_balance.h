@@ -22,8 +22,9 @@ enum class AnnulusPosition { concentric, free };
 /// until they are both: concentric and without flux.
 /// @param laplacian of the same surface as `condensed`
 /// @param loops the outer one first, `boundary` (m, 2) their images in that order, on the circles
-void balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
-                  const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
-                  AnnulusPosition annulus);
+/// @return (V, 2) the harmonic extension of the boundary
+PlanarPoints balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
+                          const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
+                          AnnulusPosition annulus);
 
 }  // namespace koebe

@@ -93,8 +93,7 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix&
 {
     MatrixXd boundary = place_on_circles(domain, cut, outcome, result);
     std::vector<Circle> circles = reported_circles(result.loops);
-    balance_flux(condensed, laplacian, domain.loops, circles, boundary, AnnulusPosition::concentric);
-    PlanarPoints uv = condensed.extend(boundary);
+    PlanarPoints uv = balance_flux(condensed, laplacian, domain.loops, circles, boundary, AnnulusPosition::concentric);
     if (options.balance == Balance::area) {
         if (options.outer == OuterLoop::automatic) {
             std::vector<int> longest(std::min(circles.size(), outer_candidates));
@@ -110,8 +109,7 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix&
         const VectorXcd moved = balance(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1));
         boundary << moved.real(), moved.imag();
         for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = balance(circles[k]);
-        balance_flux(condensed, laplacian, domain.loops, circles, boundary, AnnulusPosition::free);
-        uv = condensed.extend(boundary);
+        uv = balance_flux(condensed, laplacian, domain.loops, circles, boundary, AnnulusPosition::free);
     }
     for (std::size_t k = 0; k < circles.size(); ++k) result.loops[k].circle = circles[k];
     return uv;

@@ -178,18 +178,30 @@ FlapCut cut_flaps(const Vertices& vertices, const Surface& surface, const std::v
             rank[v] = static_cast<Index>(cut.vertices.size());
             cut.vertices.push_back(v);
         }
-    Triangles triangles(std::count(cut_face.begin(), cut_face.end(), char{0}), 3);
-    Eigen::Index row = 0;
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
-        if (!cut_face[f]) {
-            for (int k = 0; k < 3; ++k) triangles(row, k) = rank[surface.triangles(f, k)];
-            ++row;
-        }
-    cut.core = analyze_surface(triangles, static_cast<Index>(cut.vertices.size()));
     for (const VertexLoop& loop : loops) {
         cut.loops.emplace_back();
         for (const Index v : loop)
             if (rank[v] >= 0) cut.loops.back().push_back(rank[v]);
+    }
+    // A flap is a disk that hangs by one edge: without it the rest is as manifold, oriented and of the same genus.
+    std::vector<Index> face_rank(surface.triangles.rows(), -1);
+    Index faces = 0;
+    for (std::size_t f = 0; f < cut_face.size(); ++f)
+        if (!cut_face[f]) face_rank[f] = faces++;
+    Surface& core = cut.core;
+    core.triangles.resize(faces, 3);
+    core.twin.assign(3 * static_cast<std::size_t>(faces), no_twin);
+    core.vertex_count = static_cast<Index>(cut.vertices.size());
+    core.loops = cut.loops;
+    core.euler_characteristic = surface.euler_characteristic;
+    core.genus = surface.genus;
+    for (Index h = 0; h < static_cast<Index>(surface.triangles.size()); ++h) {
+        const Index f = face_rank[face_of(h)];
+        if (f < 0) continue;
+        core.triangles(f, h % 3) = rank[origin(surface.triangles, h)];
+        const Index twin = surface.twin[h];
+        if (twin != no_twin && face_rank[face_of(twin)] >= 0)
+            core.twin[3 * f + h % 3] = 3 * face_rank[face_of(twin)] + twin % 3;
     }
     return cut;
 }

@@ -38,8 +38,9 @@ public:
     {
         const Index halfedge_count = static_cast<Index>(twin_.size());
         std::vector<Index> stack;
+        const EdgeLengths halves = half_cotangents(lengths_);
         for (Index h = 0; h < halfedge_count; ++h)
-            if (twin_[h] > h && excess(h) > tolerance) stack.push_back(h);
+            if (twin_[h] > h && -2.0 * (halves.data()[h] + halves.data()[twin_[h]]) > tolerance) stack.push_back(h);
         int flips = 0;
         // Lawson's algorithm ends; the bound only guards against round-off on cocircular quadrilaterals.
         const long most = 20L * halfedge_count + 1000;

@@ -1,5 +1,7 @@
 #include "geometry/laplacian.h"
 
+#include "core/length.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +15,7 @@ EdgeLengths lengths_of(const Positions& positions, const Triangles& triangles)
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k)
             lengths(f, k) =
-                (positions.row(triangles(f, (k + 1) % 3)) - positions.row(triangles(f, k))).stableNorm();
+                length_of(positions.row(triangles(f, (k + 1) % 3)) - positions.row(triangles(f, k)));
     return lengths;
 }
 
