@@ -2,8 +2,9 @@
 //
 //   koebe_bench MESH RUNS ENGINE METHOD
 //
-// MESH is a file, or enneper:FACES for five known circles on Enneper's surface (tests/native/circle_domain.h): then
-// "circle_error", the relative error of the inversive distances, is printed too.
+// MESH is a file; TIMES:FILE for each of its faces cut in four so many times; or enneper:FACES for five known circles on
+// Enneper's surface (tests/native/circle_domain.h): then "circle_error", the relative error of the inversive distances,
+// is printed too.
 //
 // The unit of time is what any linear conformal map costs at least: assemble the cotan Laplacian, order it by AMD,
 // factor it (supernodal) and solve for two columns.
@@ -22,7 +23,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <string>
+#include <utility>
 
 using namespace koebe;
 
@@ -55,6 +58,29 @@ struct Input {
     std::vector<VertexLoop> known_loops;
 };
 
+/// Every face in four, new vertices in the middle of its edges.
+void subdivide(Vertices& vertices, Triangles& triangles)
+{
+    std::map<std::pair<Index, Index>, Index> middles;
+    std::vector<Eigen::RowVector3d> added;
+    const auto middle = [&](Index a, Index b) {
+        const auto [place, fresh] =
+            middles.try_emplace(std::minmax(a, b), static_cast<Index>(vertices.rows() + added.size()));
+        if (fresh) added.push_back(0.5 * (vertices.row(a) + vertices.row(b)));
+        return place->second;
+    };
+    Triangles finer(4 * triangles.rows(), 3);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const Index a = triangles(f, 0), b = triangles(f, 1), c = triangles(f, 2);
+        const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        finer.middleRows<4>(4 * f) << a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca;
+    }
+    const Eigen::Index old = vertices.rows();
+    vertices.conservativeResize(old + static_cast<Eigen::Index>(added.size()), Eigen::NoChange);
+    for (std::size_t i = 0; i < added.size(); ++i) vertices.row(old + i) = added[i];
+    triangles = std::move(finer);
+}
+
 Input read_input(const std::string& name)
 {
     const std::string prefix = "enneper:";
@@ -63,8 +89,10 @@ Input read_input(const std::string& name)
             test::five_circles(), static_cast<Index>(std::stol(name.substr(prefix.size()))));
         return {test::lift(domain.points, test::Lift::enneper), domain.triangles, domain.circles, domain.loops};
     }
-    PolygonMesh file = read_mesh(name);
+    const auto colon = name.find(':');
+    PolygonMesh file = read_mesh(colon == std::string::npos ? name : name.substr(colon + 1));
     Triangles triangles = triangulate(file).triangles;
+    for (int i = colon == std::string::npos ? 0 : std::stoi(name); i > 0; --i) subdivide(file.vertices, triangles);
     return {std::move(file.vertices), std::move(triangles), {}, {}};
 }
 
