@@ -206,7 +206,7 @@ def _split(surface, corners, corner_face, corner_root, face_root):
     triangle_groups = _groups(island_of_face[surface.triangle_face[triangles]], triangles, count)
     corner_groups = _groups(island_of_face[corner_face[corners]], corners, count)
     face_groups = _groups(island_of_face[faces], faces, count)
-    first_vertex = np.searchsorted(root_island, np.arange(count + 1))
+    first_vertex = np.searchsorted(root_island, np.arange(count + 1)).tolist()
 
     result = []
     for i in range(count):
