@@ -25,6 +25,14 @@ def _uv_collection(layer):
     return layer.data, "uv"
 
 
+def any_pin(mesh, layer):
+    """Whether some corner is pinned in a UV layer of the mesh. The mesh must not be in Edit Mode."""
+    if not hasattr(layer, "pin"):  # before 3.5
+        return bool(read(layer.data, "pin_uv", bool).any())
+    pins = mesh.attributes.get(f".pn.{layer.name}")
+    return pins is not None and bool(read(pins.data, "value", bool).any())
+
+
 def slow_mode_change():
     """Whether entering and leaving Edit Mode takes longer than to write the corners of a mesh one by one."""
     return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # 3.5 on it takes half the time

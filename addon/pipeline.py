@@ -18,13 +18,15 @@ class Task:
     """A surface to map.
 
     `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `old_uv` (C, 2) are
-    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is negative.
+    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
+    negative, `pinned` that UVs of the layer to write are pinned.
     """
 
     name: str
     surface: Surface
     outer: object = "auto"
     mirrored: bool = False
+    pinned: bool = False
     old_uv: np.ndarray = None
 
 

@@ -77,6 +77,14 @@ def read_uv(obj, layer_name):
         return compat.corner_uv(mesh.uv_layers[layer.name])
 
 
+def has_pins(obj, layer_name):
+    """Whether UVs of that layer are pinned; in Edit Mode as of `read_surface`."""
+    if layer_name not in obj.data.uv_layers:
+        return False
+    with _arrays(obj) as mesh:
+        return compat.any_pin(mesh, mesh.uv_layers[layer_name])
+
+
 def texel_density(obj, layer_name):
     """Mean length in the UVs of a layer over length in space; 0 if there are none. Not in Edit Mode."""
     if layer_name not in obj.data.uv_layers:
