@@ -7,6 +7,7 @@ import numpy as np
 
 from .offenders import flipped_triangles
 from .shapes import Shape, ShapeError, fitted_circle, map_shape
+from .surface import as_complex, as_points
 from .upright import upright_turn
 
 # UV units: what may lie off its circle, or differ between the corners of a vertex, in UVs of 32 bits.
@@ -145,10 +146,6 @@ def _with_matching_outer_loop(koebe, source, target, progress, cancel):
     return target, [next(number[int(v)] for v in loop if int(v) in number) for loop in wanted]
 
 
-def _complex(points):
-    return points @ np.array([1.0, 1j])
-
-
 def _upright_like(koebe, source, target, points):
     """Points of the target's disk turned about the middle of its hole, until up is where it is in the source."""
     ring = Domain(np.zeros_like(source.domain.centers), source.domain.radii.copy(), source.domain.loops)
@@ -157,10 +154,10 @@ def _upright_like(koebe, source, target, points):
     to_ring = koebe.align_domains(ring, source.domain)
     given, turned = to_ring(source.points), to_ring(points)
     turn = upright_turn(target.island, turned) / upright_turn(source.shape.island, given)
-    z = turn * _complex(turned)
+    z = turn * as_complex(turned)
     a, direction = to_ring.a, to_ring.turn  # w = direction (z - a) / (1 - conj(a) z), undone
     z = (z + direction * a) / (direction + np.conj(a) * z)
-    return np.column_stack([z.real, z.imag])
+    return as_points(z)
 
 
 def _bent_onto_holes(koebe, source, target, match, points):

@@ -25,6 +25,14 @@ def _uv_collection(layer):
     return layer.data, "uv"
 
 
+def any_pin(mesh, layer):
+    """Whether some corner is pinned in a UV layer of the mesh. The mesh must not be in Edit Mode."""
+    if not hasattr(layer, "pin"):  # before 3.5
+        return bool(read(layer.data, "pin_uv", bool).any())
+    pins = mesh.attributes.get(f".pn.{layer.name}")
+    return pins is not None and bool(read(pins.data, "value", bool).any())
+
+
 def slow_mode_change():
     """Whether entering and leaving Edit Mode takes longer than to write the corners of a mesh one by one."""
     return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # 3.5 on it takes half the time
@@ -61,6 +69,24 @@ def seam_edges(mesh):
         if name in mesh.attributes:
             return read(mesh.attributes[name].data, "value", bool)
     return np.zeros(len(mesh.edges), dtype=bool)
+
+
+def vertex_positions(mesh):
+    """Positions (V, 3) of the vertices, in 32 bits. The mesh must not be in Edit Mode."""
+    if "position" in mesh.attributes:  # 3.5 on, and much faster there
+        return read(mesh.attributes["position"].data, "vector", np.float32, 3)
+    return read(mesh.vertices, "co", np.float32, 3)
+
+
+def chosen_faces(mesh):
+    """Whether each face (P,) is selected and not hidden. The mesh must not be in Edit Mode."""
+    return _face_flag(mesh, ".select_poly") & ~_face_flag(mesh, ".hide_poly")
+
+
+def _face_flag(mesh, name):
+    if name not in mesh.attributes:  # then it is false everywhere
+        return np.zeros(len(mesh.polygons), dtype=bool)
+    return read(mesh.attributes[name].data, "value", bool)
 
 
 def enable_nodes(material):

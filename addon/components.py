@@ -17,18 +17,26 @@ def connected_components(count, first, second):
     [Shiloach and Vishkin 1982]. Labels only ever decrease, so that no cycle can arise.
     """
     label = np.arange(count, dtype=np.int32)
+    low, high = np.minimum(first, second), np.maximum(first, second)
     for round_ in itertools.count():
+        label[high] = low
+        _flatten(label)
         low, high = label[first], label[second]
         apart = np.flatnonzero(low != high)
         if len(apart) == 0:
             return label
         first, second, low, high = first[apart], second[apart], low[apart], high[apart]
         low, high = np.minimum(low, high), np.maximum(low, high)
-        if round_ >= HASTY_ROUNDS:
+        if round_ + 1 >= HASTY_ROUNDS:
             # Of several writes to one place the last stays: let that be the smallest.
             order = np.argsort(-low, kind="stable")
             low, high = low[order], high[order]
-        label[high] = low
-        flat = label[label]
-        while not np.array_equal(flat, label):
-            label, flat = flat, flat[flat]
+
+
+def _flatten(label):
+    """Let every node point to its root."""
+    flat = label[label]
+    steep = np.flatnonzero(flat != label)
+    while len(steep):
+        label[steep] = flat = label[label[steep]]
+        steep = steep[label[flat] != flat]

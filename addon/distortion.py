@@ -22,7 +22,7 @@ NOT_MAPPED = (0.35, 0.35, 0.35)  # faces without an area in the UVs
 def both_areas(surface, uv):
     """Area in space and signed area in the UVs (C, 2) of each triangle (T,)."""
     in_space = areas(surface.positions, surface.corner_vertex[surface.triangle_corners])
-    return in_space, signed_areas(uv.astype(np.float64), surface.triangle_corners)
+    return in_space, signed_areas(uv, surface.triangle_corners)
 
 
 def texel_density(surface, uv):

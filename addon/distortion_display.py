@@ -83,7 +83,10 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.mode in {"OBJECT", "EDIT_MESH"} and bool(target_objects(context))
+        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
+            cls.poll_message_set("Select a mesh object, in Object Mode or in Edit Mode")
+            return False
+        return True
 
     def execute(self, context):
         objects = target_objects(context)

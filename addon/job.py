@@ -43,7 +43,8 @@ class Job:
             vertex = transfer.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
         self.objects.append(obj)
-        self.tasks.append(Task(obj.name, surface, outer, mirrored=obj.matrix_world.determinant() < 0.0))
+        mirrored, pinned = obj.matrix_world.determinant() < 0.0, transfer.has_pins(obj, self.options.layer)
+        self.tasks.append(Task(obj.name, surface, outer, mirrored, pinned))
 
     def compute(self, progress=None):
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where the islands' disks lie in the UV square. No bpy."""
 
+import cmath
 import dataclasses
 
 import numpy as np
+
+from .surface import as_complex, as_points
 
 # Halvings of the interval of scales: the packing is within 2⁻¹² of the largest this packer finds.
 BISECTIONS = 12
@@ -23,12 +26,7 @@ class Placement:
 
     def apply(self, points):
         """UV coordinates (n, 2) of points (n, 2) of the unit disk."""
-        if self.rotation == 0.0:
-            turned = points
-        else:
-            cos, sin = np.cos(self.rotation), np.sin(self.rotation)
-            turned = points @ np.array([[cos, sin], [-sin, cos]])
-        return np.asarray(self.offset) + self.scale * turned
+        return as_points(complex(*self.offset) + cmath.rect(self.scale, self.rotation) * as_complex(points))
 
     def to_dict(self):
         """Plain values, for JSON."""
@@ -40,7 +38,7 @@ def fit_placement(points, targets):
 
     Centre, root mean square radius and mean direction agree.
     """
-    source, target = points @ np.array([1.0, 1j]), targets.astype(np.float64) @ np.array([1.0, 1j])
+    source, target = as_complex(points), as_complex(targets)
     source_center, target_center = source.mean(), target.mean()
     source, target = source - source_center, target - target_center
     size = np.linalg.norm(target) / np.linalg.norm(source)

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How an operator computes without a frozen window: on a thread, with progress, Esc and polling."""
 
+import time
+
 import bpy
 
 from .worker import Worker
 
 POLL_SECONDS = 0.05  # how often a running computation is looked at: Esc acts within this and one checkpoint
+SHOW_SECONDS = 0.25  # how often its progress is shown: each time Blender puts the whole window together again
 # While a computation runs the view may be moved; everything else could change what is being mapped.
 NAVIGATION = {
     "MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE",
@@ -40,7 +43,7 @@ class ModalRun:
             return {"CANCELLED"}
         self._running = job
         self._worker = Worker(job.compute)
-        self._shown = None
+        self._shown_at, self._shown = 0.0, None
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
         self._show_progress(context)
@@ -74,6 +77,7 @@ class ModalRun:
 
     def _show_progress(self, context):
         text = f"Koebe UV: {100 * self._worker.fraction:.0f} %  {self._worker.stage}      Esc: Cancel"
-        if text != self._shown:  # every change draws the window again
+        now = time.monotonic()
+        if text != self._shown and now >= self._shown_at + SHOW_SECONDS:
             context.workspace.status_text_set(text)
-            self._shown = text
+            self._shown_at, self._shown = now, text

@@ -32,4 +32,4 @@ def _crowded_edges(surface, island):
 
 def flipped_triangles(triangles, uv):
     """Which triangles (m, 3) have a signed area, in 32-bit UVs (n, 2) of the vertices, that is not positive."""
-    return np.flatnonzero(signed_areas(uv.astype(np.float64), triangles) <= 0.0)
+    return np.flatnonzero(signed_areas(uv, triangles) <= 0.0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from .layout import Placement, fit_placement, pack_disks
 from .offenders import flipped_triangles
-from .surface import Island, Surface, cut_into_islands, signed_areas
+from .surface import Island, Surface, as_complex, as_points, cut_into_islands, signed_areas, whole_island
 from .tube import unroll
 from .upright import upright_turn
 
@@ -18,13 +18,15 @@ class Task:
     """A surface to map.
 
     `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `old_uv` (C, 2) are
-    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is negative.
+    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
+    negative, `pinned` that UVs of the layer to write are pinned.
     """
 
     name: str
     surface: Surface
     outer: object = "auto"
     mirrored: bool = False
+    pinned: bool = False
     old_uv: np.ndarray = None
 
 
@@ -61,8 +63,7 @@ class IslandOutcome:
         """Points (n, 2) of the shape after the turn."""
         if self.turn == 1.0:
             return points
-        cos, sin = self.turn.real, self.turn.imag
-        return points @ np.array([[cos, sin], [-sin, cos]])
+        return as_points(self.turn * as_complex(points))
 
     @functools.cached_property
     def flat(self):
@@ -115,8 +116,8 @@ class SurfaceOutcome:
     def corner_uv(self):
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
         corners = [outcome.sheet.corners for outcome in self.mapped]
-        uv = [outcome.uv[outcome.sheet.corner_vertex] for outcome in self.mapped]
-        return np.concatenate(corners), np.concatenate(uv)
+        uv = [outcome.uv.take(outcome.sheet.corner_vertex, axis=0) for outcome in self.mapped]
+        return (corners[0], uv[0]) if len(uv) == 1 else (np.concatenate(corners), np.concatenate(uv))
 
 
 def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
@@ -126,23 +127,37 @@ def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
     stage)` is called on this thread; `cancel` is a `koebe.CancelToken`, and `koebe.Cancelled` ends
     everything. Other `koebe.KoebeError`s are kept as the outcome of their island.
     """
-    cut = [cut_into_islands(task.surface) for task in tasks]
-    total = sum(len(island.triangles) for islands in cut for island in islands)
-    done = 0
-    outcomes = []
-    for task, islands in zip(tasks, cut, strict=True):
-        outcome = SurfaceOutcome(task, [])
-        for island in islands:
-            share = _share_of(progress, done, len(island.triangles), total)
-            outer = _outer_loop(island, task.outer)
-            one = _map_island(koebe, island, outer, options, share, cancel)
-            outcome.islands.append(one)
-            done += len(island.triangles)
+    sizes = [int(np.count_nonzero(task.surface.selected[task.surface.triangle_face])) for task in tasks]
+    done, outcomes = 0, []
+    for task, size in zip(tasks, sizes, strict=True):
+        share = _share_of(progress, done, size, sum(sizes))
+        outcome = SurfaceOutcome(task, _map_islands(koebe, task, options, share, cancel))
         _shape(koebe, outcome, options)
         outcomes.append(outcome)
+        done += size
     _lay_out(outcomes, options)
     for outcome in outcomes:
         outcome.work_out()
+    return outcomes
+
+
+def _map_islands(koebe, task, options, progress, cancel):
+    """The outcome of each island of a task's surface."""
+    first = None
+    whole = whole_island(task.surface)
+    if whole is not None:
+        first = _map_island(koebe, whole, task.outer, options, progress, cancel)
+        if first.error is None:
+            return [first]
+    islands = cut_into_islands(task.surface)
+    if first is not None and len(islands) == 1 and len(islands[0].vertices) == len(whole.vertices):
+        return [first]  # nothing to cut: the error is the island's own
+    done, total = 0, sum(len(island.triangles) for island in islands)
+    outcomes = []
+    for island in islands:
+        share = _share_of(progress, done, len(island.triangles), total)
+        outcomes.append(_map_island(koebe, island, task.outer, options, share, cancel))
+        done += len(island.triangles)
     return outcomes
 
 
@@ -157,7 +172,7 @@ def _map_island(koebe, island, outer, options, progress, cancel):
         result = koebe.uniformize(
             island.vertices,
             island.triangles,
-            outer=outer,
+            outer=_outer_loop(island, outer),
             progress=progress,
             cancel=cancel,
             **options.solver_arguments(),

@@ -35,8 +35,8 @@ class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Koebe UV Preset"
     preset_menu = "KOEBE_MT_presets"
     preset_subdir = FOLDER
-    preset_defines = ["settings = bpy.context.scene.koebe_uv"]
-    preset_values = [f"settings.{name}" for name in OPTION_NAMES]
+    # Full paths: what `preset_defines` names, Blender 4.3 does not find under Python 3.13 (PEP 667).
+    preset_values = [f"bpy.context.scene.koebe_uv.{name}" for name in OPTION_NAMES]
 
 
 class UV_OT_koebe_reset(bpy.types.Operator):

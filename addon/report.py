@@ -11,7 +11,10 @@ REASONS = {
     "nonmanifold_vertex": "{vertices} where separate parts of it touch: split them",
     "nonorientable": "the surface is one-sided, like a Möbius strip: mark a seam across it",
 }
+PINNED = "its pins are not kept: a map to a circle domain leaves nothing that a pin could hold"
 MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
+# What the solver says of its disk in 32 bits, which does not hold for the rectangle made of it.
+OF_THE_DISK = "below the resolution of 32-bit UVs"
 # UV units: an edge below this is a dozen steps of a 32-bit number near 1 at most. As in the native report.
 RESOLUTION = 1e-6
 
@@ -64,7 +67,8 @@ def explain(error):
 
 def warnings(task, one):
     """What to watch out for in a mapped island."""
-    return [*one.result.warnings, *([MIRRORED] if task.mirrored else [])]
+    native = [text for text in one.result.warnings if not (one.unrolled and OF_THE_DISK in text)]
+    return [*native, *([MIRRORED] if task.mirrored else []), *([PINNED] if task.pinned else [])]
 
 
 def entries(outcome):

@@ -14,7 +14,7 @@ from .select_operators import (
     active_entry,
 )
 
-MESSAGE_WIDTH = 28  # characters of a line of text in a sidebar of the usual width
+CHARACTER = 7.8  # pixels of the sidebar's width for each character of a line of text, at a resolution scale of 1
 MAX_LOOP_BUTTONS = 40
 # Radius of an annulus's hole, in units of its rim, below which texels differ by the inverse: better unrolled.
 LONG_TUBE = 0.2
@@ -68,20 +68,27 @@ class ReportPanel(KoebePanel):
         entry = active_entry(context)
         if entry is None:
             return
+        layout.label(text=f"{entry.object_name}, island {entry.island + 1}", icon=island_icon(entry))
+        draw_message(layout, entry.message)
         if entry.mapped:
-            draw_result(layout.column(), entry)
             draw_unroll(layout, context, entry)
-        lines = layout.column(align=True)
-        lines.scale_y = 0.8
-        for line in textwrap.wrap(entry.message, MESSAGE_WIDTH):
-            lines.label(text=line)
-        if not entry.mapped:
+            draw_result(layout.column(), entry)
+        else:
             layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
+
+
+def draw_message(layout, message):
+    """Lines of text, as long as the sidebar is wide."""
+    context = bpy.context
+    width = context.region.width / context.preferences.system.ui_scale / CHARACTER
+    lines = layout.column(align=True)
+    lines.scale_y = 0.8
+    for line in textwrap.wrap(message, max(20, int(width))):
+        lines.label(text=line)
 
 
 def draw_result(column, entry):
     """Figures of a mapped island, and buttons that select its loops and its flipped faces."""
-    column.label(text=f"{entry.object_name}, island {entry.island + 1}", icon=island_icon(entry))
     table = column.column(align=True)
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),

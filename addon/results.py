@@ -65,7 +65,6 @@ def record(context, job):
     """Replace the report by that of a job that has run."""
     report = context.window_manager.koebe_uv
     report.islands.clear()
-    report.active = 0
     for obj, task, outcome in zip(job.objects, job.tasks, job.outcomes, strict=True):
         for index, one in enumerate(outcome.islands):
             entry = report.islands.add()
@@ -76,6 +75,8 @@ def record(context, job):
                 entry.message = explain(one.error)
                 kind, elements = offending_elements(task.surface, one)
                 entry.offenders = json.dumps([kind, elements.tolist()])
+    # What has to be looked at comes first.
+    report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
 
 
 def _record_result(entry, task, one):

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The part of the panel for shapes: the fingerprint of one, its distance to others, one texture for several."""
 
-import textwrap
-
-from .report_panel import MESSAGE_WIDTH, KoebePanel
+from .report_panel import KoebePanel, draw_message
 from .shape_operators import UV_OT_koebe_carry_texture, UV_OT_koebe_compare_shapes
 
 MAX_NUMBERS = 24  # of a module; a hole's x, y and radius a row
@@ -59,5 +57,4 @@ def draw_entries(column, title, entries, form):
         split = column.split(factor=0.65)
         split.label(text=entry.name, icon="CHECKMARK" if entry.measured and not entry.message else "ERROR")
         split.label(text=form.format(entry.distance) if entry.measured else "")
-        for line in textwrap.wrap(entry.message, MESSAGE_WIDTH):
-            column.label(text=line)
+        draw_message(column, entry.message)

@@ -11,6 +11,9 @@ import numpy as np
 
 from .components import connected_components
 
+# Triangles at a time: what is computed on the way then stays in the processor's cache, and needs no new memory.
+BLOCK = 1 << 13
+
 
 @dataclasses.dataclass(frozen=True)
 class Surface:
@@ -74,19 +77,64 @@ class Island:
         return corner
 
 
+def blocks(count):
+    """Slices of at most BLOCK items that cover `count` ones."""
+    return (slice(first, first + BLOCK) for first in range(0, count, BLOCK))
+
+
 def areas(positions, triangles):
     """Area (t,) of triangles in space."""
-    a, b, c = (positions[triangles[:, k]].T for k in range(3))
-    (x, y, z), (s, t, u) = b - a, c - a
+    result = np.empty(len(triangles))
+    for part in blocks(len(triangles)):
+        a, b, c = (positions.take(corner, axis=0) for corner in triangles[part].T)
+        result[part] = spanned_areas(b - a, c - a)
+    return result
+
+
+def spanned_areas(one, two):
+    """Area (t,) of the triangles between pairs of edge vectors (t, 3)."""
+    (x, y, z), (s, t, u) = one.T, two.T
     return 0.5 * np.sqrt((y * u - z * t) ** 2 + (z * s - x * u) ** 2 + (x * t - y * s) ** 2)
 
 
 def signed_areas(points, triangles):
-    """Area (t,) of triangles in the plane, positive if counter-clockwise."""
-    x, y = points[:, 0], points[:, 1]
-    a, b, c = (triangles[:, k] for k in range(3))
-    xa, ya = x[a], y[a]
-    return 0.5 * ((x[b] - xa) * (y[c] - ya) - (y[b] - ya) * (x[c] - xa))
+    """Area (t,) of triangles in the plane, positive if counter-clockwise; in 64 bits, whatever the points have."""
+    result, z = np.empty(len(triangles)), as_complex(points)
+    for part in blocks(len(triangles)):
+        a, b, c = (z.take(corner) for corner in triangles[part].T)
+        result[part] = 0.5 * (np.conj(b - a) * (c - a)).imag
+    return result
+
+
+def as_complex(points):
+    """Points (n, 2) as complex numbers (n,) of 64-bit parts."""
+    return np.ascontiguousarray(points, dtype=np.float64).view(np.complex128)[:, 0]
+
+
+def as_points(z):
+    """Complex numbers (n,) as points (n, 2)."""
+    return np.ascontiguousarray(z, dtype=np.complex128)[:, None].view(np.float64)
+
+
+def whole_island(surface):
+    """The surface as its own island, array for array, or None if a part of it is not selected or it has a seam.
+
+    It is what `cut_into_islands` gives if the surface is connected and no two parts of it touch in a vertex only. The
+    solver finds out, so that nobody need look twice.
+    """
+    used = np.zeros(len(surface.positions), dtype=bool)
+    used[surface.corner_vertex] = True
+    if not (surface.selected.all() and used.all()) or surface.seam.any():
+        return None
+    return Island(
+        vertices=surface.positions,
+        triangles=surface.corner_vertex[surface.triangle_corners].astype(np.int32, copy=False),
+        triangle_face=surface.triangle_face,
+        source_vertex=np.arange(len(surface.positions), dtype=np.int32),
+        corners=np.arange(len(surface.corner_vertex), dtype=np.int32),
+        corner_vertex=surface.corner_vertex,
+        faces=np.arange(len(surface.face_size)),
+    )
 
 
 def cut_into_islands(surface):
@@ -116,19 +164,17 @@ def _neighbours(surface, corners):
     """Pairs of corners whose edges are the same edge of two faces, and no seam."""
     corners = corners[~surface.seam[surface.corner_edge[corners]]]
     edges = surface.corner_edge[corners]
-    uses = np.bincount(edges, minlength=len(surface.seam))
     # Of several writes to one place the last stays.
-    last = np.zeros(len(surface.seam), dtype=np.int32)
+    first, last = np.full((2, len(surface.seam)), -1, dtype=np.int32)
     last[edges] = corners
-    first = np.zeros(len(surface.seam), dtype=np.int32)
     first[edges[::-1]] = corners[::-1]
-    shared = np.flatnonzero(uses == 2)
+    shared = first != last
     here, there = first[shared], last[shared]
-    crowded = uses[edges] > 2
-    if crowded.any():
-        of_crowded = corners[crowded]
-        anchor = first[surface.corner_edge[of_crowded]]
-        here, there = np.append(here, anchor), np.append(there, of_crowded)
+    if np.count_nonzero(last >= 0) + len(here) < len(corners):  # some edge has more than two
+        crowded = np.bincount(edges, minlength=len(surface.seam)) > 2
+        of_crowded = corners[crowded[edges]]
+        here, there = first[shared & ~crowded], last[shared & ~crowded]
+        here, there = np.append(here, first[surface.corner_edge[of_crowded]]), np.append(there, of_crowded)
     return here, there
 
 
@@ -142,7 +188,7 @@ def _same_vertex(corner_vertex, next_corner, here, there):
 
 def _split(surface, corners, corner_face, corner_root, face_root):
     faces = np.flatnonzero(surface.selected)
-    roots, islands = _distinct(corner_root[corners]), _distinct(face_root[faces])
+    roots, islands = corners[corner_root[corners] == corners], faces[face_root[faces] == faces]
     rank_of_root = np.zeros(len(face_root), dtype=np.int32)
     rank_of_root[islands] = np.arange(len(islands), dtype=np.int32)
     island_of_face = rank_of_root[face_root]
@@ -160,7 +206,7 @@ def _split(surface, corners, corner_face, corner_root, face_root):
     triangle_groups = _groups(island_of_face[surface.triangle_face[triangles]], triangles, count)
     corner_groups = _groups(island_of_face[corner_face[corners]], corners, count)
     face_groups = _groups(island_of_face[faces], faces, count)
-    first_vertex = np.searchsorted(root_island, np.arange(count + 1))
+    first_vertex = np.searchsorted(root_island, np.arange(count + 1)).tolist()
 
     result = []
     for i in range(count):
@@ -169,7 +215,7 @@ def _split(surface, corners, corner_face, corner_root, face_root):
         result.append(
             Island(
                 vertices=surface.positions[root_vertex[begin:end]],
-                triangles=(vertex_of_corner[corner_ids] - begin).astype(np.int32),
+                triangles=vertex_of_corner[corner_ids] - begin,
                 triangle_face=surface.triangle_face[triangle_groups[i]],
                 source_vertex=root_vertex[begin:end],
                 corners=corner_groups[i],
@@ -180,15 +226,10 @@ def _split(surface, corners, corner_face, corner_root, face_root):
     return result
 
 
-def _distinct(labels):
-    """The labels that occur, in order."""
-    return np.flatnonzero(np.bincount(labels))
-
-
 def _groups(keys, values, count):
     """`values` with key 0, those with key 1, …, each in their order."""
     if count == 1:
         return [values]
-    order = np.argsort(keys, kind="stable")
+    order = np.argsort(keys.astype(np.min_scalar_type(count)), kind="stable")  # of short numbers: in one pass
     ends = np.cumsum(np.bincount(keys, minlength=count))
     return np.split(values[order], ends[:-1])

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender mesh -> arrays -> UV layer. Reads everything, writes nothing but one UV layer's coordinates."""
 
+import contextlib
 import itertools
+import struct
 
 import bmesh
-import bpy
 import numpy as np
 
 from . import compat, distortion
@@ -26,33 +27,42 @@ def read_surface(obj, selected_only):
     """
     if obj.mode == "EDIT":
         obj.update_from_editmode()
-    mesh = obj.data
-    mesh.calc_loop_triangles()
-    triangles = mesh.loop_triangles
-    vertex, edge = compat.corner_indices(mesh)
-    return Surface(
-        positions=_world_positions(obj),
-        corner_vertex=vertex,
-        corner_edge=edge,
-        face_start=compat.read_indices(mesh.polygons, "loop_start"),
-        face_size=compat.read_indices(mesh.polygons, "loop_total"),
-        seam=compat.seam_edges(mesh),
-        selected=_selected_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
-        triangle_corners=compat.read_indices(triangles, "loops", 3),
-        triangle_face=compat.read_indices(triangles, "polygon_index"),
-    )
+    with _arrays(obj) as mesh:
+        mesh.calc_loop_triangles()
+        vertex, edge = compat.corner_indices(mesh)
+        size = compat.read_indices(mesh.polygons, "loop_total")
+        return Surface(
+            positions=_world_positions(obj, mesh),
+            corner_vertex=vertex,
+            corner_edge=edge,
+            face_start=compat.read_indices(mesh.polygons, "loop_start"),
+            face_size=size,
+            seam=compat.seam_edges(mesh),
+            selected=compat.chosen_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
+            triangle_corners=compat.read_indices(mesh.loop_triangles, "loops", 3),
+            triangle_face=np.repeat(np.arange(len(size), dtype=np.int32), size - 2),  # as Blender orders them
+        )
 
 
-def _selected_faces(mesh):
-    return compat.read(mesh.polygons, "select", bool) & ~compat.read(mesh.polygons, "hide", bool)
+@contextlib.contextmanager
+def _arrays(obj):
+    """The object's mesh, to be read. In Edit Mode it hides its UVs, and from 3.6 on hands over the rest one by one: then
+    it is a copy for the time, in which Blender shares what it can."""
+    if obj.mode != "EDIT":
+        yield obj.data
+        return
+    try:
+        yield obj.to_mesh()  # of the object itself, without modifiers and shape keys
+    finally:
+        obj.to_mesh_clear()
 
 
-def _world_positions(obj):
-    positions = compat.read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
+def _world_positions(obj, mesh):
+    positions = compat.vertex_positions(mesh).astype(np.float64)
     to_world = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
     if np.array_equal(to_world, np.eye(3)):
         return positions
-    return positions @ to_world.T
+    return np.einsum("ij,kj->ik", positions, to_world)
 
 
 def read_uv(obj, layer_name):
@@ -63,13 +73,16 @@ def read_uv(obj, layer_name):
     layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
     if layer is None:
         return None
-    if obj.mode != "EDIT":
-        return compat.corner_uv(layer)
-    copy = obj.data.copy()  # a mesh in Edit Mode does not show its UVs; leaving the mode takes far longer
-    try:
-        return compat.corner_uv(copy.uv_layers[layer.name])
-    finally:
-        bpy.data.meshes.remove(copy)
+    with _arrays(obj) as mesh:
+        return compat.corner_uv(mesh.uv_layers[layer.name])
+
+
+def has_pins(obj, layer_name):
+    """Whether UVs of that layer are pinned; in Edit Mode as of `read_surface`."""
+    if layer_name not in obj.data.uv_layers:
+        return False
+    with _arrays(obj) as mesh:
+        return compat.any_pin(mesh, mesh.uv_layers[layer_name])
 
 
 def texel_density(obj, layer_name):
@@ -130,7 +143,7 @@ def write_uv(obj, layer_name, corners, uv):
         values = np.zeros((len(obj.data.loops), 2), dtype=np.float32)
     else:
         values = compat.corner_uv(layer)
-    values[corners] = uv
+    _put(values, corners, uv)
     compat.set_corner_uv(layer, values)
     layers.active = layer
     obj.data.update()
@@ -146,14 +159,19 @@ def write_edited_uv(obj, layer_name, surface, corners, uv):
         mesh.uv_layers.new(name=layer_name, do_init=False)
     mesh.uv_layers.active = mesh.uv_layers[layer_name]
     values = np.empty((len(surface.corner_vertex), 2), dtype=np.float32)
-    values[corners] = uv
+    _put(values, corners, uv)
     mapped = np.zeros(len(values), dtype=bool)
     mapped[corners] = True
     edited = bmesh.from_edit_mesh(mesh)
     layer = edited.loops.layers.uv[layer_name]
-    numbers = iter(values[mapped].ravel().tolist())  # a list of pairs would keep the garbage collector busy
-    points = zip(numbers, numbers, strict=True)
+    points = struct.iter_unpack("=2f", values[mapped])
     for face in itertools.compress(edited.faces, mapped[surface.face_start].tolist()):
         for corner in face.loops:
             corner[layer].uv = next(points)
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def _put(values, corners, uv):
+    """values[corners] = uv, in 32 bits; each point as one number, which NumPy moves five times as fast as a pair."""
+    points = np.ascontiguousarray(uv, dtype=np.float32).view(np.complex64)[:, 0]
+    values.view(np.complex64)[:, 0][corners] = points

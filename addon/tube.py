@@ -7,7 +7,7 @@ import heapq
 import numpy as np
 
 from .components import connected_components
-from .surface import cut_into_islands
+from .surface import as_complex, as_points, cut_into_islands
 
 
 def unroll(surface, tubes):
@@ -24,7 +24,7 @@ def unroll(surface, tubes):
     vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
     seam, selected, logs = surface.seam.copy(), np.zeros_like(surface.selected), []
     for island, uv, loops in tubes:
-        log = np.log(concentric(uv @ np.array([1.0, 1j]), loops[1]))
+        log = np.log(concentric(as_complex(uv), loops[1]))
         vertex[island.corners] = island.corner_vertex
         edges, first = np.unique(surface.corner_edge[island.corners], return_index=True)
         corners = island.corners[first]
@@ -47,7 +47,7 @@ def _rectangle(sheet, island, log):
     whole[sheet.corner_vertex] = island.corner_vertex
     log = log[whole]
     flat = 1j * (log + 2j * np.pi * _branches(log, sheet.triangles))
-    points = np.stack([flat.real, flat.imag], axis=1)
+    points = as_points(flat)
     low, high = points.min(axis=0), points.max(axis=0)
     return (points - 0.5 * (low + high)) / (0.5 * np.linalg.norm(high - low))
 

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A computation on a thread of its own, with its progress and its end to be polled. No bpy."""
 
+import contextlib
+import os
+import sys
 import threading
+
+NICENESS = 10  # steps by which the computation's threads stand back behind those that draw the window
 
 
 class Worker:
@@ -30,6 +35,7 @@ class Worker:
             raise self._error
 
     def _run(self):
+        _stand_back()
         try:
             self._compute(self._progress)
         except BaseException as error:  # handed to the thread that polls
@@ -37,3 +43,11 @@ class Worker:
 
     def _progress(self, fraction, stage):
         self.fraction, self.stage = fraction, stage
+
+
+def _stand_back():
+    """Lower the priority of this thread, and of those it will start, where the system has one for each thread."""
+    if sys.platform == "linux":
+        with contextlib.suppress(OSError):
+            thread = threading.get_native_id()
+            os.setpriority(os.PRIO_PROCESS, thread, os.getpriority(os.PRIO_PROCESS, thread) + NICENESS)

@@ -6,9 +6,12 @@
 
 Every mesh object of the file, or without one a bent panel of quads with holes, goes through the operator: the time
 of the operator less the time inside the native call, median of the runs. The bound is on the main thread's processor
-time, which other work on the machine does not change. Exit code 1 if a row of Object Mode is over it; in Edit Mode
-most of the rest is Blender's own: bringing the arrays up to date, and its change of mode there and back or, before 3.5,
-the corners one by one.
+time, which other work on the machine changes less.
+
+Rows: one island; the same kept in its place; two islands, cut along a seam; and the first two in Edit Mode. There Blender
+has to bring the mesh's arrays up to date and, to take UVs back in one go, to leave the mode and enter it again. The column
+"Blender's own" is the time of just that, with nothing between, in turn with the runs. Where it alone is over the bound,
+the bound is on what is beside it. Exit code 1 if a row is over the bound.
 """
 
 import argparse
@@ -79,33 +82,69 @@ class NativeClock:
 
 
 def overhead(clock, runs, **options):
-    """Medians over the runs: wall and processor seconds beside the native call, wall seconds of the native call."""
-    beside, native = [], []
+    """Medians over the runs: wall and processor seconds beside the native call, wall seconds of the native call, and
+    processor seconds of an empty change of mode."""
+    beside, native, empty = [], [], []
     for _ in range(runs):
         clock.seconds[:] = 0.0
         start = now()
         bpy.ops.uv.koebe_uniformize(tolerance=1e-4, **options)
         beside.append(now() - start - clock.seconds)
         native.append(clock.seconds[0])
-    return *np.median(beside, axis=0), np.median(native)
+        empty.append(empty_change(bpy.context.object))
+    return *np.median(beside, axis=0), np.median(native), np.median(empty)
+
+
+def empty_change(obj):
+    """Processor seconds of what Blender does for anybody who reads and writes a mesh in Edit Mode."""
+    if obj.mode != "EDIT":
+        return 0.0
+    start = now()
+    obj.update_from_editmode()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.mode_set(mode="EDIT")
+    return (now() - start)[1]
+
+
+def mark_seam(mesh, on):
+    """Cut the mesh in two along x = 0, or take the seams away."""
+    right = np.empty(3 * len(mesh.polygons), dtype=np.float32)
+    mesh.polygons.foreach_get("center", right)
+    right = np.repeat(right[::3] > 0.0, [len(face.edge_keys) for face in mesh.polygons])
+    edge = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("edge_index", edge)
+    sides = np.zeros((2, len(mesh.edges)), dtype=bool)
+    sides[right.astype(int), edge] = True
+    mesh.edges.foreach_set("use_seam", sides.all(axis=0) & on)
+
+
+ROWS = (
+    ("OBJECT", "one island", {}),
+    ("OBJECT", "in place", {"placement": "keep"}),
+    ("OBJECT", "a seam", {}),
+    ("EDIT", "one island", {}),
+    ("EDIT", "in place", {"placement": "keep"}),
+)
 
 
 def measure(obj, clock, runs):
-    """Rows for one object: in Object Mode, with the islands kept in place, and in Edit Mode."""
+    """The rows for one object."""
     for other in bpy.context.view_layer.objects:
         other.select_set(other == obj)
     bpy.context.view_layer.objects.active = obj
     faces = len(obj.data.polygons)
     rows = []
-    for mode, placement in (("OBJECT", "pack"), ("OBJECT", "keep"), ("EDIT", "pack"), ("EDIT", "keep")):
+    for mode, case, options in ROWS:
+        mark_seam(obj.data, case == "a seam")
         bpy.ops.object.mode_set(mode=mode)
         if mode == "EDIT":
             bpy.ops.mesh.select_all(action="SELECT")
-        wall, cpu, native = overhead(clock, runs, placement=placement)
+        wall, cpu, native, empty = (x * 1e5 / faces for x in overhead(clock, runs, **options))
         bpy.ops.object.mode_set(mode="OBJECT")
+        judged = cpu - empty if empty > BOUND else cpu
         rows.append(
-            {"object": obj.name, "faces": faces, "mode": mode, "placement": placement, "native": native,
-             "wall": wall, "cpu": cpu, "wall_per_100k": wall * 1e5 / faces, "cpu_per_100k": cpu * 1e5 / faces}
+            {"object": obj.name, "faces": faces, "mode": mode, "case": case, "native": native, "wall": wall, "cpu": cpu,
+             "empty": empty, "judged": judged}
         )  # fmt: skip
     return rows
 
@@ -115,9 +154,12 @@ def main():
     clock = NativeClock(registered_addon())
     meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"] if bpy.data.filepath else []
     rows = [row for obj in meshes or [made_panel(options.faces)] for row in measure(obj, clock, options.runs)]
-    print("| object | faces | mode | placement | native s | beside s per 100,000 faces | of them processor s |")
-    print("|" + " --- |" * 7)
-    line = "| {object} | {faces:,} | {mode} | {placement} | {native:.2f} | {wall_per_100k:.3f} | {cpu_per_100k:.3f} |"
+    print("Seconds per 100,000 faces.")
+    print("| object | faces | mode | case | native | beside | of them processor | Blender's own | judged |")
+    print("|" + " --- |" * 9)
+    line = (
+        "| {object} | {faces:,} | {mode} | {case} | {native:.2f} | {wall:.3f} | {cpu:.3f} | {empty:.3f} | {judged:.3f} |"
+    )
     for row in rows:
         print(line.format(**row))
     out = ROOT / "out" / "bench" / "addon_overhead.json"
@@ -125,7 +167,7 @@ def main():
     out.write_text(json.dumps({"blender": bpy.app.version_string, "bound": BOUND, "rows": rows}, indent=1) + "\n")
     if options.profile:
         profile()
-    return int(any(row["cpu_per_100k"] > BOUND for row in rows if row["mode"] == "OBJECT"))
+    return int(any(row["judged"] > BOUND for row in rows))
 
 
 def profile():

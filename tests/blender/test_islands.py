@@ -125,3 +125,23 @@ def test_a_seamed_tube_opens():
     counts = [len(np.unique(uv[vertex == v], axis=0)) for v in range(len(vertices))]
     assert counts == [2 if v % around == 0 else 1 for v in range(len(vertices))]
     assert np.hypot(*(uv - 0.5).T).max() == pytest.approx(0.5, abs=1e-6)
+
+
+def test_parts_that_touch_in_a_vertex_only_are_islands():
+    obj = scenes.add_object("Bow", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 0, 0), (-1, -1, 0)], [(0, 1, 2), (0, 3, 4)])
+    scenes.select(obj)
+    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert [island.mapped for island in bpy.context.window_manager.koebe_uv.islands] == [True, True]
+
+
+def test_triangles_know_their_faces_in_object_mode_and_in_edit_mode(addon):
+    turn = np.exp(2j * np.pi * np.arange(7) / 7)
+    vertices = [*((z.real, z.imag, 0) for z in turn), *((2 * z.real, 2 * z.imag, 0) for z in turn[:3])]
+    obj = scenes.add_object("Polygons", vertices, [(0, 7, 8, 1), range(7), (1, 8, 2), (8, 9, 2)])
+    scenes.select(obj)
+    obj.data.calc_loop_triangles()
+    expected = scenes.read(obj.data.loop_triangles, "polygon_index", np.int32)
+    assert expected.tolist() == [0, 0, 1, 1, 1, 1, 1, 2, 3]
+    assert np.array_equal(addon("transfer").read_surface(obj, False).triangle_face, expected)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert np.array_equal(addon("transfer").read_surface(obj, False).triangle_face, expected)

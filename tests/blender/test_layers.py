@@ -1,5 +1,6 @@
 """Which UV layer is written, and when none can be."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -78,3 +79,28 @@ def test_a_linked_mesh_is_refused(tmp_path):
     scenes.select(obj)
     with pytest.raises(RuntimeError, match="Linked: .*make it local"):
         bpy.ops.uv.koebe_uniformize()
+
+
+def pin_one(obj, layer="Koebe"):
+    """Pin the UVs of one corner."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    mesh = bmesh.from_edit_mesh(obj.data)
+    mesh.faces.ensure_lookup_table()
+    mesh.faces[3].loops[0][mesh.loops.layers.uv[layer]].pin_uv = True
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_pins_that_are_not_kept_are_spoken_of(mode):
+    obj = scenes.add_panel()
+    report = bpy.context.window_manager.koebe_uv
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.uv.koebe_uniformize()
+    assert report.islands[0].message == ""
+    pin_one(obj)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.object.mode_set(mode=mode)
+    bpy.ops.uv.koebe_uniformize()
+    assert "pins are not kept" in report.islands[0].message
+    bpy.ops.uv.koebe_uniformize(layer="Other")
+    assert report.islands[0].message == ""

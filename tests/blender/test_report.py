@@ -23,6 +23,7 @@ def test_every_island_is_reported_with_its_figures(koebe):
     assert [entry.mapped for entry in (inner, outer, closed)] == [True, True, False]
     assert [len(entry.loops) for entry in (inner, outer, closed)] == [4, 2, 0]
     assert "closed" in closed.message
+    assert bpy.context.window_manager.koebe_uv.active == 2  # what has to be looked at
     assert inner.converged and inner.flipped == 0 and inner.seconds > 0 and inner.angle_error > 0
     assert inner.loops[0].radius == pytest.approx(1.0) and 0 < inner.loops[1].radius < 1
 

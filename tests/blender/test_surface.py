@@ -47,16 +47,39 @@ def grid(columns, rows):
     return vertices, quads
 
 
-def test_uncut_surface_is_its_own_island_array_for_array(surface):
+@pytest.mark.parametrize("way", [lambda surface, whole: surface.cut_into_islands(whole)[0],
+                                 lambda surface, whole: surface.whole_island(whole)], ids=["cut", "whole"])  # fmt: skip
+def test_uncut_surface_is_its_own_island_array_for_array(surface, way):
     vertices, faces = panel_arrays()
     whole = make_surface(surface, vertices, faces)
-    (island,) = surface.cut_into_islands(whole)
+    island = way(surface, whole)
     assert np.array_equal(island.vertices, vertices)
     assert np.array_equal(island.triangles, whole.corner_vertex[whole.triangle_corners])
     assert np.array_equal(island.source_vertex, np.arange(len(vertices)))
     assert np.array_equal(island.corners, np.arange(len(whole.corner_vertex)))
     assert np.array_equal(island.corner_vertex, whole.corner_vertex)
     assert island.triangles.dtype == np.int32
+
+
+@pytest.mark.parametrize("part", [dict(seams=[(1, 5)]), dict(selected=[True] * 8 + [False])], ids=["seam", "selection"])
+def test_a_surface_with_a_seam_or_a_face_left_out_is_no_whole_island(surface, part):
+    assert surface.whole_island(make_surface(surface, *grid(3, 3), **part)) is None
+
+
+def test_a_surface_with_a_loose_vertex_is_no_whole_island(surface):
+    vertices, quads = grid(3, 3)
+    assert surface.whole_island(make_surface(surface, [*vertices, (9.0, 9.0, 9.0)], quads)) is None
+
+
+def test_areas_are_those_of_the_cross_product_however_many_triangles(surface, monkeypatch):
+    monkeypatch.setattr(surface, "BLOCK", 7)
+    random = np.random.default_rng(3)
+    points, triangles = random.normal(size=(40, 3)), random.integers(0, 40, size=(23, 3)).astype(np.int32)
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    assert np.allclose(surface.areas(points, triangles), 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1), rtol=1e-13)
+    u, v = (b - a)[:, :2], (c - a)[:, :2]
+    flat = surface.signed_areas(points[:, :2], triangles)
+    assert np.allclose(flat, 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]), rtol=1e-12)
 
 
 def test_unused_vertices_are_left_out_and_the_rest_keep_their_order(surface):

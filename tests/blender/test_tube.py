@@ -40,6 +40,15 @@ def test_a_cylinder_unrolls_to_its_own_rectangle():
     assert (scenes.signed_areas(obj.data, "Koebe") > 0).all()
 
 
+def test_a_long_tube_is_warned_of_as_a_ring_and_not_as_a_rectangle():
+    """A ring ends at e^-40, far below what 32 bits tell."""
+    add_tube(radius=lambda z: 0.075, rings=200)
+    for tube, warned in (("annulus", True), ("unroll", False)):
+        bpy.ops.uv.koebe_uniformize(tube=tube)
+        (entry,) = bpy.context.window_manager.koebe_uv.islands
+        assert ("resolution" in entry.message) == (entry.flipped > 0) == warned
+
+
 @pytest.mark.parametrize("balance", ["none", "area"])
 def test_the_cut_is_one_path_and_its_sides_are_a_turn_apart(balance):
     obj = add_tube(radius=lambda z: 1 + 0.4 * np.sin(2 * z), tilt=0.3)

@@ -1,5 +1,7 @@
 """The thread that computes: progress, result and error come over."""
 
+import os
+import sys
 import threading
 
 import pytest
@@ -31,3 +33,12 @@ def test_an_error_is_raised_where_the_result_is_asked_for(addon):
     worker = addon("worker").Worker(compute)
     with pytest.raises(ValueError, match="from the thread"):
         worker.result()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="threads have no priority of their own")
+def test_the_thread_stands_back_and_nobody_else(addon):
+    here = os.getpriority(os.PRIO_PROCESS, 0)
+    seen = []
+    addon("worker").Worker(lambda progress: seen.append(os.getpriority(os.PRIO_PROCESS, 0))).result()
+    assert seen == [min(here + addon("worker").NICENESS, 19)]
+    assert os.getpriority(os.PRIO_PROCESS, 0) == here

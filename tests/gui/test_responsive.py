@@ -77,7 +77,7 @@ def test_escape_and_no_stall(window, dense):
     window.run(WATCH)
     window.button = window.find_button("VIEW_3D", "koebe_uniformize")
     waits = []
-    for delay in (0.0, 0.4, 0.8):
+    for delay in (0.0, 0.2, 0.4):
         start(window)
         time.sleep(delay)
         pressed = time.time()

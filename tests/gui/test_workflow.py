@@ -52,14 +52,16 @@ def test_checker_and_distortion(window, open_sample):
     window.click(*window.find_button("VIEW_3D", "koebe_checker"))
     window.picture("06_checker_off")
     assert window.ask("len(bpy.context.active_object.material_slots)") == 0
-    x, y = window.find_button("VIEW_3D", "koebe_distortion", fraction=0.42)
-    window.click(x, y)
+    _, y = window.find_button("VIEW_3D", "koebe_distortion", fraction=0.42)
+    left, _, width, _ = window.region("VIEW_3D", "UI")
+    angle, area, off = (left + int(width * fraction) for fraction in (0.42, 0.57, 0.76))
+    window.click(angle, y)
     window.picture("07_angle")
-    window.click(x + 28, y)
+    window.click(area, y)
     window.picture("08_area")
     assert window.ask("bpy.context.active_object.data['koebe_distortion']['kind']") == "area"
     assert window.ask("[a.name for a in bpy.context.active_object.data.color_attributes]") == ["Koebe Distortion"]
-    window.click(x + 68, y)
+    window.click(off, y)
     assert window.ask("len(bpy.context.active_object.data.color_attributes)") == 0
 
 
