@@ -10,13 +10,13 @@
 // factor it (supernodal) and solve for two columns.
 #include "circle_domain.h"
 #include "cli/fast_kernels.h"
-#include "conformal/uniformize.h"
 #include "core/topology.h"
 #include "geometry/dense_spd.h"
 #include "geometry/laplacian.h"
 #include "geometry/sparse_cholesky.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
+#include "pipeline/uniformize.h"
 #include "report/json.h"
 
 #include <algorithm>

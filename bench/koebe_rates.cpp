@@ -9,7 +9,7 @@
 // the discretization), "exact_error" against the domain's own.
 #include "circle_domain.h"
 #include "cli/fast_kernels.h"
-#include "conformal/uniformize.h"
+#include "pipeline/uniformize.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,15 +2,15 @@
 
 #include "conformal/circle_fit.h"
 #include "conformal/distortion.h"
-#include "conformal/domain.h"
-#include "conformal/flap_map.h"
-#include "conformal/flip_removal.h"
-#include "conformal/flip_report.h"
 #include "conformal/moebius.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
+#include "foldover/flap_map.h"
+#include "foldover/flip_removal.h"
+#include "foldover/flip_report.h"
 #include "geometry/dense_spd.h"
 #include "geometry/intrinsic_metric.h"
+#include "pipeline/domain.h"
 
 #include <algorithm>
 #include <chrono>

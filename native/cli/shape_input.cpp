@@ -2,8 +2,8 @@
 
 #include "cli/mesh_input.h"
 #include "cli/progress_line.h"
-#include "conformal/uniformize.h"
 #include "core/topology.h"
+#include "pipeline/uniformize.h"
 #include "shape/conformal_module.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "cli/map_command.h"
 #include "cli/subcommand.h"
 
-#include "conformal/uniformize.h"
+#include "pipeline/uniformize.h"
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "circle_domain.h"
-#include "conformal/uniformize.h"
+#include "pipeline/uniformize.h"
 
 #include <algorithm>
 

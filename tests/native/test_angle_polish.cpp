@@ -1,7 +1,7 @@
 #include "circle_domain.h"
-#include "conformal/angle_polish.h"
 #include "conformal/distortion.h"
-#include "conformal/uniformize.h"
+#include "foldover/angle_polish.h"
+#include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
 

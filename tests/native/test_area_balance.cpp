@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 #include "conformal/area_balance.h"
 #include "conformal/circle_fit.h"
-#include "conformal/uniformize.h"
+#include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "circle_domain.h"
 #include "circle_samples.h"
 #include "conformal/circle_fit.h"
-#include "conformal/uniformize.h"
 #include "core/errors.h"
+#include "pipeline/uniformize.h"
 #include "shape/conformal_module.h"
 
 #include <Eigen/Geometry>

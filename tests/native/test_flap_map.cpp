@@ -1,7 +1,7 @@
 #include "circle_domain.h"
-#include "conformal/uniformize.h"
 #include "flap_domain.h"
 #include "geometry/planar_predicates.h"
+#include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
 

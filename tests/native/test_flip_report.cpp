@@ -1,6 +1,6 @@
 #include "circle_domain.h"
-#include "conformal/uniformize.h"
 #include "flap_domain.h"
+#include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
 

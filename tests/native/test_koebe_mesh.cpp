@@ -2,7 +2,7 @@
 #include "conformal/circle_fit.h"
 #include "conformal/koebe_mesh.h"
 #include "conformal/moebius.h"
-#include "conformal/uniformize.h"
+#include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
 

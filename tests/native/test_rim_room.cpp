@@ -1,5 +1,5 @@
-#include "conformal/rim_room.h"
 #include "flap_domain.h"
+#include "foldover/rim_room.h"
 
 #include <gtest/gtest.h>
 

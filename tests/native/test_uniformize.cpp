@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 #include "conformal/circle_fit.h"
 #include "conformal/distortion.h"
-#include "conformal/uniformize.h"
+#include "pipeline/uniformize.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

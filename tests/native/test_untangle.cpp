@@ -1,6 +1,6 @@
 #include "circle_domain.h"
 #include "conformal/distortion.h"
-#include "conformal/untangle.h"
+#include "foldover/untangle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "conformal/tangled_map.h"
+#include "foldover/tangled_map.h"
 
 #include "conformal/stored_uv.h"
 #include "geometry/planar_predicates.h"

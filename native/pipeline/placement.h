@@ -1,10 +1,10 @@
 // From the images of the loops to the map: circles, position in the disk, interior.
 #pragma once
 
-#include "conformal/domain.h"
 #include "conformal/koebe_iteration.h"
 #include "conformal/result.h"
 #include "geometry/condensed_laplacian.h"
+#include "pipeline/domain.h"
 
 namespace koebe {
 

@@ -1,4 +1,4 @@
-#include "conformal/rim_room.h"
+#include "foldover/rim_room.h"
 
 #include "core/connectivity.h"
 

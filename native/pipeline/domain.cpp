@@ -1,4 +1,4 @@
-#include "conformal/domain.h"
+#include "pipeline/domain.h"
 
 #include "core/errors.h"
 

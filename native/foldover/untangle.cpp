@@ -1,7 +1,7 @@
-#include "conformal/untangle.h"
+#include "foldover/untangle.h"
 
 #include "conformal/stored_uv.h"
-#include "conformal/untangle_patch.h"
+#include "foldover/untangle_patch.h"
 
 #include <algorithm>
 

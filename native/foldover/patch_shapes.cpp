@@ -1,4 +1,4 @@
-#include "conformal/patch_shapes.h"
+#include "foldover/patch_shapes.h"
 
 #include "geometry/laplacian.h"
 

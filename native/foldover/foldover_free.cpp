@@ -1,4 +1,4 @@
-#include "conformal/foldover_free.h"
+#include "foldover/foldover_free.h"
 
 #include "geometry/sparse_cholesky.h"
 

@@ -1,9 +1,9 @@
 // Neighbourhoods of flipped faces, and the attempts to turn them back.
 #pragma once
 
-#include "conformal/patch_shapes.h"
-#include "conformal/tangled_map.h"
 #include "core/execution.h"
+#include "foldover/patch_shapes.h"
+#include "foldover/tangled_map.h"
 
 #include <vector>
 

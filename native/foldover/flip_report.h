@@ -1,8 +1,8 @@
 // What to tell the user about flaps, freed vertices, flips and limbs that shrank too far.
 #pragma once
 
-#include "conformal/flip_removal.h"
 #include "conformal/result.h"
+#include "foldover/flip_removal.h"
 
 #include <string>
 #include <vector>

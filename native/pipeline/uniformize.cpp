@@ -1,19 +1,19 @@
-#include "conformal/uniformize.h"
+#include "pipeline/uniformize.h"
 
-#include "conformal/angle_polish.h"
 #include "conformal/boundary_angles.h"
 #include "conformal/distortion.h"
-#include "conformal/domain.h"
-#include "conformal/flip_removal.h"
-#include "conformal/flip_report.h"
 #include "conformal/koebe_condensed.h"
 #include "conformal/koebe_mesh.h"
-#include "conformal/placement.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
 #include "core/topology.h"
+#include "foldover/angle_polish.h"
+#include "foldover/flip_removal.h"
+#include "foldover/flip_report.h"
 #include "geometry/dense_spd.h"
 #include "geometry/intrinsic_metric.h"
+#include "pipeline/domain.h"
+#include "pipeline/placement.h"
 
 #include <chrono>
 #include <optional>

@@ -1,7 +1,7 @@
-#include "conformal/angle_polish.h"
+#include "foldover/angle_polish.h"
 
 #include "conformal/distortion.h"
-#include "conformal/patch_problem.h"
+#include "foldover/patch_problem.h"
 
 #include <Eigen/LU>
 

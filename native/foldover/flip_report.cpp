@@ -1,4 +1,4 @@
-#include "conformal/flip_report.h"
+#include "foldover/flip_report.h"
 
 #include "conformal/stored_uv.h"
 #include "core/connectivity.h"

@@ -1,7 +1,7 @@
-#include "conformal/flip_removal.h"
+#include "foldover/flip_removal.h"
 
 #include "conformal/circle_fit.h"
-#include "conformal/flap_map.h"
+#include "foldover/flap_map.h"
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
-#include "conformal/placement.h"
+#include "pipeline/placement.h"
 
 #include "conformal/area_balance.h"
 #include "conformal/circle_fit.h"
 #include "conformal/circle_projection.h"
 #include "conformal/distortion.h"
-#include "conformal/flip_removal.h"
 #include "conformal/flux_balance.h"
 #include "conformal/moebius.h"
-#include "conformal/rim_room.h"
+#include "foldover/flip_removal.h"
+#include "foldover/rim_room.h"
 
 #include <algorithm>
 #include <cmath>

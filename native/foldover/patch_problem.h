@@ -1,9 +1,9 @@
 // A part of a map as a foldover-free problem.
 #pragma once
 
-#include "conformal/foldover_free.h"
-#include "conformal/patch_shapes.h"
-#include "conformal/tangled_map.h"
+#include "foldover/foldover_free.h"
+#include "foldover/patch_shapes.h"
+#include "foldover/tangled_map.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "conformal/patch_problem.h"
+#include "foldover/patch_problem.h"
 
 #include "conformal/stored_uv.h"
 

@@ -1,6 +1,6 @@
-#include "conformal/untangle_patch.h"
+#include "foldover/untangle_patch.h"
 
-#include "conformal/patch_problem.h"
+#include "foldover/patch_problem.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "conformal/flap_map.h"
+#include "foldover/flap_map.h"
 
 #include "geometry/free_flattening.h"
 #include "geometry/laplacian.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "conformal/result.h"
-#include "conformal/untangle.h"
 #include "core/execution.h"
+#include "foldover/untangle.h"
 #include "geometry/flaps.h"
 
 #include <vector>
