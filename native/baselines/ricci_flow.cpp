@@ -1,9 +1,9 @@
 #include "baselines/ricci_flow.h"
 
-#include "baselines/curvature.h"
-#include "baselines/flat_layout.h"
 #include "conformal/circle_fit.h"
 #include "core/connectivity.h"
+#include "flow/curvature.h"
+#include "flow/flat_layout.h"
 
 #include <algorithm>
 #include <cmath>

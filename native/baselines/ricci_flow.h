@@ -2,9 +2,9 @@
 #pragma once
 
 #include "baselines/circle_packing.h"
-#include "baselines/convex_newton.h"
 #include "conformal/koebe_iteration.h"
 #include "core/execution.h"
+#include "flow/convex_newton.h"
 #include "geometry/intrinsic_metric.h"
 
 #include <string>

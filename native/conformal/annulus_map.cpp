@@ -1,9 +1,9 @@
 #include "conformal/annulus_map.h"
 
-#include "baselines/flat_layout.h"
-#include "baselines/yamabe_flow.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "flow/flat_layout.h"
+#include "flow/yamabe_flow.h"
 #include "geometry/sparse_cholesky.h"
 
 #include <algorithm>

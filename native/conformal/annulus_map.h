@@ -13,7 +13,7 @@ enum class AnnulusBackend { harmonic, yamabe };  ///< a holomorphic 1-form, or t
 
 struct AnnulusMapOptions {
     AnnulusBackend backend = AnnulusBackend::harmonic;
-    bool flips = true;  ///< of the Yamabe flow's edges (baselines/yamabe_flow.h)
+    bool flips = true;  ///< of the Yamabe flow's edges (flow/yamabe_flow.h)
 };
 
 /// The map, and every step of its construction.

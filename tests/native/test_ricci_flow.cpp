@@ -1,11 +1,11 @@
 #include "baselines/circle_packing.h"
-#include "baselines/curvature.h"
-#include "baselines/flat_layout.h"
 #include "baselines/ricci_flow.h"
 #include "baselines/ricci_uniformize.h"
 #include "circle_domain.h"
 #include "conformal/circle_fit.h"
 #include "core/connectivity.h"
+#include "flow/curvature.h"
+#include "flow/flat_layout.h"
 #include "geometry/edge_flip.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "baselines/curvature.h"
-#include "baselines/yamabe_flow.h"
 #include "circle_domain.h"
 #include "conformal/annulus_map.h"
 #include "conformal/circle_fit.h"
 #include "core/errors.h"
 #include "core/topology.h"
+#include "flow/curvature.h"
+#include "flow/yamabe_flow.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "baselines/convex_newton.h"
+#include "flow/convex_newton.h"
 
 #include <algorithm>
 #include <cmath>

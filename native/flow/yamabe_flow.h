@@ -1,7 +1,7 @@
 // Discrete Yamabe flow: the conformally equivalent metric with given curvature.
 #pragma once
 
-#include "baselines/convex_newton.h"
+#include "flow/convex_newton.h"
 #include "geometry/laplacian.h"
 
 #include <vector>

@@ -1,4 +1,4 @@
-#include "baselines/curvature.h"
+#include "flow/curvature.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
-#include "baselines/yamabe_flow.h"
+#include "flow/yamabe_flow.h"
 
-#include "baselines/curvature.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "flow/curvature.h"
 #include "geometry/edge_flip.h"
 
 #include <cmath>

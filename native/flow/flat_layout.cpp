@@ -1,4 +1,4 @@
-#include "baselines/flat_layout.h"
+#include "flow/flat_layout.h"
 
 #include "core/connectivity.h"
 #include "geometry/sparse_cholesky.h"
