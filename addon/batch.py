@@ -54,6 +54,7 @@ def parse(arguments):
     parser.add_argument("--tolerance", type=float, default=default.tolerance)
     parser.add_argument("--max-sweeps", type=int, default=default.max_sweeps)
     parser.add_argument("--balance", choices=options.BALANCES, default=default.balance)
+    parser.add_argument("--polish", action=argparse.BooleanOptionalAction, default=default.polish)
     parser.add_argument("--threads", type=int, default=default.threads, help="0: all cores")
     parser.add_argument("--upright", action=argparse.BooleanOptionalAction, default=default.upright)
     parser.add_argument("--tube", choices=options.TUBES, default=default.tube)

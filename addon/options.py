@@ -26,6 +26,7 @@ class Options:
     outer         "auto", "longest", "active" (the loop of the active vertex, in Edit Mode) or the index of a
                   mesh vertex on the loop which becomes the unit circle
     tolerance     change of the circles between two sweeps, in units of the disk's radius
+    polish        lower the angle error at the end, circles as they are; takes many times as long
     upright       turn every island so that the world's up is up in the UV Editor, else as computed
     tube          what an island with two loops becomes: "annulus", or "unroll" (a rectangle with a wrap seam)
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
@@ -41,6 +42,7 @@ class Options:
     tolerance: float = 1e-6
     max_sweeps: int = 50
     balance: str = "area"
+    polish: bool = False
     threads: int = 0
     upright: bool = True
     tube: str = "annulus"
@@ -81,6 +83,7 @@ class Options:
             "tolerance": self.tolerance,
             "max_sweeps": self.max_sweeps,
             "balance": self.balance,
+            "polish": self.polish,
             "threads": self.threads,
         }
 

@@ -83,7 +83,7 @@ class AccuracyPanel(KoebePanel):
     def draw(self, context):
         layout = self.aligned_layout()
         settings = context.scene.koebe_uv
-        for name in ("method", "engine", "tolerance", "max_sweeps"):
+        for name in ("method", "engine", "tolerance", "max_sweeps", "polish"):
             layout.prop(settings, name)
         layout.operator(UV_OT_koebe_reset.bl_idname, icon="LOOP_BACK")
 

@@ -168,14 +168,18 @@ def _share_of(progress, done, part, total):
 
 
 def _map_island(koebe, island, outer, options, progress, cancel):
+    arguments = options.solver_arguments()
     try:
+        if options.tube == "unroll" and len(koebe.boundary_loops(island.triangles, len(island.vertices))) == 2:
+            # A concentric annulus keeps its digits however small the hole; moved off the centre it loses them.
+            arguments["balance"] = "none"
         result = koebe.uniformize(
             island.vertices,
             island.triangles,
             outer=_outer_loop(island, outer),
             progress=progress,
             cancel=cancel,
-            **options.solver_arguments(),
+            **arguments,
         )
     except koebe.Cancelled:
         raise

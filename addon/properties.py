@@ -64,6 +64,12 @@ class UniformizeProperties:
         default=DEFAULTS.balance,
         description="Use of the freedom that a conformal map leaves: which point becomes the centre of the disk",
     )
+    polish: BoolProperty(
+        name="Polish",
+        default=DEFAULTS.polish,
+        description="At the end, lower the angle error once more: points move between the circles and along them, the "
+        "circles stay. A few percent less on fine meshes, a quarter on coarse ones; takes 5 to 20 times as long",
+    )
     upright: BoolProperty(
         name="Upright",
         default=DEFAULTS.upright,

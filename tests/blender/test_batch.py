@@ -44,11 +44,12 @@ def outputs(folder):
 def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
     obj = scenes.add_panel()
     obj.scale = (1, 2, 1)
-    done = batch("--output", "out.blend", "--report", "out.json", "--balance", "area", "--layer", "Round")
+    done = batch("--output", "out.blend", "--report", "out.json", "--balance", "area", "--layer", "Round",
+                 "--polish")
     assert done.returncode == 0, done.stderr
     assert outputs(tmp_path) == ["out.blend", "out.json"]
     assert "Panel: 4 loops" in done.stdout
-    bpy.ops.uv.koebe_uniformize(balance="area", layer="Round")
+    bpy.ops.uv.koebe_uniformize(balance="area", layer="Round", polish=True)
     expected = scenes.corner_uv(obj.data, "Round").copy()
     state = scenes.mesh_state(obj.data)
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))

@@ -13,14 +13,16 @@ def test_a_panel_with_holes_becomes_a_circle_domain():
     assert obj.data.uv_layers.active.name == "Koebe"
 
 
-def test_the_operator_writes_what_the_native_package_computes(koebe):
+@pytest.mark.parametrize("polish", [False, True])
+def test_the_operator_writes_what_the_native_package_computes(koebe, polish):
     obj = scenes.add_panel()
-    bpy.ops.uv.koebe_uniformize(outer="longest", tolerance=1e-5, upright=False)
+    bpy.ops.uv.koebe_uniformize(outer="longest", tolerance=1e-5, upright=False, polish=polish)
     vertices = scenes.read(obj.data.vertices, "co", np.float32, 3)
     triangles, _ = scenes.triangles(obj.data)
     result = koebe.uniformize(
-        vertices, triangles, outer="longest", tolerance=float(np.float32(1e-5)), balance="area"
+        vertices, triangles, outer="longest", tolerance=float(np.float32(1e-5)), balance="area", polish=polish
     )
+    assert ("before_polish" in result.to_dict()["angle_error_deg"]) == polish
     expected = ((1.0 + result.uv) / 2.0).astype(np.float32)
     corner_vertex = scenes.read(obj.data.loops, "vertex_index", np.int32)
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected[corner_vertex])
