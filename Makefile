@@ -67,7 +67,7 @@ test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
 test-bpy-%: package build/venv-bpy-%/.done
 	scripts/blender_tests.sh build/venv-bpy-$*/bin/python
 
-# Not in `make test`: it wants a machine that does nothing else, and knows where 3.4's sidebar has its tabs.
+# Not in `make test`: it wants a machine that does nothing else, and knows where the sidebars of 3.4 and 4.3 have their tabs.
 test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys in Blender's window: out/gui/
 	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1280x800x24' \
 	    $(PYTHON) -m pytest -p no:cacheprovider -rA tests/gui

@@ -43,10 +43,9 @@ class ModalRun:
             return {"CANCELLED"}
         self._running = job
         self._worker = Worker(job.compute)
-        self._shown_at, self._shown = 0.0, None
+        self._shown_at, self._shown = time.monotonic(), None
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
-        self._show_progress(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):

@@ -46,8 +46,11 @@ def read_surface(obj, selected_only):
 
 @contextlib.contextmanager
 def _arrays(obj):
-    """The object's mesh, to be read. In Edit Mode it hides its UVs, and from 3.6 on hands over the rest one by one: then
-    it is a copy for the time, in which Blender shares what it can."""
+    """The object's mesh, to be read.
+
+    In Edit Mode that hides its UVs, and from 3.6 on hands over the rest one by one: then it is a copy for the time, in
+    which Blender shares what it can.
+    """
     if obj.mode != "EDIT":
         yield obj.data
         return

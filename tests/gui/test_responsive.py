@@ -95,12 +95,15 @@ def test_escape_and_no_stall(window, dense):
     window.run("heart.silences.clear()")
     idler = Idler()
     start(window)
-    window.picture("21_running")
     window.wait("not heart.computing")
     overslept = idler.end()
     silences = window.ask("heart.silences")
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) > 0")
     window.picture("22_done")
+    window.run("bpy.context.window_manager.koebe_uv.islands.clear()")
+    start(window)
+    window.picture("21_running")  # not of the run that was measured: a picture holds up the screen
+    window.wait("not heart.computing")
     print(f"Esc after {', '.join(f'{wait:.3f}' for wait in waits)} s; {len(silences)} beats in {sum(silences):.1f} s, "
           f"longest silences {', '.join(f'{s:.3f}' for s in sorted(silences)[:-4:-1])} s, drawing the window "
           f"{drawing:.3f} s; a process that only sleeps overslept {overslept:.3f} s", file=sys.stderr)  # fmt: skip
