@@ -7,7 +7,7 @@ import functools
 import numpy as np
 
 from .layout import Placement, fit_placement, pack_disks
-from .offenders import flipped_triangles
+from .rounding import rounded
 from .surface import Island, Surface, as_complex, as_points, cut_into_islands, signed_areas, whole_island
 from .tube import unroll
 from .upright import upright_turn
@@ -71,14 +71,18 @@ class IslandOutcome:
         return self.turned(self.shape)
 
     @functools.cached_property
+    def _rounded(self):
+        return rounded(self.placement.apply(self.flat), self.sheet.triangles)
+
+    @property
     def uv(self):
         """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
-        return self.placement.apply(self.flat).astype(np.float32)
+        return self._rounded[0]
 
-    @functools.cached_property
+    @property
     def flipped(self):
         """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
-        return flipped_triangles(self.sheet.triangles, self.uv)
+        return self._rounded[1]
 
 
 @dataclasses.dataclass
@@ -111,7 +115,7 @@ class SurfaceOutcome:
     def work_out(self):
         """Compute now, on this thread, what the results will be asked for."""
         for outcome in self.mapped:
-            outcome.uv, outcome.flipped  # noqa: B018
+            outcome.uv  # noqa: B018
 
     def corner_uv(self):
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""

@@ -13,6 +13,8 @@ from .components import connected_components
 
 # Triangles at a time: what is computed on the way then stays in the processor's cache, and needs no new memory.
 BLOCK = 1 << 13
+# Up to so many groups a mask for each is faster than a sort.
+FEW = 16
 
 
 @dataclasses.dataclass(frozen=True)
@@ -230,6 +232,8 @@ def _groups(keys, values, count):
     """`values` with key 0, those with key 1, …, each in their order."""
     if count == 1:
         return [values]
+    if count <= FEW:
+        return [values[keys == key] for key in range(count)]
     order = np.argsort(keys.astype(np.min_scalar_type(count)), kind="stable")  # of short numbers: in one pass
     ends = np.cumsum(np.bincount(keys, minlength=count))
     return np.split(values[order], ends[:-1])
