@@ -52,6 +52,7 @@ void SparseCholesky::refactorize(const SparseMatrix& matrix)
 {
     SupernodalFactor& l = impl_->l;
     cholmod_sparse lower = view(matrix, -1);
+    const SerialRegions serial;
     const int done = cholmod_factorize(&lower, l.factor.get(), l.common.get());
     l.common.require(done != 0, "numeric factorization (matrix not positive definite)");
     impl_->trailing = l.trailing_block(static_cast<Index>(impl_->last.size()));

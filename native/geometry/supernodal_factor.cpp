@@ -31,6 +31,7 @@ MatrixXd SupernodalFactor::trailing_block(Index count) const
 MatrixXd SupernodalFactor::solve(int system, const MatrixXd& right_hand_side)
 {
     cholmod_dense b = view(right_hand_side);
+    const SerialRegions serial;
     const Dense x = own(cholmod_solve(system, factor.get(), &b, common.get()), common);
     common.require(x != nullptr, "back-substitution");
     return to_eigen(*x);
