@@ -147,13 +147,16 @@ def cut_into_islands(surface):
     three or more faces stay as they are, unless they are seams: the solver names them.
     """
     corner_face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
-    corners = np.flatnonzero(surface.selected[corner_face]).astype(np.int32)
-    here, there = _neighbours(surface, corners)
+    if surface.selected.all():  # a slice takes no new memory, as indices would
+        corners, at = np.arange(len(corner_face), dtype=np.int32), slice(None)
+    else:
+        corners = at = np.flatnonzero(surface.selected[corner_face]).astype(np.int32)
+    here, there = _neighbours(surface, corners, surface.corner_edge[at])
     next_corner = _next_corners(surface)
     joined = _same_vertex(surface.corner_vertex, next_corner, here, there)
     corner_root = connected_components(len(surface.corner_vertex), *joined)
     face_root = connected_components(len(surface.face_size), corner_face[here], corner_face[there])
-    return _split(surface, corners, corner_face, corner_root, face_root)
+    return _split(surface, corners, at, corner_face, corner_root, face_root)
 
 
 def _next_corners(surface):
@@ -162,20 +165,21 @@ def _next_corners(surface):
     return following
 
 
-def _neighbours(surface, corners):
+def _neighbours(surface, corners, edges):
     """Pairs of corners whose edges are the same edge of two faces, and no seam."""
-    corners = corners[~surface.seam[surface.corner_edge[corners]]]
-    edges = surface.corner_edge[corners]
     # Of several writes to one place the last stays.
     first, last = np.full((2, len(surface.seam)), -1, dtype=np.int32)
     last[edges] = corners
     first[edges[::-1]] = corners[::-1]
-    shared = first != last
-    here, there = first[shared], last[shared]
-    if np.count_nonzero(last >= 0) + len(here) < len(corners):  # some edge has more than two
-        crowded = np.bincount(edges, minlength=len(surface.seam)) > 2
+    two = first != last
+    joined = two & ~surface.seam
+    crowded = None
+    if np.count_nonzero(last >= 0) + np.count_nonzero(two) < len(corners):  # some edge has more than two
+        crowded = (np.bincount(edges, minlength=len(surface.seam)) > 2) & ~surface.seam
+        joined &= ~crowded
+    here, there = first[joined], last[joined]
+    if crowded is not None:
         of_crowded = corners[crowded[edges]]
-        here, there = first[shared & ~crowded], last[shared & ~crowded]
         here, there = np.append(here, first[surface.corner_edge[of_crowded]]), np.append(there, of_crowded)
     return here, there
 
@@ -188,9 +192,10 @@ def _same_vertex(corner_vertex, next_corner, here, there):
     return np.append(here, next_corner[here]), np.append(start, end)
 
 
-def _split(surface, corners, corner_face, corner_root, face_root):
+def _split(surface, corners, at, corner_face, corner_root, face_root):
+    """The islands. `at` takes the `corners` from an array of all of them."""
     faces = np.flatnonzero(surface.selected)
-    roots, islands = corners[corner_root[corners] == corners], faces[face_root[faces] == faces]
+    roots, islands = corners[corner_root[at] == corners], faces[face_root[faces] == faces]
     rank_of_root = np.zeros(len(face_root), dtype=np.int32)
     rank_of_root[islands] = np.arange(len(islands), dtype=np.int32)
     island_of_face = rank_of_root[face_root]
@@ -206,22 +211,25 @@ def _split(surface, corners, corner_face, corner_root, face_root):
     count = len(islands)
     triangles = np.flatnonzero(surface.selected[surface.triangle_face])
     triangle_groups = _groups(island_of_face[surface.triangle_face[triangles]], triangles, count)
-    corner_groups = _groups(island_of_face[corner_face[corners]], corners, count)
+    corner_groups = _groups(island_of_face[corner_face[at]], corners, count)
     face_groups = _groups(island_of_face[faces], faces, count)
     first_vertex = np.searchsorted(root_island, np.arange(count + 1)).tolist()
 
     result = []
     for i in range(count):
         begin, end = first_vertex[i], first_vertex[i + 1]
-        corner_ids = surface.triangle_corners[triangle_groups[i]]
+        island_triangles = vertex_of_corner[surface.triangle_corners[triangle_groups[i]]]
+        island_corners = vertex_of_corner[corner_groups[i]]
+        island_triangles -= begin
+        island_corners -= begin
         result.append(
             Island(
                 vertices=surface.positions[root_vertex[begin:end]],
-                triangles=vertex_of_corner[corner_ids] - begin,
+                triangles=island_triangles,
                 triangle_face=surface.triangle_face[triangle_groups[i]],
                 source_vertex=root_vertex[begin:end],
                 corners=corner_groups[i],
-                corner_vertex=vertex_of_corner[corner_groups[i]] - begin,
+                corner_vertex=island_corners,
                 faces=face_groups[i],
             )
         )

@@ -2,9 +2,9 @@
 //
 //   koebe_bench MESH RUNS ENGINE METHOD
 //
-// MESH is a file; TIMES:FILE for each of its faces cut in four so many times; or enneper:FACES for five known circles on
-// Enneper's surface (tests/native/circle_domain.h): then "circle_error", the relative error of the inversive distances,
-// is printed too.
+// MESH is a file; TIMES:FILE for each of its faces cut in four so many times; or enneper:FACES for five known circles
+// on Enneper's surface (tests/native/circle_domain.h): then "circle_error", the relative error of the inversive
+// distances, is printed too.
 //
 // The unit of time is what any linear conformal map costs at least: assemble the cotan Laplacian, order it by AMD,
 // factor it (supernodal) and solve for two columns.
@@ -42,8 +42,8 @@ double time_laplacian(const Vertices& vertices, const Triangles& triangles, cons
     const DenseThreads threads(0, static_cast<Index>(std::count(fixed.begin(), fixed.end(), 1)),
                                static_cast<Index>(triangles.rows()));
     const auto start = std::chrono::steady_clock::now();
-    const SparseMatrix laplacian = cotan_laplacian(
-        triangles, half_cotangents(edge_lengths(vertices, triangles)), static_cast<Index>(vertices.rows()));
+    const SparseMatrix laplacian = cotan_laplacian(triangles, half_cotangents(edge_lengths(vertices, triangles)),
+                                                   static_cast<Index>(vertices.rows()));
     const DirichletSolver solver(laplacian, fixed);
     const MatrixXd solution = solver.solve(vertices.leftCols<2>());
     const double seconds = seconds_since(start);
@@ -85,8 +85,8 @@ Input read_input(const std::string& name)
 {
     const std::string prefix = "enneper:";
     if (name.rfind(prefix, 0) == 0) {
-        const test::CircleDomain domain = test::make_circle_domain(
-            test::five_circles(), static_cast<Index>(std::stol(name.substr(prefix.size()))));
+        const test::CircleDomain domain =
+            test::make_circle_domain(test::five_circles(), static_cast<Index>(std::stol(name.substr(prefix.size()))));
         return {test::lift(domain.points, test::Lift::enneper), domain.triangles, domain.circles, domain.loops};
     }
     const auto colon = name.find(':');
@@ -117,8 +117,7 @@ int main(int argc, char** argv)
     }
     try {
         const Input input = read_input(argv[1]);
-        const Surface surface =
-            require_bordered_genus_zero(input.triangles, static_cast<Index>(input.vertices.rows()));
+        const Surface surface = require_bordered_genus_zero(input.triangles, static_cast<Index>(input.vertices.rows()));
         const std::vector<char> fixed = boundary_mask(surface);
         UniformizeOptions options;
         options.engine = std::string(argv[3]) == "mesh" ? Engine::mesh : Engine::condensed;

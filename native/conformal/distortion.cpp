@@ -15,7 +15,7 @@ namespace koebe {
 namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
-constexpr double thin = 1e-10;            // twice the area over the squared longest edge, dimensionless
+constexpr double thin = 1e-10;  // twice the area over the squared longest edge, dimensionless
 constexpr double log_area_floor = 1e-300;
 
 /// A triangle of the surface laid into the plane: corners 0, p1 = (length, 0), p2.
@@ -73,8 +73,8 @@ Distortion measure_distortion(const Vertices& vertices, const Triangles& triangl
         image_area += uv_area;
         const double area = 0.5 * flat.p1x * flat.p2y;
         const double height_squared = flat.p2y * flat.p2y, rest = flat.p2x - flat.p1x;
-        const double longest_squared = std::max(
-            {flat.p1x * flat.p1x, flat.p2x * flat.p2x + height_squared, rest * rest + height_squared});
+        const double longest_squared =
+            std::max({flat.p1x * flat.p1x, flat.p2x * flat.p2x + height_squared, rest * rest + height_squared});
         if (!(2.0 * area > thin * longest_squared)) continue;
 
         // Corners 0 and 1 of the triangles 0, p1, p2 and 0, a, b; the third takes up what they change.

@@ -18,8 +18,8 @@ enum class AnnulusPosition { concentric, free };
 /// drag the limb across the map. E is quadratic in a centre and a complex radius, so this is one small linear system.
 /// Circles that would move little, or meet, stay.
 ///
-/// With two loops that are to be concentric the inner circle is moved alone and the pair made concentric again, and so on
-/// until they are both: concentric and without flux.
+/// With two loops that are to be concentric the inner circle is moved alone and the pair made concentric again, and so
+/// on until they are both: concentric and without flux.
 /// @param laplacian of the same surface as `condensed`
 /// @param loops the outer one first, `boundary` (m, 2) their images in that order, on the circles
 /// @return (V, 2) the harmonic extension of the boundary

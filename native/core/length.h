@@ -7,8 +7,8 @@
 
 namespace koebe {
 
-/// The norm of a short vector, whatever its unit: Eigen's stableNorm, which takes ten times as long, only where the square
-/// is out of range.
+/// The norm of a short vector, whatever its unit: Eigen's stableNorm, which takes ten times as long, only where the
+/// square is out of range.
 template <class Vector>
 double length_of(const Eigen::MatrixBase<Vector>& vector)
 {

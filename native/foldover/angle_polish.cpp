@@ -35,8 +35,8 @@ VectorXd conformality(const FoldoverProblem& problem)
     return ratio;
 }
 
-/// (1 - |mu|^2) / |mu| for each face: so weighted, the sum's excess over that of a conformal map is 4 sum |mu|, to first
-/// order the angle error.
+/// conformality / |mu| for each face: so weighted, the sum's excess over that of a conformal map is 4 |mu| / (1 +
+/// |mu|^2) a face, to first order its angle error.
 VectorXd distortion_weights(const FoldoverProblem& problem)
 {
     const VectorXd ratio = conformality(problem);
@@ -74,13 +74,14 @@ public:
         for (std::size_t k = 0; k < loops.size(); ++k) ordered_.push_back(in_order(k));
     }
 
-    bool run(const ExecutionContext& context)
+    bool run(ExecutionContext& context)
     {
         const FoldoverOptions one_step{.max_iterations = 1, .area_weight = 0.0};
         const std::size_t tangled = map_.tangled().size();
         double error = angle_error();
         bool better = false;
         for (int pass = 0; pass < most_passes; ++pass) {
+            context.advance(static_cast<double>(pass) / most_passes);
             const PlanarPoints before = uv_;
             problem_.points = before;
             problem_.weight = distortion_weights(problem_);
@@ -147,7 +148,7 @@ private:
 
 bool polish_angles(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                    const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
-                   const ExecutionContext& context)
+                   ExecutionContext& context)
 {
     return AnglePolish(vertices, surface, loops, circles, off_circle, uv).run(context);
 }

@@ -35,8 +35,8 @@ UntangledMap remove_flips(const NamedSurface& whole, const FlapCut& cut, PlanarP
 
 std::vector<Circle> reported_circles(const std::vector<LoopReport>& reports);
 
-/// Completes the loop reports, which have their circles: all vertices of each loop, those that are off its circle, and how
-/// round the others lie.
+/// Completes the loop reports, which have their circles: all vertices of each loop, those that are off its circle, and
+/// how round the others lie.
 void report_loops(const NamedSurface& whole, const UntangledMap& map, std::vector<LoopReport>& reports);
 
 }  // namespace koebe

@@ -17,7 +17,7 @@ using Hessian = Eigen::Matrix<double, 6, 6>;
 using Mobility = FoldoverProblem::Mobility;
 
 constexpr double least_epsilon = 1e-6;  // Garanzha et al. 2021, section 3.2
-constexpr double shift = 1e-9;         // of the Hessian's diagonal, over itself
+constexpr double shift = 1e-9;          // of the Hessian's diagonal, over itself
 constexpr double armijo = 1e-4;
 constexpr int halvings = 24;
 constexpr int patience = 30;  // iterations without a better worst determinant, while folded

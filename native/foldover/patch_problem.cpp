@@ -20,7 +20,8 @@ public:
         : map_(map), patch_(faces), boundary_(boundary)
     {
         auto& names = result_.vertices;
-        for (const Index f : faces) names.insert(names.end(), map.triangles().row(f).begin(), map.triangles().row(f).end());
+        for (const Index f : faces)
+            names.insert(names.end(), map.triangles().row(f).begin(), map.triangles().row(f).end());
         std::sort(names.begin(), names.end());
         names.erase(std::unique(names.begin(), names.end()), names.end());
         result_.problem.points = map.uv()(names, Eigen::all);

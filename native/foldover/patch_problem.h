@@ -23,9 +23,9 @@ struct PatchProblem {
     bool moves(std::size_t row) const { return problem.mobility[row] != FoldoverProblem::Mobility::held; }
 };
 
-/// Some faces of the surface with the shapes they should have. Vertices on the edge of the patch are held, those on circles
-/// slide. Every determinant must stay above what a face can lose by rounding to 32 bits; a face that is right as stored
-/// needs at most half of what it has, or thin faces elsewhere would keep the minimizer busy.
+/// Some faces of the surface with the shapes they should have. Vertices on the edge of the patch are held, those on
+/// circles slide. Every determinant must stay above what a face can lose by rounding to 32 bits; a face that is right
+/// as stored needs at most half of what it has, or thin faces elsewhere would keep the minimizer busy.
 /// @param faces of the surface, rising
 PatchProblem patch_problem(const TangledMap& map, const std::vector<Index>& faces, PatchShape shape,
                            PatchBoundary boundary);

@@ -20,10 +20,10 @@ struct UntangleReport {
 };
 
 /// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, from
-/// the mildest measure to the harshest, until none is left: 2, 4, 8 and 16 rings around them with the loops held; the same
-/// with the loops' vertices sliding along their circles; the same with a few vertices freed from their circles, which
-/// a face between vertices that span more than half a circle may need. The last is given up after a bounded amount of
-/// work.
+/// the mildest measure to the harshest, until none is left: 2, 4, 8 and 16 rings around them with the loops held; the
+/// same with the loops' vertices sliding along their circles; the same with a few vertices freed from their circles,
+/// which a face between vertices that span more than half a circle may need. The last is given up after a bounded
+/// amount of work.
 /// @param vertices, surface, loops (the outer one first), circles the surface and its image's circles
 /// @param off_circle loop vertices that are off their circles already
 /// @param uv (V, 2) moved in place

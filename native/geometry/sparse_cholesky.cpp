@@ -35,12 +35,12 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, co
         std::vector<Index> order;
         if (!last.empty()) order = elimination_order(matrix, last, ordering, forced, l.common);
         l.common->nmethods = 1;
-        l.common->method[0].ordering = !last.empty()                ? CHOLMOD_GIVEN
+        l.common->method[0].ordering = !last.empty()               ? CHOLMOD_GIVEN
                                        : ordering == Ordering::amd ? CHOLMOD_AMD
                                                                    : CHOLMOD_METIS;
         l.common->postorder = forced ? 0 : 1;
-        l.factor = own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, l.common.get()),
-                       l.common);
+        l.factor =
+            own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, l.common.get()), l.common);
         l.common.require(l.factor != nullptr, "symbolic analysis");
         l.number();
         if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= impl_->inner_count(); })) break;
@@ -96,8 +96,7 @@ MatrixXd SparseCholesky::extend(const MatrixXd& last_values, const MatrixXd& f) 
     const Index count = static_cast<Index>(impl_->last.size());
     MatrixXd values(count, last_values.cols());
     for (Index b = 0; b < count; ++b) values.row(impl_->place_in_trailing(b)) = last_values.row(b);
-    MatrixXd load =
-        f.size() > 0 ? impl_->half_solve(f) : MatrixXd(MatrixXd::Zero(impl_->l.size(), last_values.cols()));
+    MatrixXd load = f.size() > 0 ? impl_->half_solve(f) : MatrixXd(MatrixXd::Zero(impl_->l.size(), last_values.cols()));
     load.bottomRows(count) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * values;
     const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, load);
 

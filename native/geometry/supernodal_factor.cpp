@@ -22,8 +22,7 @@ MatrixXd SupernodalFactor::trailing_block(Index count) const
         for (Index column = std::max(first_column(s), begin); column < first_column(s + 1); ++column) {
             const Index at = column - first_column(s);
             const double* values_of_column = values(s) + static_cast<std::ptrdiff_t>(at) * height(s);
-            for (Index r = at; r < height(s); ++r)
-                trailing(rows(s)[r] - begin, column - begin) = values_of_column[r];
+            for (Index r = at; r < height(s); ++r) trailing(rows(s)[r] - begin, column - begin) = values_of_column[r];
         }
     return trailing;
 }

@@ -18,9 +18,9 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t outer_candidates = 8;      // the longest loops, to choose the outer one from
-constexpr Eigen::Index outer_sample = 2000;      // faces to judge the choice by
-constexpr Eigen::Index balance_sample = 20000;   // faces to balance by
+constexpr std::size_t outer_candidates = 8;     // the longest loops, to choose the outer one from
+constexpr Eigen::Index outer_sample = 2000;     // faces to judge the choice by
+constexpr Eigen::Index balance_sample = 20000;  // faces to balance by
 
 /// The automorphism that puts the map into normal position: two loops concentric, else nothing.
 Moebius normal_position(const std::vector<Circle>& circles)

@@ -53,9 +53,8 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
         return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
     };
     if (!domain.surface.unused.empty())
-        warnings.push_back("vertices of no face, put at the centre: " +
-                           std::to_string(domain.surface.unused.size()) + "; the first is " +
-                           std::to_string(domain.surface.unused.front()));
+        warnings.push_back("vertices of no face, put at the centre: " + std::to_string(domain.surface.unused.size()) +
+                           "; the first is " + std::to_string(domain.surface.unused.front()));
     if (!domain.surface.reoriented.empty())
         warnings.push_back(plural(domain.surface.reoriented.size(), "face") +
                            " turned to the orientation of the others; the first is " +
@@ -89,8 +88,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     context.begin_stage("metric", 0.05, 0.15);
     const IntrinsicMetric metric = intrinsic_metric(domain.vertices, domain.surface);
     const Index vertex_count = domain.surface.vertex_count;
-    const SparseMatrix laplacian =
-        cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), vertex_count);
+    const SparseMatrix laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), vertex_count);
     result.seconds.metric = stage.lap();
 
     context.begin_stage("factor", 0.15, 0.5);
@@ -132,6 +130,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     const std::vector<Circle> circles = reported_circles(result.loops);
     UntangledMap map = remove_flips(named, cut, std::move(core_uv), circles, context);
     if (options.polish) {
+        context.begin_stage("polish", 0.97, 1.0);
         result.unpolished_angle_error_deg =
             measure_distortion(whole.vertices, whole.surface.triangles, map.uv).angle_error_deg;
         polish_angles(whole.vertices, whole.surface, whole.loops, circles, map.off_circle, map.uv, context);
@@ -155,10 +154,9 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
                             ExecutionContext& context)
 {
-    return run_detachable<UniformizeResult>(
-        context, [vertices, triangles, options](ExecutionContext& own) {
-            return run_pipeline(vertices, triangles, options, own);
-        });
+    return run_detachable<UniformizeResult>(context, [vertices, triangles, options](ExecutionContext& own) {
+        return run_pipeline(vertices, triangles, options, own);
+    });
 }
 
 }  // namespace koebe

@@ -26,8 +26,8 @@ struct Jittered {
         for (const auto face : domain.triangles.rowwise())
             for (int k = 0; k < 3; ++k)
                 for (const Index v : {face[k], face[(k + 1) % 3]})
-                    shortest[v] = std::min(shortest[v],
-                                           std::abs(domain.points[face[k]] - domain.points[face[(k + 1) % 3]]));
+                    shortest[v] =
+                        std::min(shortest[v], std::abs(domain.points[face[k]] - domain.points[face[(k + 1) % 3]]));
         std::vector<int> loop_of(uv.rows(), -1);
         for (std::size_t k = 0; k < domain.loops.size(); ++k)
             for (const Index v : domain.loops[k]) loop_of[v] = static_cast<int>(k);
@@ -40,18 +40,19 @@ struct Jittered {
                 z += shortest[v] * offset;
             } else {
                 const Circle& circle = domain.circles[loop_of[v]];
-                z = circle.center +
-                    std::polar(circle.radius, std::arg(z - circle.center) + offset.real() * shortest[v] / circle.radius);
+                z = circle.center + std::polar(circle.radius, std::arg(z - circle.center) +
+                                                                  offset.real() * shortest[v] / circle.radius);
             }
             uv.row(v) << z.real(), z.imag();
         }
     }
 
-    double angle_error() const
+    double angle_error() const { return measure_distortion(vertices, domain.triangles, uv).angle_error_deg.mean; }
+    bool polish(const std::vector<Index>& off_circle = {})
     {
-        return measure_distortion(vertices, domain.triangles, uv).angle_error_deg.mean;
+        ExecutionContext context;
+        return polish_angles(vertices, surface, domain.loops, domain.circles, off_circle, uv, context);
     }
-    bool polish() { return polish_angles(vertices, surface, domain.loops, domain.circles, {}, uv, {}); }
 
     CircleDomain domain;
     Vertices vertices;
@@ -91,10 +92,11 @@ TEST(AnglePolish, vertices_off_their_circles_stay)
 {
     Jittered map(make_circle_domain(five_circles(), 1000));
     const Index off = map.domain.loops[2][0];
-    map.uv.row(off) += 0.01 * (Eigen::RowVector2d(map.domain.circles[2].center.real(),
-                                                  map.domain.circles[2].center.imag()) - map.uv.row(off));
+    map.uv.row(off) +=
+        0.01 * (Eigen::RowVector2d(map.domain.circles[2].center.real(), map.domain.circles[2].center.imag()) -
+                map.uv.row(off));
     const Eigen::RowVector2d place = map.uv.row(off);
-    EXPECT_TRUE(polish_angles(map.vertices, map.surface, map.domain.loops, map.domain.circles, {off}, map.uv, {}));
+    EXPECT_TRUE(map.polish({off}));
     EXPECT_EQ(map.uv.row(off), place);
 }
 

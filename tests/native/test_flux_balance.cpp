@@ -53,7 +53,8 @@ TEST(FluxBalance, a_hole_put_beside_its_limb_comes_back_to_where_no_flux_runs_to
     map.boundary.bottomRows(16).col(0).array() += 5e-3;
     EXPECT_FALSE(flipped_faces(map.domain.triangles, map.condensed.extend(map.boundary)).empty());
 
-    balance_flux(map.condensed, map.laplacian, map.domain.loops, map.circles, map.boundary, AnnulusPosition::concentric);
+    balance_flux(map.condensed, map.laplacian, map.domain.loops, map.circles, map.boundary,
+                 AnnulusPosition::concentric);
     const PlanarPoints uv = map.condensed.extend(map.boundary);
     EXPECT_TRUE(flipped_faces(map.domain.triangles, uv).empty());
     const MatrixXd flux = map.laplacian * uv;
@@ -99,7 +100,8 @@ TEST(FluxBalance, a_small_hole_finds_its_place_turn_and_size)
         hole.row(b) << image.real(), image.imag();
     }
     map.circles[5] = {{0.06, 0.09}, 8e-5};
-    balance_flux(map.condensed, map.laplacian, map.domain.loops, map.circles, map.boundary, AnnulusPosition::concentric);
+    balance_flux(map.condensed, map.laplacian, map.domain.loops, map.circles, map.boundary,
+                 AnnulusPosition::concentric);
     EXPECT_LT((map.boundary - expected).cwiseAbs().maxCoeff(), 0.1 * circles[5].radius);
     EXPECT_NEAR(map.circles[5].radius, circles[5].radius, 0.1 * circles[5].radius);
     for (Eigen::Index b = 0; b < count; ++b)
