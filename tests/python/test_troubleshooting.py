@@ -8,7 +8,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8").split())
-NATIVE_FOLDERS = ("core", "geometry", "conformal", "shape")  # what the add-on calls; the rest belongs to the command
+# What the add-on calls; the rest belongs to the command and to the annulus map of Python.
+NATIVE_FOLDERS = ("core", "geometry", "conformal", "foldover", "pipeline", "shape")
 
 # Errors that no mesh in Blender can cause: wrong calls, guards of inner steps, and what the add-on has ruled out.
 NOT_FROM_BLENDER = (
