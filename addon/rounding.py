@@ -26,7 +26,8 @@ def rounded(points, triangles):
     """
     uv = points.astype(np.float32)
     flipped = flipped_triangles(triangles, uv)
-    turned = [t for t in flipped[: 4 * MOST] if _worth_it(points[triangles[t]])]
+    some = flipped[: 4 * MOST]
+    turned = some[_worth_it(points, triangles[some])]
     if not 0 < len(turned) <= MOST:
         return uv, flipped
     near = np.zeros(len(points), dtype=bool)
@@ -40,10 +41,11 @@ def rounded(points, triangles):
     return uv, flipped_triangles(triangles, uv)
 
 
-def _worth_it(corners):
-    """Whether a triangle (3, 2) is right before it is rounded, and large enough to be drawn."""
-    sides = corners - np.roll(corners, 1, axis=0)
-    return signed_areas(corners, np.array([[0, 1, 2]]))[0] > 0.0 and np.hypot(*sides.T).max() >= RESOLUTION
+def _worth_it(points, triangles):
+    """Which triangles (k, 3) are right before they are rounded, and large enough to be drawn."""
+    corners = points[triangles]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    return (signed_areas(points, triangles) > 0.0) & (longest >= RESOLUTION)
 
 
 def _turn_back(uv, corners, around):

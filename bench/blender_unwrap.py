@@ -14,28 +14,10 @@ import bpy
 import numpy as np
 
 
-def read_obj(path):
-    """Positions and triangles of an OBJ file."""
-    positions, triangles = [], []
-    with open(path) as lines:
-        for line in lines:
-            words = line.split()
-            if words[:1] == ["v"]:
-                positions.append([float(x) for x in words[1:4]])
-            elif words[:1] == ["f"]:
-                triangles.append([int(word.split("/")[0]) - 1 for word in words[1:]])
-    return positions, triangles
-
-
 def main():
-    positions, triangles = read_obj(sys.argv[sys.argv.index("--") + 1])
-    mesh = bpy.data.meshes.new("bench")
-    mesh.from_pydata(positions, [], triangles)
+    bpy.ops.wm.obj_import(filepath=sys.argv[sys.argv.index("--") + 1])
+    mesh = bpy.context.view_layer.objects.active.data
     mesh.uv_layers.new()
-    obj = bpy.data.objects.new("bench", mesh)
-    bpy.context.collection.objects.link(obj)
-    bpy.context.view_layer.objects.active = obj
-    obj.select_set(True)
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
     for _ in sys.stdin:

@@ -122,12 +122,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         flow.curvature_error < flat
             ? remove_flips(named, cut, std::move(core_uv), reported_circles(result.loops), context)
             : hang_back(named, cut, std::move(core_uv), context);
-    const PlanarPoints& uv = map.uv;
-    report_loops(named, map, result.loops);
-    report_off_circle(whole, uv, result.loops);
-    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, uv);
-    result.uv = PlanarPoints::Zero(vertices.rows(), 2);
-    result.uv(whole.original, Eigen::all) = uv;
+    report_map(named, map, result);
+    report_off_circle(whole, map.uv, result.loops);
 
     if (!result.converged) result.warnings.push_back("not converged: " + flow.reason);
     if (flow.packing_change > worth_a_warning)
@@ -136,7 +132,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (flow.closing_gap > on_circle)
         result.warnings.push_back(with_number("holes close up to %.2g of their length", flow.closing_gap));
     if (own_flips > 0) result.warnings.push_back("faces flipped by the flow's own map: " + std::to_string(own_flips));
-    for (std::string& sentence : flip_warnings(named, uv, cut.flaps, map.report, result.distortion))
+    for (std::string& sentence : flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion))
         result.warnings.push_back(std::move(sentence));
     result.seconds.finish = seconds_since(stage);
     result.seconds.total = seconds_since(begin);

@@ -1,6 +1,7 @@
 #include "foldover/flip_removal.h"
 
 #include "conformal/circle_fit.h"
+#include "conformal/distortion.h"
 #include "foldover/flap_map.h"
 
 #include <algorithm>
@@ -37,10 +38,10 @@ std::vector<Circle> reported_circles(const std::vector<LoopReport>& reports)
     return circles;
 }
 
-void report_loops(const NamedSurface& whole, const UntangledMap& map, std::vector<LoopReport>& reports)
+void report_map(const NamedSurface& whole, const UntangledMap& map, UniformizeResult& result)
 {
     for (std::size_t k = 0; k < whole.loops.size(); ++k) {
-        LoopReport& report = reports[k];
+        LoopReport& report = result.loops[k];
         report.vertices.clear();
         VectorXcd points(static_cast<Eigen::Index>(whole.loops[k].size()));
         Eigen::Index on_circle = 0;
@@ -53,6 +54,9 @@ void report_loops(const NamedSurface& whole, const UntangledMap& map, std::vecto
         }
         report.roundness_projected = roundness(points.head(on_circle), report.circle);
     }
+    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
+    result.uv = PlanarPoints::Zero(result.vertex_count, 2);
+    result.uv(whole.original, Eigen::all) = map.uv;
 }
 
 }  // namespace koebe

@@ -35,8 +35,10 @@ UntangledMap remove_flips(const NamedSurface& whole, const FlapCut& cut, PlanarP
 
 std::vector<Circle> reported_circles(const std::vector<LoopReport>& reports);
 
-/// Completes the loop reports, which have their circles: all vertices of each loop, those that are off its circle, and
-/// how round the others lie.
-void report_loops(const NamedSurface& whole, const UntangledMap& map, std::vector<LoopReport>& reports);
+/// Puts the map into the result: its points in the input's numbering, its distortion, and what the loop reports, which
+/// have their circles, still miss: all vertices of each loop, those that are off its circle, and how round the others
+/// lie.
+/// @param result of a mesh of result.vertex_count vertices
+void report_map(const NamedSurface& whole, const UntangledMap& map, UniformizeResult& result);
 
 }  // namespace koebe

@@ -135,10 +135,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
             measure_distortion(whole.vertices, whole.surface.triangles, map.uv).angle_error_deg;
         polish_angles(whole.vertices, whole.surface, whole.loops, circles, map.off_circle, map.uv, context);
     }
-    report_loops(named, map, result.loops);
-    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
-    result.uv = PlanarPoints::Zero(vertices.rows(), 2);
-    result.uv(whole.original, Eigen::all) = map.uv;
+    report_map(named, map, result);
     add_warnings(whole, outcome, result);
     const auto flip_sentences = flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion);
     result.warnings.insert(result.warnings.end(), flip_sentences.begin(), flip_sentences.end());
