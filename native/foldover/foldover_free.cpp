@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -108,7 +109,22 @@ private:
             sum += weight(f) * (j.squaredNorm() + options_.area_weight * (d * d + 1.0)) /
                    regularized(d - problem_.floor[f])[0];
         }
+        for (Eigen::Index v = 0; v < problem_.pull.size(); ++v)
+            if (pulled(v)) sum += problem_.pull[v] * std::pow(offset(points, v).second, 2);
         return sum;
+    }
+
+    bool pulled(Eigen::Index v) const { return problem_.pull[v] > 0.0 && problem_.mobility[v] == Mobility::free; }
+
+    /// The outward direction of a pulled vertex and its distance from the circle, over the radius.
+    std::pair<Eigen::Vector2d, double> offset(const PlanarPoints& points, Eigen::Index v) const
+    {
+        const Circle& circle = problem_.circles[v];
+        const Eigen::Vector2d arm =
+            points.row(v).transpose() - Eigen::Vector2d(circle.center.real(), circle.center.imag());
+        const double distance = arm.norm();
+        if (!(distance > 0.0)) return {Eigen::Vector2d::Zero(), -1.0};
+        return {arm / distance, distance / circle.radius - 1.0};
     }
 
     void derivatives(Eigen::Index f, Gradient& gradient, Hessian& hessian) const
@@ -191,6 +207,16 @@ private:
                 }
             }
         }
+        for (Eigen::Index v = 0; v < problem_.pull.size(); ++v) {
+            if (!pulled(v)) continue;
+            const auto [outward, distance] = offset(problem_.points, v);
+            const double weight = 2.0 * problem_.pull[v] / problem_.circles[v].radius;
+            const Index row = first_unknown_[v];
+            gradient.segment<2>(row) += weight * distance * outward;
+            const Eigen::Matrix2d block = weight / problem_.circles[v].radius * outward * outward.transpose();
+            for (Index i = 0; i < 2; ++i)
+                for (Index j = 0; j < 2; ++j) entries_.emplace_back(row + i, row + j, block(i, j));
+        }
         SparseMatrix hessian(unknowns_, unknowns_);
         hessian.setFromTriplets(entries_.begin(), entries_.end());
         for (Index i = 0; i < unknowns_; ++i) hessian.coeffRef(i, i) *= 1.0 + shift;
@@ -204,6 +230,7 @@ private:
         double share = 1.0;
         for (int i = 0; i < halvings; ++i, share *= 0.5) {
             PlanarPoints trial = moved(step, share);
+            if (options_.strict && !(worst_determinant(trial) > 0.0)) continue;
             if (energy(trial) <= before + armijo * share * slope) {
                 problem_.points = std::move(trial);
                 return true;

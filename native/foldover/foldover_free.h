@@ -20,18 +20,20 @@ struct FoldoverProblem {
     VectorXd floor;                          ///< (F) the determinant to stay above, in the reference's areas
     VectorXd weight;                         ///< (F) of each face in the sum; empty: 1
     std::vector<Mobility> mobility;          ///< (V) sliding: along its circle
-    std::vector<Circle> circles;             ///< (V) of sliding vertices
+    std::vector<Circle> circles;             ///< (V) of sliding and of pulled vertices
+    VectorXd pull;                           ///< (V) of free vertices to their circles, dimensionless; empty: none
 };
 
 struct FoldoverOptions {
     int max_iterations = 60;
     double area_weight = 1.0 / 128.0;  ///< of det + 1/det against the conformal term, dimensionless (Garanzha's theta)
     double settled = 1e-4;             ///< relative decrease at which a foldover-free map is good enough
+    bool strict = false;               ///< no step over a floor: from a foldover-free map to foldover-free ones only
 };
 
 /// Minimizes sum_f (tr(J'J) / chi(det J - floor) + theta (det^2 + 1) / chi) over the mobile vertices, J the linear map
 /// from the reference to the image, chi(D, eps) = (D + sqrt(eps^2 + D^2)) / 2, eps shrinking as the worst
-/// determinant rises (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50
+/// determinant rises, and pull ((|z - c| - r) / r)^2 over the pulled vertices (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50
 /// lines of code", sections 2 and 3), by Newton's method on Hessians made positive semidefinite face by face.
 /// @return whether every determinant is above its floor; problem.points holds the result either way
 bool minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,

@@ -8,6 +8,7 @@
 #include "conformal/moebius.h"
 #include "foldover/flip_removal.h"
 #include "foldover/rim_room.h"
+#include "pipeline/loop_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,8 @@ std::vector<std::size_t> set_apart(std::vector<Circle>& circles)
     return changed;
 }
 
-/// The images of the loops in normal position, each put on its circle: (m, 2), loop after loop. Fills the loop reports.
+/// The images of the loops in normal position, each put on its circle: (m, 2), loop after loop; empty if the circles
+/// leave the disk or meet. Fills the loop reports.
 MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeOutcome& outcome,
                           UniformizeResult& result)
 {
@@ -57,11 +59,13 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     for (std::size_t k = 1; k < outcome.loops.size(); ++k)
         circles.push_back(fit_circle_least_squares(outcome.loops[k]));
     const Moebius moebius = normal_position(circles);
+    if (!std::isfinite(std::abs(moebius.a))) return {};
     for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = moebius(circles[k]);
     if (const auto changed = set_apart(circles); !changed.empty())
         result.warnings.push_back("circles that met another made smaller, the mesh between them is too coarse: " +
                                   std::to_string(changed.size()) + "; the first is that of loop " +
                                   std::to_string(changed.front()));
+    if (!circles_apart(circles)) return {};
 
     std::size_t boundary_count = 0;
     for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
@@ -87,13 +91,15 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
 
 }  // namespace
 
-PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain,
+std::optional<PlanarPoints> finish_map(const CondensedLaplacian& condensed, const SparseMatrix& laplacian, const Domain& domain,
                         const FlapCut& cut, const KoebeOutcome& outcome, const UniformizeOptions& options,
                         UniformizeResult& result, int& outer)
 {
     MatrixXd boundary = place_on_circles(domain, cut, outcome, result);
+    if (boundary.rows() == 0) return {};
     std::vector<Circle> circles = reported_circles(result.loops);
     PlanarPoints uv = balance_flux(condensed, laplacian, domain.loops, circles, boundary, AnnulusPosition::concentric);
+    if (!uv.allFinite() || !circles_apart(circles)) return {};
     if (options.balance == Balance::area) {
         if (options.outer == OuterLoop::automatic) {
             std::vector<int> longest(std::min(circles.size(), outer_candidates));
@@ -111,6 +117,7 @@ PlanarPoints finish_map(const CondensedLaplacian& condensed, const SparseMatrix&
         for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = balance(circles[k]);
         uv = balance_flux(condensed, laplacian, domain.loops, circles, boundary, AnnulusPosition::free);
     }
+    if (!uv.allFinite() || !circles_apart(circles)) return {};
     for (std::size_t k = 0; k < circles.size(); ++k) result.loops[k].circle = circles[k];
     return uv;
 }

@@ -2,20 +2,24 @@
 
 #include "conformal/boundary_angles.h"
 #include "conformal/distortion.h"
-#include "conformal/koebe_condensed.h"
-#include "conformal/koebe_mesh.h"
+#include "conformal/circle_projection.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
 #include "core/topology.h"
+#include "core/errors.h"
 #include "foldover/angle_polish.h"
+#include "foldover/embedded_map.h"
 #include "foldover/flip_removal.h"
 #include "foldover/flip_report.h"
 #include "geometry/dense_spd.h"
-#include "geometry/intrinsic_metric.h"
 #include "pipeline/domain.h"
+#include "pipeline/loop_images.h"
 #include "pipeline/placement.h"
+#include "pipeline/promise.h"
 
+#include <algorithm>
 #include <chrono>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -37,13 +41,12 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// A disk without inner vertices has no harmonic function to speak of: its loop, evenly by length.
-KoebeOutcome polygon_outcome(const Domain& domain)
+/// Least angles between the vertices of the outer loop: three neighbours s apart make a face s^2 / 2 high, which 32-bit
+/// UVs must tell from none.
+VectorXd least_steps(Eigen::Index count)
 {
-    KoebeOutcome outcome;
-    outcome.loops = {unit_circle_points(arc_length_angles(domain.edges[0]))};
-    outcome.converged = true;
-    return outcome;
+    constexpr double drawable = 2e-3;  // radians
+    return VectorXd::Constant(count, std::min(drawable, 0.3 * 2.0 * std::numbers::pi / static_cast<double>(count)));
 }
 
 void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeResult& result)
@@ -66,6 +69,34 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
 }
 
+/// The map that is one to one from the start (embedded_map), on the circles of the iteration if it has found any.
+/// @param failed the map that the iteration led to; null if it led to none @param circles of the loops, in and out
+UntangledMap embed(const Domain& whole, const FlapCut& cut, const UntangledMap* failed, std::vector<Circle>& circles,
+                   UniformizeResult& result, ExecutionContext& context)
+{
+    VectorXcd rim = unit_circle_points(arc_length_angles(whole.edges[0]));
+    if (failed) {
+        for (Eigen::Index i = 0; i < rim.size(); ++i) {
+            const Index v = whole.loops[0][i];
+            rim[i] = {failed->uv(v, 0), failed->uv(v, 1)};
+        }
+    } else {
+        circles.clear();
+        result.converged = false;
+        result.warnings.push_back("the iteration led to no circles: these are such as fit a map of low angle error");
+    }
+    if (!rim.allFinite()) rim = unit_circle_points(arc_length_angles(whole.edges[0]));
+    rim = project_onto_circle(Circle{}, rim, 1, least_steps(whole.edges[0].size()));
+    EmbeddedMap map = embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
+                                   failed && circles_apart(circles) ? circles : std::vector<Circle>{}, rim, context);
+    circles = map.circles;
+    for (std::size_t k = 0; k < circles.size(); ++k) {
+        result.loops[k].circle = circles[k];
+        if (!failed) result.loops[k].roundness = map.roundness[k];
+    }
+    return {std::move(map.uv), std::move(map.off_circle), {}};
+}
+
 UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
                               ExecutionContext& context)
 {
@@ -86,25 +117,22 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.seconds.topology = stage.lap();
 
     context.begin_stage("metric", 0.05, 0.15);
-    const IntrinsicMetric metric = intrinsic_metric(domain.vertices, domain.surface);
-    const Index vertex_count = domain.surface.vertex_count;
-    const SparseMatrix laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), vertex_count);
+    AssembledDomain assembled;
+    assembled.take_metric(domain);
     result.seconds.metric = stage.lap();
 
     context.begin_stage("factor", 0.15, 0.5);
-    std::vector<Index> boundary;
-    for (const VertexLoop& loop : domain.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
-    const DenseThreads threads(options.threads, static_cast<Index>(boundary.size()), result.face_count);
-    const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, best_grounded(domain.loops));
+    std::size_t boundary = 0;
+    for (const VertexLoop& loop : domain.loops) boundary += loop.size();
+    const DenseThreads threads(options.threads, static_cast<Index>(boundary), result.face_count);
+    try {
+        assembled.factorize(domain);
+    } catch (const SolverError&) {  // the map is made without it, and says so
+    }
     result.seconds.factor = stage.lap();
 
     context.begin_stage("iterate", 0.5, 0.9);
-    const KoebeOutcome outcome =
-        domain.loops.size() == 1 && domain.original.size() == domain.loops[0].size() ? polygon_outcome(domain)
-        : options.engine == Engine::mesh
-            ? koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context).outcome
-            : koebe_condensed(laplacian, condensed, domain.loops, domain.edges,
-                              vertex_areas(metric.triangles, metric.lengths, vertex_count), options, context);
+    const KoebeOutcome outcome = loop_images(domain, assembled, options, context);
     result.converged = outcome.converged;
     result.sweeps = outcome.sweeps;
     result.steps = outcome.steps;
@@ -113,7 +141,9 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 
     context.begin_stage("finish", 0.9, 1.0);
     int outer = 0;
-    PlanarPoints core_uv = finish_map(condensed, laplacian, domain, cut, outcome, options, result, outer);
+    std::optional<PlanarPoints> core_uv;
+    if (assembled.condensed && !outcome.loops.empty())
+        core_uv = finish_map(*assembled.condensed, assembled.laplacian, domain, cut, outcome, options, result, outer);
     context.advance(0.5);
     if (outer != 0) {
         UniformizeOptions chosen = options;
@@ -127,8 +157,18 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         return better;
     }
     const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original};
-    const std::vector<Circle> circles = reported_circles(result.loops);
-    UntangledMap map = remove_flips(named, cut, std::move(core_uv), circles, context);
+    UntangledMap map;
+    std::vector<Circle> circles = reported_circles(result.loops);
+    MapFaults faults;
+    if (core_uv) {
+        map = remove_flips(named, cut, std::move(*core_uv), circles, context);
+        faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
+    }
+    if (!core_uv || faults.any()) {
+        result.loops.resize(whole.loops.size());
+        map = embed(whole, cut, core_uv ? &map : nullptr, circles, result, context);
+        faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
+    }
     if (options.polish) {
         context.begin_stage("polish", 0.97, 1.0);
         result.unpolished_angle_error_deg =
@@ -139,6 +179,11 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     add_warnings(whole, outcome, result);
     const auto flip_sentences = flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion);
     result.warnings.insert(result.warnings.end(), flip_sentences.begin(), flip_sentences.end());
+    if (options.polish) faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
+    if (faults.any()) {
+        result.converged = false;
+        result.warnings.push_back("no one-to-one map was found: " + faults.text(whole.original));
+    }
     result.seconds.finish = stage.lap();
     result.seconds.total = total.lap();
     result.peak_memory_mb = peak_memory_mb();

@@ -1,0 +1,32 @@
+// The map that is always one to one: where untangling a conformal map has failed.
+#pragma once
+
+#include "conformal/result.h"
+#include "core/execution.h"
+#include "core/topology.h"
+#include "geometry/flaps.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct EmbeddedMap {
+    PlanarPoints uv;                 ///< (V, 2)
+    std::vector<Circle> circles;     ///< of the loops, apart from each other, the unit circle first
+    std::vector<double> roundness;   ///< of each loop before its vertices were put on the circle
+    std::vector<Index> off_circle;   ///< loop vertices that are not on their circles, rising
+};
+
+/// Starts from a convex combination map of the surface with its holes filled, which is one to one whatever the surface
+/// (convex_embedding), and lowers the angle error by steps that keep every face upright (foldover_free.h, strict):
+/// first alone, then with the loops pulled to their circles, harder and harder. At last the vertices are put on the
+/// circles; where this would turn a face over they stay off, and slide free.
+/// As the holes' fans stay upright too, no loop crosses itself or another.
+/// @param flaps of the surface: their rims are not pulled to the circles of inner loops
+/// @param wanted the circles of the loops, apart from each other; empty: such as fit the map before it is pulled
+/// @param rim (n) points of the outer loop on the unit circle, in order, all different
+EmbeddedMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                         const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
+                         const ExecutionContext& context);
+
+}  // namespace koebe

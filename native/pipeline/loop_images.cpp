@@ -1,0 +1,132 @@
+#include "pipeline/loop_images.h"
+
+#include "conformal/boundary_angles.h"
+#include "conformal/circle_fit.h"
+#include "conformal/koebe_condensed.h"
+#include "conformal/koebe_mesh.h"
+#include "core/errors.h"
+#include "pipeline/refinement.h"
+
+#include <cmath>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr Index most_refined_faces = 20000;
+constexpr int most_refinements = 3;
+
+std::vector<Index> boundary_of(const Domain& domain)
+{
+    std::vector<Index> boundary;
+    for (const VertexLoop& loop : domain.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    return boundary;
+}
+
+/// A disk without inner vertices has no harmonic function to speak of: its loop, evenly by length.
+KoebeOutcome polygon_outcome(const Domain& domain)
+{
+    KoebeOutcome outcome;
+    outcome.loops = {unit_circle_points(arc_length_angles(domain.edges[0]))};
+    outcome.converged = true;
+    return outcome;
+}
+
+KoebeOutcome run_engine(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
+                        ExecutionContext& context)
+{
+    if (domain.loops.size() == 1 && domain.surface.vertex_count == static_cast<Index>(domain.loops[0].size()))
+        return polygon_outcome(domain);
+    if (options.engine == Engine::mesh)
+        return koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context).outcome;
+    if (!assembled.condensed) return {};
+    const IntrinsicMetric& metric = assembled.metric;
+    return koebe_condensed(assembled.laplacian, *assembled.condensed, domain.loops, domain.edges,
+                           vertex_areas(metric.triangles, metric.lengths, domain.surface.vertex_count), options,
+                           context);
+}
+
+bool finite(const KoebeOutcome& outcome)
+{
+    for (const VectorXcd& loop : outcome.loops)
+        if (!loop.allFinite()) return false;
+    return !outcome.loops.empty();
+}
+
+bool sound(const KoebeOutcome& outcome)
+{
+    if (outcome.raised_angles > 0 || !finite(outcome)) return false;
+    std::vector<Circle> circles{Circle{}};
+    for (std::size_t k = 1; k < outcome.loops.size(); ++k)
+        circles.push_back(fit_circle_least_squares(outcome.loops[k]));
+    return circles_apart(circles);
+}
+
+bool more_boundary_than_inside(const Domain& domain)
+{
+    std::size_t boundary = 0;
+    for (const VertexLoop& loop : domain.loops) boundary += loop.size();
+    return static_cast<std::size_t>(domain.surface.vertex_count) < 2 * boundary;
+}
+
+}  // namespace
+
+void AssembledDomain::take_metric(const Domain& domain)
+{
+    metric = intrinsic_metric(domain.vertices, domain.surface);
+    laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), domain.surface.vertex_count);
+}
+
+void AssembledDomain::factorize(const Domain& domain)
+{
+    condensed.emplace(laplacian, boundary_of(domain), Ordering::amd, best_grounded(domain.loops));
+}
+
+bool circles_apart(const std::vector<Circle>& circles)
+{
+    for (std::size_t k = 1; k < circles.size(); ++k) {
+        const Circle& circle = circles[k];
+        if (!(circle.radius > 0.0) || !(std::abs(circle.center) + circle.radius < 1.0)) return false;
+        for (std::size_t j = 1; j < k; ++j)
+            if (!(std::abs(circle.center - circles[j].center) > circle.radius + circles[j].radius)) return false;
+    }
+    return true;
+}
+
+KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
+                         ExecutionContext& context)
+{
+    const auto attempt = [&](const auto& run) {
+        try {
+            return run();
+        } catch (const SolverError&) {
+        } catch (const InputError&) {
+        }
+        return KoebeOutcome{};
+    };
+    KoebeOutcome outcome = attempt([&] { return run_engine(domain, assembled, options, context); });
+    bool wanting = !sound(outcome) || more_boundary_than_inside(domain);
+    Domain fine;
+    Index stride = 1;
+    for (int level = 0; level < most_refinements && wanting; ++level) {
+        const Domain& coarse = level == 0 ? domain : fine;
+        if (4 * coarse.surface.triangles.rows() > most_refined_faces) break;
+        fine = refined_domain(coarse);
+        stride *= 2;
+        KoebeOutcome finer = attempt([&] {
+            AssembledDomain refined;
+            if (options.engine == Engine::condensed) {
+                refined.take_metric(fine);
+                refined.factorize(fine);
+            }
+            return run_engine(fine, refined, options, context);
+        });
+        wanting = !sound(finer);
+        if (!finite(finer) || (wanting && sound(outcome))) continue;
+        for (VectorXcd& loop : finer.loops) loop = VectorXcd(loop(Eigen::seqN(0, loop.size() / stride, stride)));
+        outcome = std::move(finer);
+    }
+    return finite(outcome) ? outcome : KoebeOutcome{};
+}
+
+}  // namespace koebe

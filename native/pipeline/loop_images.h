@@ -1,0 +1,37 @@
+// Where the Koebe iteration puts the loops of a domain, on more triangles where its own are too coarse.
+#pragma once
+
+#include "conformal/koebe_iteration.h"
+#include "core/execution.h"
+#include "geometry/condensed_laplacian.h"
+#include "geometry/intrinsic_metric.h"
+#include "pipeline/domain.h"
+
+#include <optional>
+#include <vector>
+
+namespace koebe {
+
+/// What is assembled once for a domain, in two steps.
+struct AssembledDomain {
+    IntrinsicMetric metric;
+    SparseMatrix laplacian;                       ///< cotan weights of the metric
+    std::optional<CondensedLaplacian> condensed;  ///< its factor, the loops last
+
+    void take_metric(const Domain& domain);
+    /// @throws SolverError
+    void factorize(const Domain& domain);
+};
+
+/// Whether circles are finite, of positive radius, inside the unit disk and apart; the first is the unit circle.
+bool circles_apart(const std::vector<Circle>& circles);
+
+/// Runs the engine that the options name. Where the loops' images cannot be right (a circle that leaves the disk or
+/// meets another, a boundary vertex without flux, more boundary vertices than inner ones) it runs again on a refined
+/// domain (refined_domain), up to three times, as long as that has at most 20,000 faces.
+/// @param assembled without a factor if the domain's matrix is singular
+/// @return the images of the domain's own loop vertices; no loops if nothing came of it
+KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
+                         ExecutionContext& context);
+
+}  // namespace koebe

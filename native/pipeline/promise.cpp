@@ -1,0 +1,64 @@
+#include "pipeline/promise.h"
+
+#include "conformal/stored_uv.h"
+#include "geometry/boundary_crossings.h"
+
+#include <cmath>
+
+namespace koebe {
+namespace {
+
+constexpr double disk_tolerance = 1e-12;  // disk units: some roundings of a point of the unit circle
+
+std::vector<int> bad_circles(const std::vector<Circle>& circles)
+{
+    std::vector<int> bad;
+    for (std::size_t k = 1; k < circles.size(); ++k) {
+        const Circle& circle = circles[k];
+        bool good = circle.radius > 0.0 && std::abs(circle.center) + circle.radius <= 1.0;
+        for (std::size_t j = 1; j < circles.size() && good; ++j)
+            good = j == k || std::abs(circle.center - circles[j].center) >= circle.radius + circles[j].radius;
+        if (!good) bad.push_back(static_cast<int>(k));
+    }
+    return bad;
+}
+
+}  // namespace
+
+std::string MapFaults::text(const std::vector<Index>& original) const
+{
+    std::string result;
+    const auto add = [&](std::size_t count, const std::string& what, Index first) {
+        if (count == 0) return;
+        if (!result.empty()) result += "; ";
+        result += std::to_string(count) + " " + what + ", the first is " + std::to_string(first);
+    };
+    add(not_finite.size(), "vertices without a place", not_finite.empty() ? 0 : original[not_finite.front()]);
+    add(outside.size(), "vertices outside the disk", outside.empty() ? 0 : original[outside.front()]);
+    add(flipped.size(), "faces flipped", flipped.empty() ? 0 : flipped.front());
+    add(bad_circles.size(), "circles that meet another or leave the disk", bad_circles.empty() ? 0 : bad_circles.front());
+    add(crossings.size(), "crossings of loops, at vertices",
+        crossings.empty() ? 0 : original[crossings.front().first]);
+    return result;
+}
+
+MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>& loops, const PlanarPoints& uv,
+                      const std::vector<Circle>& circles)
+{
+    MapFaults faults;
+    for (Index v = 0; v < static_cast<Index>(uv.rows()); ++v) {
+        const double radius = std::hypot(uv(v, 0), uv(v, 1));
+        if (!std::isfinite(radius))
+            faults.not_finite.push_back(v);
+        else if (radius > 1.0 + disk_tolerance)
+            faults.outside.push_back(v);
+    }
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (const StoredFace face(triangles, uv, f); face.flipped() && !face.below_resolution())
+            faults.flipped.push_back(static_cast<Index>(f));
+    faults.bad_circles = bad_circles(circles);
+    if (faults.not_finite.empty()) faults.crossings = crossing_boundary_edges(loops, uv, 2.0 * uv_resolution);
+    return faults;
+}
+
+}  // namespace koebe

@@ -1,0 +1,33 @@
+// What every map promises, checked at its end: finite, one to one, inside the disk, true to its circles.
+#pragma once
+
+#include "conformal/result.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace koebe {
+
+/// What is wrong with a map; all empty for one that keeps its promises.
+struct MapFaults {
+    std::vector<Index> not_finite;  ///< vertices
+    std::vector<Index> outside;     ///< vertices outside the closed unit disk
+    std::vector<Index> flipped;     ///< faces, as they are stored, those below resolution aside
+    std::vector<int> bad_circles;   ///< loops whose circle is not positive and finite, leaves the disk, or meets another's
+    std::vector<std::pair<Index, Index>> crossings;  ///< loop edges that meet, by the vertices they start from
+
+    bool any() const
+    {
+        return !not_finite.empty() || !outside.empty() || !flipped.empty() || !bad_circles.empty() ||
+               !crossings.empty();
+    }
+    /// One sentence that names the first elements.
+    std::string text(const std::vector<Index>& original) const;
+};
+
+/// @param uv (V, 2) @param circles of the loops, the outer one first
+MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>& loops, const PlanarPoints& uv,
+                      const std::vector<Circle>& circles);
+
+}  // namespace koebe
