@@ -11,6 +11,7 @@
 #include "geometry/dense_spd.h"
 #include "geometry/intrinsic_metric.h"
 #include "pipeline/domain.h"
+#include "pipeline/promise.h"
 
 #include <algorithm>
 #include <chrono>
@@ -53,6 +54,13 @@ VectorXcd in_normal_position(const RicciFlowResult& flow, const Domain& domain, 
         result.loops.push_back(std::move(report));
     }
     return positions;
+}
+
+/// Vertices of the outer loop that the layout has left outside the unit disk go onto its circle.
+void draw_in(const VertexLoop& outer, PlanarPoints& points)
+{
+    for (const Index v : outer)
+        if (const double radius = points.row(v).norm(); radius > 1.0) points.row(v) /= radius;
 }
 
 /// Adds the vertices that are not on the circles: the flow puts none there by force.
@@ -115,8 +123,10 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     const VectorXcd positions = in_normal_position(flow, domain, result);
     PlanarPoints core_uv(positions.size(), 2);
     core_uv << positions.real(), positions.imag();
+    draw_in(domain.loops[0], core_uv);
     const std::size_t own_flips = flipped_faces(domain.surface.triangles, core_uv).size();
-    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original};
+    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original,
+                             whole.original_faces};
     // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
     const UntangledMap map =
         flow.curvature_error < flat
@@ -134,6 +144,11 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (own_flips > 0) result.warnings.push_back("faces flipped by the flow's own map: " + std::to_string(own_flips));
     for (std::string& sentence : flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion))
         result.warnings.push_back(std::move(sentence));
+    if (const MapFaults faults = find_faults(whole.surface.triangles, whole.loops, map.uv, reported_circles(result.loops));
+        faults.any()) {
+        result.converged = false;
+        result.warnings.push_back("not one to one: " + faults.text(whole.original, whole.original_faces));
+    }
     result.seconds.finish = seconds_since(stage);
     result.seconds.total = seconds_since(begin);
     result.peak_memory_mb = peak_memory_mb();

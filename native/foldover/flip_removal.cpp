@@ -43,6 +43,7 @@ void report_map(const NamedSurface& whole, const UntangledMap& map, UniformizeRe
     for (std::size_t k = 0; k < whole.loops.size(); ++k) {
         LoopReport& report = result.loops[k];
         report.vertices.clear();
+        report.off_circle.clear();
         VectorXcd points(static_cast<Eigen::Index>(whole.loops[k].size()));
         Eigen::Index on_circle = 0;
         for (const Index v : whole.loops[k]) {
@@ -52,9 +53,16 @@ void report_map(const NamedSurface& whole, const UntangledMap& map, UniformizeRe
             else
                 points[on_circle++] = {map.uv(v, 0), map.uv(v, 1)};
         }
+        std::rotate(report.vertices.begin(), std::min_element(report.vertices.begin(), report.vertices.end()),
+                    report.vertices.end());
+        std::sort(report.off_circle.begin(), report.off_circle.end());
         report.roundness_projected = roundness(points.head(on_circle), report.circle);
     }
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
+    for (std::vector<Index>* faces : {&result.distortion.flipped, &result.distortion.below_resolution}) {
+        for (Index& f : *faces) f = whole.original_faces[f];
+        std::sort(faces->begin(), faces->end());
+    }
     result.uv = PlanarPoints::Zero(result.vertex_count, 2);
     result.uv(whole.original, Eigen::all) = map.uv;
 }

@@ -16,6 +16,7 @@ struct NamedSurface {
     const Surface& surface;
     const std::vector<VertexLoop>& loops;  ///< the outer one first
     const std::vector<Index>& original;    ///< vertex of the input for each
+    const std::vector<Index>& original_faces;
 };
 
 struct UntangledMap {

@@ -50,6 +50,14 @@ std::string flap_warning(const MappedSurface& map, const std::vector<Flap>& flap
            " off the circle, the first " + std::to_string(map.original[first->rim[0]]);
 }
 
+/// The lowest of some faces in the input's numbering.
+Index first_face(const MappedSurface& map, const std::vector<Index>& faces)
+{
+    Index least = map.original_faces[faces.front()];
+    for (const Index f : faces) least = std::min(least, map.original_faces[f]);
+    return least;
+}
+
 /// Connected faces that are too small to be stored, with a flipped one among them.
 struct LostRegion {
     std::vector<Index> faces;
@@ -60,11 +68,16 @@ struct LostRegion {
     double shortest = 0.0;  // longest edge of the smallest face, in UV units and 64 bits
 };
 
-std::vector<LostRegion> lost_regions(const MappedSurface& map, const std::vector<Index>& below_resolution)
+std::vector<LostRegion> lost_regions(const MappedSurface& map)
 {
     const Triangles& triangles = map.surface.triangles;
     std::vector<char> met(triangles.rows(), 0), flipped(triangles.rows(), 0);
-    for (const Index f : below_resolution) flipped[f] = 1;
+    std::vector<Index> below_resolution;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (const StoredFace face(triangles, map.uv, f); face.flipped() && face.below_resolution()) {
+            below_resolution.push_back(static_cast<Index>(f));
+            flipped[f] = 1;
+        }
     const auto longest_edge = [&](Index f) {
         double longest = 0.0;
         for (int k = 0; k < 3; ++k)
@@ -130,18 +143,17 @@ std::vector<std::string> flip_warnings(const NamedSurface& whole, const PlanarPo
         warnings.push_back(plural(untangled.freed.size(), "vertex") +
                            " taken off the circle, where straight triangles cannot follow it; the first is " +
                            std::to_string(map.original[untangled.freed.front()]));
-    for (const LostRegion& region : lost_regions(map, distortion.below_resolution))
+    for (const LostRegion& region : lost_regions(map))
         warnings.push_back(
             plural(region.faces.size(), "face") + " around vertex " + std::to_string(map.original[region.tip]) +
             ", nearest to loop " + std::to_string(region.loop) +
             ", shrank below the resolution of 32-bit UVs (edges from " + figure(region.shortest) + " to " +
             figure(region.extent) + "), " + plural(region.flipped, "face") + " of them to no area; the first is " +
-            std::to_string(*std::min_element(region.faces.begin(), region.faces.end())) +
+            std::to_string(first_face(map, region.faces)) +
             (region.faces.size() < limb ? "" : ". A long limb does this: a seam or a hole near its end helps"));
     if (!untangled.tangled.empty())
         warnings.push_back(plural(untangled.tangled.size(), "face") + " flipped; the first is " +
-                           std::to_string(untangled.tangled.front()) + ", at vertex " +
-                           std::to_string(map.original[map.surface.triangles(untangled.tangled.front(), 0)]));
+                           std::to_string(first_face(map, untangled.tangled)));
     return warnings;
 }
 

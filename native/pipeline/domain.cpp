@@ -1,6 +1,7 @@
 #include "pipeline/domain.h"
 
 #include "core/errors.h"
+#include "pipeline/canonical_form.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,6 +10,8 @@
 
 namespace koebe {
 namespace {
+
+constexpr double same_length = 1e-9;  // relative difference of loops that are equally long
 
 /// Length of the edge from each vertex of a loop to the next. Vertices that coincide in space still need an angle of
 /// their own, so no edge counts for less than 1e-9 of the mean.
@@ -20,25 +23,38 @@ VectorXd loop_edges(const Vertices& vertices, const VertexLoop& loop)
     return edges.cwiseMax(1e-9 * edges.mean());
 }
 
-int choose_outer_loop(const Domain& domain, const UniformizeOptions& options)
+/// The loop that the options name, in the surface's own order.
+std::size_t choose_outer_loop(const Domain& domain, const UniformizeOptions& options)
 {
     const auto& loops = domain.surface.loops;
     if (options.outer == OuterLoop::vertex) {
-        const auto compact = std::find(domain.original.begin(), domain.original.end(), options.outer_vertex);
-        const Index vertex = static_cast<Index>(compact - domain.original.begin());
         for (std::size_t k = 0; k < loops.size(); ++k)
-            if (std::find(loops[k].begin(), loops[k].end(), vertex) != loops[k].end()) return static_cast<int>(k);
+            for (const Index v : loops[k])
+                if (domain.original[v] == options.outer_vertex) return k;
         throw InputError("vertex " + std::to_string(options.outer_vertex) + " lies on no boundary loop",
                          {options.outer_vertex});
     }
-    int longest = 0;
+    std::size_t longest = 0;
     double length = 0.0;
     for (std::size_t k = 0; k < loops.size(); ++k)
-        if (const double l = loop_edges(domain.vertices, loops[k]).sum(); l > length) {
+        if (const double l = loop_edges(domain.vertices, loops[k]).sum(); l > (1.0 + same_length) * length) {
             length = l;
-            longest = static_cast<int>(k);
+            longest = k;
         }
     return longest;
+}
+
+/// The place of a loop among the input's loops, which are in the order of their lowest vertices.
+int rank_by_lowest_vertex(const Domain& domain, std::size_t loop)
+{
+    const auto lowest = [&](const VertexLoop& l) {
+        Index least = domain.original[l.front()];
+        for (const Index v : l) least = std::min(least, domain.original[v]);
+        return least;
+    };
+    const Index own = lowest(domain.surface.loops[loop]);
+    return static_cast<int>(std::count_if(domain.surface.loops.begin(), domain.surface.loops.end(),
+                                          [&](const VertexLoop& l) { return lowest(l) < own; }));
 }
 
 }  // namespace
@@ -47,38 +63,22 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
 {
     validate_arrays(vertices, triangles);
     Domain domain;
-    domain.surface = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
+    CanonicalForm form = canonical_form(
+        require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows())), vertices);
+    domain.surface = std::move(form.surface);
+    domain.vertices = std::move(form.vertices);
+    domain.original = std::move(form.original_vertices);
+    domain.original_faces = std::move(form.original_faces);
 
-    std::vector<Index> rank(vertices.rows(), 0);
-    for (const Index v : domain.surface.unused) rank[v] = -1;
-    for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v)
-        if (rank[v] == 0) {
-            rank[v] = static_cast<Index>(domain.original.size());
-            domain.original.push_back(v);
-        }
-    // Centred and scaled, so that no length overflows and the result does not depend on the unit.
-    domain.vertices = vertices(domain.original, Eigen::all);
-    domain.vertices.rowwise() -= domain.vertices.colwise().mean().eval();
-    const double scale = domain.vertices.cwiseAbs().maxCoeff();
-    if (!(scale > 0.0)) throw InputError("all vertices lie on one point");
-    domain.vertices /= scale;
-    if (!domain.surface.unused.empty()) {
-        for (Index* i = domain.surface.triangles.data(); i != domain.surface.triangles.data() + 3 * triangles.rows();
-             ++i)
-            *i = rank[*i];
-        for (VertexLoop& loop : domain.surface.loops)
-            for (Index& v : loop) v = rank[v];
-        domain.surface.vertex_count = static_cast<Index>(domain.original.size());
-    }
-
-    domain.outer_rank = choose_outer_loop(domain, options);
-    std::vector<int> order(domain.surface.loops.size());
+    const std::size_t outer = choose_outer_loop(domain, options);
+    domain.outer_rank = rank_by_lowest_vertex(domain, outer);
+    std::vector<std::size_t> order(domain.surface.loops.size());
     std::iota(order.begin(), order.end(), 0);
     std::vector<double> length;
     for (const VertexLoop& loop : domain.surface.loops) length.push_back(loop_edges(domain.vertices, loop).sum());
-    length[domain.outer_rank] = std::numeric_limits<double>::infinity();
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[a] > length[b]; });
-    for (const int k : order) {
+    length[outer] = std::numeric_limits<double>::infinity();
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
+    for (const std::size_t k : order) {
         domain.loops.push_back(domain.surface.loops[k]);
         domain.edges.push_back(loop_edges(domain.vertices, domain.loops.back()));
     }

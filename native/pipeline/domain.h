@@ -10,14 +10,15 @@
 
 namespace koebe {
 
-/// The surface on its used vertices alone, with the loops in the order of the iteration.
+/// The surface in its canonical form, with the loops in the order of the iteration.
 struct Domain {
     Surface surface;
     Vertices vertices;
     std::vector<Index> original;       // vertex of the input for each vertex
+    std::vector<Index> original_faces; // face of the input for each face; of a core: empty
     std::vector<VertexLoop> loops;     // outer first, then by falling length on the surface
     std::vector<VectorXd> edges;       // length of the edge from each loop vertex to the next
-    int outer_rank = 0;                // of the outer loop in the surface's own order
+    int outer_rank = 0;                // of the outer loop among the input's, which go by their lowest vertices
 };
 
 /// @throws InputError, TopologyError

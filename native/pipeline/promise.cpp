@@ -25,7 +25,7 @@ std::vector<int> bad_circles(const std::vector<Circle>& circles)
 
 }  // namespace
 
-std::string MapFaults::text(const std::vector<Index>& original) const
+std::string MapFaults::text(const std::vector<Index>& original, const std::vector<Index>& original_faces) const
 {
     std::string result;
     const auto add = [&](std::size_t count, const std::string& what, Index first) {
@@ -35,7 +35,7 @@ std::string MapFaults::text(const std::vector<Index>& original) const
     };
     add(not_finite.size(), "vertices without a place", not_finite.empty() ? 0 : original[not_finite.front()]);
     add(outside.size(), "vertices outside the disk", outside.empty() ? 0 : original[outside.front()]);
-    add(flipped.size(), "faces flipped", flipped.empty() ? 0 : flipped.front());
+    add(flipped.size(), "faces flipped", flipped.empty() ? 0 : original_faces[flipped.front()]);
     add(bad_circles.size(), "circles that meet another or leave the disk", bad_circles.empty() ? 0 : bad_circles.front());
     add(crossings.size(), "crossings of loops, at vertices",
         crossings.empty() ? 0 : original[crossings.front().first]);

@@ -23,7 +23,7 @@ struct MapFaults {
                !crossings.empty();
     }
     /// One sentence that names the first elements.
-    std::string text(const std::vector<Index>& original) const;
+    std::string text(const std::vector<Index>& original, const std::vector<Index>& original_faces) const;
 };
 
 /// @param uv (V, 2) @param circles of the loops, the outer one first

@@ -156,7 +156,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         better.seconds.total = total.lap();
         return better;
     }
-    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original};
+    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original,
+                             whole.original_faces};
     UntangledMap map;
     std::vector<Circle> circles = reported_circles(result.loops);
     MapFaults faults;
@@ -182,7 +183,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (options.polish) faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
     if (faults.any()) {
         result.converged = false;
-        result.warnings.push_back("no one-to-one map was found: " + faults.text(whole.original));
+        result.warnings.push_back("no one-to-one map was found: " + faults.text(whole.original, whole.original_faces));
     }
     result.seconds.finish = stage.lap();
     result.seconds.total = total.lap();
