@@ -39,8 +39,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 /// One assemble + AMD + supernodal factor + two-column solve; the boundary is given, as in a harmonic map.
 double time_laplacian(const Vertices& vertices, const Triangles& triangles, const std::vector<char>& fixed)
 {
-    const DenseThreads threads(0, static_cast<Index>(std::count(fixed.begin(), fixed.end(), 1)),
-                               static_cast<Index>(triangles.rows()));
+    const SerialDenseKernels serial;
     const auto start = std::chrono::steady_clock::now();
     const SparseMatrix laplacian = cotan_laplacian(triangles, half_cotangents(edge_lengths(vertices, triangles)),
                                                    static_cast<Index>(vertices.rows()));

@@ -63,20 +63,6 @@ void draw_in(const VertexLoop& outer, PlanarPoints& points)
         if (const double radius = points.row(v).norm(); radius > 1.0) points.row(v) /= radius;
 }
 
-/// Adds the vertices that are not on the circles: the flow puts none there by force.
-void report_off_circle(const Domain& whole, const PlanarPoints& uv, std::vector<LoopReport>& reports)
-{
-    for (std::size_t k = 0; k < reports.size(); ++k) {
-        std::vector<Index>& off = reports[k].off_circle;
-        for (const Index v : whole.loops[k]) {
-            const double distance = std::abs(Complex(uv(v, 0), uv(v, 1)) - reports[k].circle.center);
-            if (!(std::abs(distance - reports[k].circle.radius) < on_circle)) off.push_back(whole.original[v]);
-        }
-        std::sort(off.begin(), off.end());
-        off.erase(std::unique(off.begin(), off.end()), off.end());
-    }
-}
-
 UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const RicciOptions& options,
                               ExecutionContext& context)
 {
@@ -109,7 +95,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
                                   .max_updates = options.common.max_sweeps,
                                   .newton = {}};
     const RicciFlowResult flow = [&] {
-        const DenseThreads threads(options.common.threads, 0, result.face_count);
+        const SerialDenseKernels serial;
         return ricci_flow(metric, domain.surface.vertex_count, domain.loops, flow_options, context);
     }();
     result.converged = flow.outcome.converged;
@@ -133,7 +119,6 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
             ? remove_flips(named, cut, std::move(core_uv), reported_circles(result.loops), context)
             : hang_back(named, cut, std::move(core_uv), context);
     report_map(named, map, result);
-    report_off_circle(whole, map.uv, result.loops);
 
     if (!result.converged) result.warnings.push_back("not converged: " + flow.reason);
     if (flow.packing_change > worth_a_warning)

@@ -24,7 +24,7 @@ struct UniformizeOptions {
     int max_sweeps = 50;
     Balance balance = Balance::none;
     bool polish = false;       ///< least angle error with the circles as they are, at the end (angle_polish.h)
-    int threads = 0;           ///< of the dense and sparse kernels; 0: all cores
+    int threads = 0;           ///< at most; 0: all cores. Today one is used: the result is the same for any number
 };
 
 struct Circle {

@@ -7,6 +7,11 @@
 #include <algorithm>
 
 namespace koebe {
+namespace {
+
+constexpr double on_circle = 1e-6;  // disk units
+
+}  // namespace
 
 UntangledMap hang_back(const NamedSurface& whole, const FlapCut& cut, PlanarPoints core_uv, ExecutionContext& context)
 {
@@ -45,18 +50,20 @@ void report_map(const NamedSurface& whole, const UntangledMap& map, UniformizeRe
         report.vertices.clear();
         report.off_circle.clear();
         VectorXcd points(static_cast<Eigen::Index>(whole.loops[k].size()));
-        Eigen::Index on_circle = 0;
+        Eigen::Index count = 0;
         for (const Index v : whole.loops[k]) {
+            const Complex point(map.uv(v, 0), map.uv(v, 1));
             report.vertices.push_back(whole.original[v]);
-            if (std::binary_search(map.off_circle.begin(), map.off_circle.end(), v))
+            if (std::binary_search(map.off_circle.begin(), map.off_circle.end(), v) ||
+                !(std::abs(std::abs(point - report.circle.center) - report.circle.radius) <= on_circle))
                 report.off_circle.push_back(whole.original[v]);
             else
-                points[on_circle++] = {map.uv(v, 0), map.uv(v, 1)};
+                points[count++] = point;
         }
         std::rotate(report.vertices.begin(), std::min_element(report.vertices.begin(), report.vertices.end()),
                     report.vertices.end());
         std::sort(report.off_circle.begin(), report.off_circle.end());
-        report.roundness_projected = roundness(points.head(on_circle), report.circle);
+        report.roundness_projected = count > 0 ? roundness(points.head(count), report.circle) : 0.0;
     }
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
     for (std::vector<Index>* faces : {&result.distortion.flipped, &result.distortion.below_resolution}) {

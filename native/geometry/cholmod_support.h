@@ -16,7 +16,7 @@ namespace koebe::detail {
 
 /// For its lifetime OpenMP regions of this thread run in it alone. CHOLMOD opens one with four threads around every
 /// supernode, however many cores there are: on two cores that took 20 to 40 % of the factorization. The dense kernels
-/// have threads of their own (DenseThreads).
+/// have threads of their own (SerialDenseKernels).
 class SerialRegions {
 public:
     SerialRegions() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }

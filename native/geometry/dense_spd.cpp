@@ -3,8 +3,8 @@
 #include "core/errors.h"
 
 #include <algorithm>
+#include <mutex>
 #include <string>
-#include <thread>
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -21,6 +21,11 @@ int openblas_get_num_threads();
 
 namespace koebe {
 namespace {
+
+struct {
+    std::mutex mutex;
+    int count = 0, threads_before = 1;
+} users;  // the SerialDenseKernels that live
 
 void factorize(MatrixXd& matrix)
 {
@@ -104,16 +109,18 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
     return product;
 }
 
-DenseThreads::DenseThreads(int threads, Index boundary_count, Index face_count)
-    : before_(openblas_get_num_threads())
+SerialDenseKernels::SerialDenseKernels()
 {
-    if (threads <= 0) {
-        const bool large = boundary_count >= 1500 || face_count >= 200000;
-        threads = large ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : 1;
-    }
-    openblas_set_num_threads(threads);
+    const std::scoped_lock lock(users.mutex);
+    if (users.count++ > 0) return;
+    users.threads_before = openblas_get_num_threads();
+    openblas_set_num_threads(1);
 }
 
-DenseThreads::~DenseThreads() { openblas_set_num_threads(before_); }
+SerialDenseKernels::~SerialDenseKernels()
+{
+    const std::scoped_lock lock(users.mutex);
+    if (--users.count == 0) openblas_set_num_threads(users.threads_before);
+}
 
 }  // namespace koebe

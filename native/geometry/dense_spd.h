@@ -21,20 +21,16 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& a);
 /// The product L L' of a lower triangular matrix (its strict upper part is not read).
 MatrixXd lower_times_transpose(const MatrixXd& lower);
 
-/// Sets the number of threads of the dense kernels for the lifetime of the object.
-///
-/// 0 leaves the choice to the size of the work: one thread below 1,500 boundary vertices and 200,000 faces, else all
-/// cores. On small matrices the kernels' threads wait for each other actively: idle cores gain little, busy ones
-/// (Blender redraws, another job runs) made choi_alex3 eight times slower.
-class DenseThreads {
+/// For its lifetime the dense kernels run on one thread each, in the whole process; the last one to go restores what was
+/// before. With two threads OpenBLAS adds in another order, and the last digits of a map would depend on the machine.
+/// Its threads wait for each other actively, too: what idle cores gain, busy ones lose many times over (Blender redraws,
+/// another job runs).
+class SerialDenseKernels {
 public:
-    DenseThreads(int threads, Index boundary_count, Index face_count);
-    ~DenseThreads();
-    DenseThreads(const DenseThreads&) = delete;
-    DenseThreads& operator=(const DenseThreads&) = delete;
-
-private:
-    int before_;
+    SerialDenseKernels();
+    ~SerialDenseKernels();
+    SerialDenseKernels(const SerialDenseKernels&) = delete;
+    SerialDenseKernels& operator=(const SerialDenseKernels&) = delete;
 };
 
 }  // namespace koebe

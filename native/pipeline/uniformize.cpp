@@ -122,9 +122,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.seconds.metric = stage.lap();
 
     context.begin_stage("factor", 0.15, 0.5);
-    std::size_t boundary = 0;
-    for (const VertexLoop& loop : domain.loops) boundary += loop.size();
-    const DenseThreads threads(options.threads, static_cast<Index>(boundary), result.face_count);
+    const SerialDenseKernels serial;
     try {
         assembled.factorize(domain);
     } catch (const SolverError&) {  // the map is made without it, and says so
