@@ -202,6 +202,7 @@ private:
             for (int k = 0; k < 3; ++k)
                 if (const double l = (points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k))).norm(); l > 0.0)
                     shortest = std::min(shortest, l);
+        form_.shortest_edge = shortest;
         const double grid = std::exp2(
             std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
         points = (points.array() / grid).round() * grid;
