@@ -130,6 +130,7 @@ private:
         for (std::size_t head = 0; head < queue.size(); ++head) {
             Index h = queue[head];
             form_.original_faces.push_back(face_of(h));
+            form_.first_corners.push_back(static_cast<char>((3 - h % 3) % 3));
             for (int k = 0; k < 3; ++k, h = next_halfedge(h)) {
                 const Index v = origin(surface_.triangles, h);
                 if (rank_[v] < 0) {
