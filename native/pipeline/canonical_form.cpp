@@ -198,12 +198,20 @@ private:
         points = (points * frame / extent).eval();
 
         double shortest = std::numeric_limits<double>::infinity();
+        form_.thinnest = shortest;
         const Triangles& triangles = form_.surface.triangles;
-        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-            for (int k = 0; k < 3; ++k)
-                if (const double l = (points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k))).norm(); l > 0.0)
-                    shortest = std::min(shortest, l);
-        form_.shortest_edge = shortest;
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+            const auto edge = [&](int k) -> Eigen::RowVector3d {
+                return points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k));
+            };
+            const Eigen::RowVector3d first = edge(0), last = edge(2);
+            double longest = 0.0;
+            for (const double length : {first.norm(), edge(1).norm(), last.norm()}) {
+                if (length > 0.0) shortest = std::min(shortest, length);
+                longest = std::max(longest, length);
+            }
+            form_.thinnest = std::min(form_.thinnest, longest > 0.0 ? first.cross(last).norm() / longest : 0.0);
+        }
         const double grid = std::exp2(
             std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
         points = (points.array() / grid).round() * grid;

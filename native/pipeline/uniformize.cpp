@@ -27,7 +27,7 @@
 namespace koebe {
 namespace {
 
-constexpr double delicate = 1e-10;        // shortest edge over the extent, from which on the grid is too fine
+constexpr double delicate = 1e-8;         // height of a face over the extent, below which the grid shows
 constexpr double bytes_per_face = 900.0;  // of everything but the factor; measured on 0.1 to 2.6 million faces
 
 class Stopwatch {
@@ -69,8 +69,8 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
     if (outcome.raised_angles > 0)
         warnings.push_back(plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
                            " without flux, kept apart by a least distance");
-    if (domain.shortest_edge < delicate)
-        warnings.push_back("the shortest edges are less than 1e-10 of the surface: the last digits of its coordinates show in "
+    if (domain.thinnest < delicate)
+        warnings.push_back("the thinnest face is less than 1e-8 of the surface high: the last digits of the coordinates show in "
                            "the map");
     if (!outcome.converged)
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
