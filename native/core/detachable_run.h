@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/execution.h"
+#include "core/thread_memory.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -60,6 +61,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         std::optional<Result> result;
         std::exception_ptr error;
         try {
+            detail::take_thread_memory();
             result = compute(inner);
         } catch (...) {
             error = std::current_exception();

@@ -6,6 +6,7 @@
 #include "conformal/disk_map.h"
 #include "conformal/distortion.h"
 #include "core/topology.h"
+#include "geometry/dense_spd.h"
 #include "geometry/harmonic_map.h"
 #include "geometry/hole_fairing.h"
 #include "geometry/hole_filling.h"
@@ -148,12 +149,14 @@ PYBIND11_MODULE(_koebe, m)
                              bool uniform) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles), fixed, given = complex(values),
                          uniform] {
+            const SerialDenseKernels serial;
             const EdgeLengths lengths = uniform ? EdgeLengths::Ones(faces.rows(), 3) : edge_lengths(positions, faces);
             return planar(harmonic_map(faces, lengths, static_cast<Index>(positions.rows()), fixed, given));
         });
     });
     m.def("disk_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles)] {
+            const SerialDenseKernels serial;
             const Surface surface = surface_with_loops(positions, faces, 1);
             return planar(disk_map(surface.triangles, edge_lengths(positions, surface.triangles), surface.vertex_count,
                                    surface.loops[0])
@@ -163,6 +166,7 @@ PYBIND11_MODULE(_koebe, m)
     m.def("annulus_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                             AnnulusBackend backend) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles), backend] {
+            const SerialDenseKernels serial;
             return annulus_by(backend, positions, faces);
         });
     });
