@@ -1,45 +1,52 @@
 #include "core/detachable_run.h"
 
-#include <vector>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
 
 namespace koebe::detail {
 namespace {
 
-struct Kept {
-    std::thread thread;
-    std::shared_ptr<const bool> done;
-    std::shared_ptr<std::mutex> mutex;
+using namespace std::chrono_literals;
 
-    bool ended() const
-    {
-        const std::scoped_lock lock(*mutex);
-        return *done;
-    }
-};
+constexpr auto patience = 500ms;  // that an exit has with computations nobody waits for any more
+constexpr auto look_again = 2ms;
 
-struct Keeper {
-    std::mutex mutex;
-    std::vector<Kept> threads;
+std::atomic<int> running{0};
 
-    /// The libraries a thread works in are gone once the process ends: wait for it.
-    ~Keeper()
-    {
-        for (Kept& kept : threads) kept.thread.join();
-    }
-};
+#ifdef __GLIBC__
+
+void end_the_process(int status, void*)
+{
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (running > 0 && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(look_again);
+    if (running == 0) return;
+    std::fflush(nullptr);
+    std::_Exit(status);
+}
+
+bool watch_the_exit() { return on_exit(end_the_process, nullptr) == 0; }
+
+#else
+
+/// Without the exit's status nothing is left but to wait.
+void wait_for_all()
+{
+    while (running > 0) std::this_thread::sleep_for(look_again);
+}
+
+bool watch_the_exit() { return std::atexit(wait_for_all) == 0; }
+
+#endif
 
 }  // namespace
 
-void keep_until_done(std::thread thread, std::shared_ptr<const bool> done, std::shared_ptr<std::mutex> mutex)
+CountedRun::CountedRun()
 {
-    static Keeper keeper;
-    const std::scoped_lock lock(keeper.mutex);
-    std::erase_if(keeper.threads, [](Kept& kept) {
-        if (!kept.ended()) return false;
-        kept.thread.join();
-        return true;
-    });
-    keeper.threads.push_back({std::move(thread), std::move(done), std::move(mutex)});
+    [[maybe_unused]] static const bool watched = watch_the_exit();
+    ++running;
 }
+
+CountedRun::~CountedRun() { --running; }
 
 }  // namespace koebe::detail

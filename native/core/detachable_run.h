@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/execution.h"
+#include "core/thread_memory.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -19,31 +20,40 @@ namespace koebe {
 
 namespace detail {
 
-/// Keeps a thread that nobody waits for, and joins it before the process ends or once it is done.
-void keep_until_done(std::thread thread, std::shared_ptr<const bool> done, std::shared_ptr<std::mutex> mutex);
+/// Counts a computation from its making to the end of its thread. The libraries a thread works in are taken down when
+/// the process exits, so an exit waits for those that are counted; where one does not end soon, having been left in a
+/// kernel without checkpoints, the process ends without taking anything down.
+class CountedRun {
+public:
+    CountedRun();
+    ~CountedRun();
+    CountedRun(const CountedRun&) = delete;
+    CountedRun& operator=(const CountedRun&) = delete;
+};
 
 }  // namespace detail
 
 /// Runs a computation on a thread of its own, reports its progress on the calling thread, and answers a raised token
 /// within 20 ms by Cancelled; the computation then ends at its next checkpoint, unseen. So it must own all it reads.
-/// Its exceptions come out of here, and an exception of the progress callback leaves it in the same way.
+/// Its exceptions come out of here, and an exception of the progress or the poll callback leaves it in the same way.
 template <class Result>
 Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionContext&)> compute)
 {
     struct Shared {
-        std::shared_ptr<std::mutex> mutex = std::make_shared<std::mutex>();
+        detail::CountedRun counted;
+        std::mutex mutex;
         std::condition_variable changed;
         std::deque<std::pair<double, std::string>> reports;
-        std::shared_ptr<bool> done = std::make_shared<bool>(false);
+        bool done = false;
         std::optional<Result> result;
         std::exception_ptr error;
         CancelToken token;
     };
-    const auto shared = std::make_shared<Shared>();
+    auto shared = std::make_shared<Shared>();
     std::thread thread([shared, compute = std::move(compute)]() mutable {
         ExecutionContext inner(
             [&shared](double fraction, const std::string& stage) {
-                const std::scoped_lock lock(*shared->mutex);
+                const std::scoped_lock lock(shared->mutex);
                 shared->reports.emplace_back(fraction, stage);
                 shared->changed.notify_one();
             },
@@ -51,20 +61,21 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         std::optional<Result> result;
         std::exception_ptr error;
         try {
+            detail::take_thread_memory();
             result = compute(inner);
         } catch (...) {
             error = std::current_exception();
         }
         compute = nullptr;
-        const std::scoped_lock lock(*shared->mutex);
+        const std::scoped_lock lock(shared->mutex);
         shared->result = std::move(result);
         shared->error = error;
-        *shared->done = true;
+        shared->done = true;
         shared->changed.notify_one();
     });
     try {
-        std::unique_lock lock(*shared->mutex);
-        while (!*shared->done || !shared->reports.empty()) {
+        std::unique_lock lock(shared->mutex);
+        while (!shared->done || !shared->reports.empty()) {
             if (shared->reports.empty()) shared->changed.wait_for(lock, std::chrono::milliseconds(20));
             const auto reports = std::exchange(shared->reports, {});
             lock.unlock();
@@ -74,7 +85,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         }
     } catch (...) {
         shared->token.cancel();
-        detail::keep_until_done(std::move(thread), shared->done, shared->mutex);
+        thread.detach();
         throw;
     }
     thread.join();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/types.h"
+#include "geometry/kernel_buffer.h"
 
 namespace koebe {
 
@@ -25,12 +26,16 @@ MatrixXd lower_times_transpose(const MatrixXd& lower);
 /// before. With two threads OpenBLAS adds in another order, and the last digits of a map would depend on the machine.
 /// Its threads wait for each other actively, too: what idle cores gain, busy ones lose many times over (Blender redraws,
 /// another job runs).
+/// @throws std::bad_alloc
 class SerialDenseKernels {
 public:
     SerialDenseKernels();
     ~SerialDenseKernels();
     SerialDenseKernels(const SerialDenseKernels&) = delete;
     SerialDenseKernels& operator=(const SerialDenseKernels&) = delete;
+
+private:
+    KernelBuffer buffer_;
 };
 
 }  // namespace koebe

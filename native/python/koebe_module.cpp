@@ -1,8 +1,12 @@
-// The Python module: definitions, exception map, GIL release. Nothing else.
+// The Python module: its definitions. Arrays come checked from koebe/_arrays.py, and each call copies them.
+#include "error_translation.h"
+#include "native_call.h"
+
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
 #include "conformal/distortion.h"
 #include "core/topology.h"
+#include "geometry/dense_spd.h"
 #include "geometry/harmonic_map.h"
 #include "geometry/hole_fairing.h"
 #include "geometry/hole_filling.h"
@@ -21,19 +25,9 @@
 
 namespace py = pybind11;
 using namespace koebe;
+using namespace koebe::python;
 
 namespace {
-
-/// Raises the Python class of the same name, with .elements and, for TopologyError, .kind.
-void translate(const KoebeError& error)
-{
-    const py::object type = py::module_::import("koebe.errors").attr(error.name());
-    py::object instance = type(error.what());
-    instance.attr("elements") = py::cast(error.elements());
-    if (const auto* topology = dynamic_cast<const TopologyError*>(&error))
-        instance.attr("kind") = to_string(topology->kind());
-    PyErr_SetObject(type.ptr(), instance.ptr());
-}
 
 /// The checked surface for a map that is made for so many boundary loops.
 Surface surface_with_loops(const Vertices& vertices, const Triangles& triangles, std::size_t count)
@@ -46,11 +40,18 @@ Surface surface_with_loops(const Vertices& vertices, const Triangles& triangles,
     return surface;
 }
 
+/// @throws SolverError a position that is not finite
 PlanarPoints planar(const VectorXcd& positions)
 {
     PlanarPoints points(positions.size(), 2);
     points << positions.real(), positions.imag();
+    if (!points.allFinite()) throw SolverError("the map has positions that are not finite");
     return points;
+}
+
+VectorXcd complex(const Eigen::Ref<const PlanarPoints>& points)
+{
+    return points.col(0) + Complex(0.0, 1.0) * points.col(1);
 }
 
 /// Circles as Python has them: (L, 2) centres and (L) radii.
@@ -62,20 +63,25 @@ std::vector<Circle> circles_of(const PlanarPoints& centers, const VectorXd& radi
     return circles;
 }
 
-/// Runs the computation without the GIL; progress is called on the calling thread with it, and an exception it
-/// raises (KeyboardInterrupt among them) ends the computation.
-template <class Compute>
-auto without_gil(const py::object& progress, const CancelToken& token, Compute compute)
+/// The map of a surface with two loops, the longer one on the unit circle, and the inner radius.
+std::pair<PlanarPoints, double> annulus_by(AnnulusBackend backend, const Vertices& vertices, const Triangles& triangles)
 {
-    ProgressCallback callback;
-    if (!progress.is_none())
-        callback = [&progress](double fraction, const std::string& stage) {
-            const py::gil_scoped_acquire gil;
-            progress(fraction, stage);
-        };
-    ExecutionContext context(callback, token);
-    const py::gil_scoped_release release;
-    return compute(context);
+    const Surface surface = surface_with_loops(vertices, triangles, 2);
+    const auto length = [&](const VertexLoop& loop) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            sum += (vertices.row(loop[(i + 1) % loop.size()]) - vertices.row(loop[i])).norm();
+        return sum;
+    };
+    const int outer = length(surface.loops[0]) >= length(surface.loops[1]) ? 0 : 1;
+    const AnnulusMap map =
+        annulus_map(surface.triangles, edge_lengths(vertices, surface.triangles), surface.vertex_count,
+                    surface.loops[outer], surface.loops[1 - outer], {.backend = backend});
+    if (!map.converged)
+        throw SolverError("the discrete Yamabe flow left a curvature of " + std::to_string(map.curvature_error) +
+                          " and " + std::to_string(map.collapsed) + " collapsed faces after " +
+                          std::to_string(map.steps) + " steps");
+    return {planar(map.positions), map.inner_radius};
 }
 
 }  // namespace
@@ -84,13 +90,8 @@ PYBIND11_MODULE(_koebe, m)
 {
     m.attr("__version__") = KOEBE_VERSION;
 
-    py::register_local_exception_translator([](std::exception_ptr pointer) {
-        try {
-            if (pointer) std::rethrow_exception(pointer);
-        } catch (const KoebeError& error) {
-            translate(error);
-        }
-    });
+    translate_errors();
+    py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
 
     py::enum_<Method>(m, "Method").value("gk", Method::gk).value("ck", Method::ck);
     py::enum_<Engine>(m, "Engine").value("condensed", Engine::condensed).value("mesh", Engine::mesh);
@@ -125,95 +126,75 @@ PYBIND11_MODULE(_koebe, m)
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
         .def("to_json", [](const UniformizeResult& r) { return to_json(r).dump(); });
 
-    m.def("uniformize",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
-              return without_gil(progress, cancel, [&](ExecutionContext& context) {
-                  return uniformize(vertices, triangles, options, context);
-              });
-          });
+    m.def("uniformize", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                           const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return uniformize(vertices, triangles, options, context);
+        });
+    });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
-        const py::gil_scoped_release release;
-        return analyze_surface(triangles, vertex_count).loops;
+        return detached(
+            [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; });
     });
-    m.def("validate_arrays", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
-        validate_arrays(vertices, triangles);
+    m.def("fill_holes", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                           const std::optional<std::vector<Index>>& loops, bool fair) {
+        FilledSurface filled = detached([positions = Vertices(vertices), faces = Triangles(triangles), loops, fair] {
+            return fair ? fill_and_fair_holes(positions, faces, loops) : fill_holes(positions, faces, loops);
+        });
+        return std::make_tuple(std::move(filled.vertices), std::move(filled.triangles),
+                               py::array_t<Index>(filled.label.size(), filled.label.data()));
     });
-    m.def("fill_holes",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             const std::optional<std::vector<Index>>& loops, bool fair) {
-              FilledSurface filled = [&] {
-                  const py::gil_scoped_release release;
-                  return fair ? fill_and_fair_holes(vertices, triangles, loops)
-                              : fill_holes(vertices, triangles, loops);
-              }();
-              return std::make_tuple(std::move(filled.vertices), std::move(filled.triangles),
-                                     py::array_t<Index>(filled.label.size(), filled.label.data()));
-          });
-    m.def("harmonic_map",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values, bool uniform) {
-              const py::gil_scoped_release release;
-              validate_arrays(vertices, triangles);
-              const EdgeLengths lengths = uniform ? EdgeLengths::Ones(triangles.rows(), 3)
-                                                  : edge_lengths(Vertices(vertices), triangles);
-              return planar(harmonic_map(triangles, lengths, static_cast<Index>(vertices.rows()), fixed,
-                                         values.col(0) + Complex(0.0, 1.0) * values.col(1)));
-          });
-    m.def("disk_map",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
-              const py::gil_scoped_release release;
-              const Vertices positions = vertices;
-              const Surface surface = surface_with_loops(positions, triangles, 1);
-              return planar(disk_map(surface.triangles, edge_lengths(positions, surface.triangles),
-                                     surface.vertex_count, surface.loops[0])
-                                .positions);
-          });
-    m.def("annulus_map",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             AnnulusBackend backend) {
-              const py::gil_scoped_release release;
-              const Vertices positions = vertices;
-              const Surface surface = surface_with_loops(positions, triangles, 2);
-              const auto length = [&](const VertexLoop& loop) {
-                  double sum = 0.0;
-                  for (std::size_t i = 0; i < loop.size(); ++i)
-                      sum += (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
-                  return sum;
-              };
-              const int outer = length(surface.loops[0]) >= length(surface.loops[1]) ? 0 : 1;
-              const AnnulusMap map =
-                  annulus_map(surface.triangles, edge_lengths(positions, surface.triangles), surface.vertex_count,
-                              surface.loops[outer], surface.loops[1 - outer], {.backend = backend});
-              if (!map.converged)
-                  throw SolverError("the discrete Yamabe flow left a curvature of " +
-                                    std::to_string(map.curvature_error) + " and " + std::to_string(map.collapsed) +
-                                    " collapsed faces after " + std::to_string(map.steps) + " steps");
-              return std::make_pair(planar(map.positions), map.inner_radius);
-          });
-    m.def("distortion",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             const Eigen::Ref<const PlanarPoints>& uv) {
-              const py::gil_scoped_release release;
-              return to_json(measure_distortion(vertices, triangles, uv)).dump();
-          });
+    m.def("harmonic_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                             const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values,
+                             bool uniform) {
+        return detached([positions = Vertices(vertices), faces = Triangles(triangles), fixed, given = complex(values),
+                         uniform] {
+            const SerialDenseKernels serial;
+            const EdgeLengths lengths = uniform ? EdgeLengths::Ones(faces.rows(), 3) : edge_lengths(positions, faces);
+            return planar(harmonic_map(faces, lengths, static_cast<Index>(positions.rows()), fixed, given));
+        });
+    });
+    m.def("disk_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
+        return detached([positions = Vertices(vertices), faces = Triangles(triangles)] {
+            const SerialDenseKernels serial;
+            const Surface surface = surface_with_loops(positions, faces, 1);
+            return planar(disk_map(surface.triangles, edge_lengths(positions, surface.triangles), surface.vertex_count,
+                                   surface.loops[0])
+                              .positions);
+        });
+    });
+    m.def("annulus_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                            AnnulusBackend backend) {
+        return detached([positions = Vertices(vertices), faces = Triangles(triangles), backend] {
+            const SerialDenseKernels serial;
+            return annulus_by(backend, positions, faces);
+        });
+    });
+    m.def("distortion", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                           const Eigen::Ref<const PlanarPoints>& uv) {
+        return detached([positions = Vertices(vertices), faces = Triangles(triangles), points = PlanarPoints(uv)] {
+            return to_json(measure_distortion(positions, faces, points)).dump();
+        });
+    });
     m.def("conformal_module", [](const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& order) {
-        return conformal_module(circles_of(centers, radii), order);
+        return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); });
     });
     m.def("module_names", &module_names);
     m.def("canonical_order", [](const PlanarPoints& centers, const VectorXd& radii, bool any_outer) {
-        return canonical_order(circles_of(centers, radii), any_outer);
+        return detached(
+            [circles = circles_of(centers, radii), any_outer] { return canonical_order(circles, any_outer); });
     });
     m.def("match_loops", [](const PlanarPoints& centers_a, const VectorXd& radii_a, const PlanarPoints& centers_b,
                             const VectorXd& radii_b, bool any_outer) {
-        const py::gil_scoped_release release;
-        const LoopMatch match =
-            match_loops(circles_of(centers_a, radii_a), circles_of(centers_b, radii_b), any_outer);
-        return std::make_tuple(match.order_a, match.order_b, match.distance);
+        return detached([a = circles_of(centers_a, radii_a), b = circles_of(centers_b, radii_b), any_outer] {
+            LoopMatch match = match_loops(a, b, any_outer);
+            return std::make_tuple(std::move(match.order_a), std::move(match.order_b), match.distance);
+        });
     });
 
-    py::class_<DomainAlignment>(m, "DomainAlignment", "An automorphism of the unit disk that lays one circle domain "
-                                                      "over another: z -> turn (z - a) / (1 - conj(a) z).")
+    py::class_<DomainAlignment>(m, "DomainAlignment",
+                                "An automorphism of the unit disk that lays one circle domain "
+                                "over another: z -> turn (z - a) / (1 - conj(a) z).")
         .def_property_readonly("a", [](const DomainAlignment& d) { return d.map.a; })
         .def_property_readonly("turn", [](const DomainAlignment& d) { return d.map.turn; })
         .def_readonly("match", &DomainAlignment::match)
@@ -222,13 +203,13 @@ PYBIND11_MODULE(_koebe, m)
         .def_readonly("worst", &DomainAlignment::worst)
         .def_readonly("converged", &DomainAlignment::converged)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
-            return planar(d.map(VectorXcd(points.col(0) + Complex(0.0, 1.0) * points.col(1))));
+            return planar(d.map(complex(points)));
         });
-    m.def("align_domains", [](const PlanarPoints& source_centers, const VectorXd& source_radii,
-                              const PlanarPoints& target_centers, const VectorXd& target_radii,
-                              const std::vector<int>& match) {
-        const py::gil_scoped_release release;
-        return align_domains(circles_of(source_centers, source_radii), circles_of(target_centers, target_radii),
-                             match);
-    });
+    m.def("align_domains",
+          [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
+             const VectorXd& target_radii, const std::vector<int>& match) {
+              return detached([source = circles_of(source_centers, source_radii),
+                               target = circles_of(target_centers, target_radii),
+                               match] { return align_domains(source, target, match); });
+          });
 }

@@ -15,14 +15,24 @@ from ._api import (
 )
 from ._koebe import CancelToken, __version__
 from ._result import UniformizeResult
-from ._shapes import align_domains, canonical_order, conformal_module, match_loops, module_distance, module_names
-from .errors import Cancelled, InputError, KoebeError, SolverError, TopologyError
+from ._shapes import (
+    DomainAlignment,
+    align_domains,
+    canonical_order,
+    conformal_module,
+    match_loops,
+    module_distance,
+    module_names,
+)
+from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
 
 __all__ = [
     "CancelToken",
     "Cancelled",
+    "DomainAlignment",
     "InputError",
     "KoebeError",
+    "OptionError",
     "SolverError",
     "TopologyError",
     "UniformizeResult",

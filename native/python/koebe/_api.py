@@ -6,43 +6,25 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_loops, as_planar, as_triangles, as_vertices
+from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
 from ._native import _koebe
+from ._options import callback, choice, flag, outer_loop, positive, token, whole
 from ._result import UniformizeResult
-from .errors import InputError
+from .errors import InputError, SolverError, TopologyError
 
 Progress = Callable[[float, str], Any]
 
 
-def _choice(enumeration: Any, option: str, value: str) -> Any:
-    members = enumeration.__members__
-    if value not in members:
-        raise InputError(f"{option} must be one of {', '.join(members)}, not {value!r}")
-    return members[value]
-
-
 def _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
-    options.method = _choice(_koebe.Method, "method", method)
-    options.engine = _choice(_koebe.Engine, "engine", engine)
-    options.balance = _choice(_koebe.Balance, "balance", balance)
-    if isinstance(outer, (int, np.integer)) and not isinstance(outer, bool):
-        options.outer = _koebe.OuterLoop.vertex
-        options.outer_vertex = int(outer)
-    elif outer in ("auto", "longest"):
-        options.outer = _koebe.OuterLoop.automatic if outer == "auto" else _koebe.OuterLoop.longest
-    else:
-        raise InputError(f"outer must be 'auto', 'longest' or a vertex of the loop, not {outer!r}")
-    if not tolerance > 0.0:
-        raise InputError(f"tolerance must be positive, not {tolerance!r}")
-    if max_sweeps < 1:
-        raise InputError(f"max_sweeps must be at least 1, not {max_sweeps!r}")
-    if threads < 0:
-        raise InputError(f"threads must be 0 (all cores) or more, not {threads!r}")
-    options.tolerance = float(tolerance)
-    options.max_sweeps = int(max_sweeps)
-    options.threads = int(threads)
-    options.polish = bool(polish)
+    options.method = choice(method, "method", _koebe.Method)
+    options.engine = choice(engine, "engine", _koebe.Engine)
+    options.balance = choice(balance, "balance", _koebe.Balance)
+    options.outer, options.outer_vertex = outer_loop(outer)
+    options.tolerance = positive(tolerance, "tolerance")
+    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    options.threads = whole(threads, "threads", least=0)
+    options.polish = flag(polish, "polish")
     return options
 
 
@@ -76,27 +58,34 @@ def uniformize(
     polish       at the end, lower the angle error with the circles as they are; takes many times as long
 
     One loop gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe
-    iteration (section 4.4). Raises InputError, TopologyError, SolverError or Cancelled.
+    iteration (section 4.4). Ctrl-C ends the call at once, as it does in all functions here.
+    Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
+    MemoryError.
     """
     options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish)
-    native = _koebe.uniformize(
-        as_vertices(vertices), as_triangles(triangles), options, progress, cancel or _koebe.CancelToken()
-    )
-    return UniformizeResult(native)
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    return UniformizeResult(_koebe.uniformize(*as_surface(vertices, triangles), options, progress, cancel))
 
 
 def boundary_loops(triangles: Any, vertex_count: int | None = None) -> list[np.ndarray]:
     """Boundary loops as int32 arrays of vertices, in order with the surface on the left; lowest vertex first.
 
-    Raises TopologyError for a mesh that is not manifold, orientable and connected.
+    vertex_count    of the mesh; without it any number is a vertex
+    Raises InputError, and TopologyError for a mesh that is not manifold, orientable and connected.
     """
-    faces = as_triangles(triangles)
-    if faces.size == 0 or faces.min() < 0:
-        raise InputError("triangles must name vertices from 0 on, and there must be one at least")
-    count = int(faces.max()) + 1 if vertex_count is None else int(vertex_count)
-    if faces.max() >= count:
-        raise InputError(f"triangles name vertex {faces.max()} of {count}")
-    return as_loops(_koebe.boundary_loops(faces, count))
+    count = None if vertex_count is None else whole(vertex_count, "vertex_count", least=1)
+    faces = as_triangles(triangles, count)
+    if faces.max() < faces.size:
+        return as_loops(_koebe.boundary_loops(faces, int(faces.max()) + 1))
+    # Few of the numbers are used: their count shall decide on the memory, not the greatest.
+    used, faces = np.unique(faces, return_inverse=True)
+    try:
+        loops = _koebe.boundary_loops(faces.reshape(-1, 3).astype(np.int32), len(used))
+    except TopologyError as error:
+        if error.kind != "disconnected":  # that one lists faces
+            error.elements = used[list(error.elements)].tolist()
+        raise
+    return [used[loop] for loop in loops]
 
 
 def disk_map(vertices: Any, triangles: Any) -> np.ndarray:
@@ -104,7 +93,7 @@ def disk_map(vertices: Any, triangles: Any) -> np.ndarray:
 
     Returns (V, 2) float64 points of the closed unit disk.
     """
-    return _koebe.disk_map(as_vertices(vertices), as_triangles(triangles))
+    return _koebe.disk_map(*as_surface(vertices, triangles))
 
 
 def annulus_map(vertices: Any, triangles: Any, backend: str = "harmonic") -> tuple[np.ndarray, float]:
@@ -115,8 +104,8 @@ def annulus_map(vertices: Any, triangles: Any, backend: str = "harmonic") -> tup
     Returns (V, 2) float64 points and r. The longer loop goes to the unit circle. Raises SolverError if the flow does
     not converge.
     """
-    chosen = _choice(_koebe.AnnulusBackend, "backend", backend)
-    return _koebe.annulus_map(as_vertices(vertices), as_triangles(triangles), chosen)
+    chosen = choice(backend, "backend", _koebe.AnnulusBackend)
+    return _koebe.annulus_map(*as_surface(vertices, triangles), chosen)
 
 
 def fill_holes(
@@ -129,8 +118,9 @@ def fill_holes(
             the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
     Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
     """
-    ranks = None if loops is None else [int(k) for k in loops]
-    return _koebe.fill_holes(as_vertices(vertices), as_triangles(triangles), ranks, bool(fair))
+    positions, faces = as_surface(vertices, triangles)
+    ranks = None if loops is None else as_indices(loops, "loops", faces.size)
+    return _koebe.fill_holes(positions, faces, ranks, flag(fair, "fair"))
 
 
 def harmonic_map(
@@ -144,13 +134,12 @@ def harmonic_map(
              flips [Tutte 1963]. False: the lengths in space count
     Returns (V, 2) float64.
     """
-    positions, faces, points = as_vertices(vertices), as_triangles(triangles), as_planar(values)
-    chosen = [int(v) for v in fixed]
-    if len(chosen) != len(points) or not chosen:
-        raise InputError(f"there are {len(points)} values for {len(chosen)} fixed vertices")
-    if min(chosen) < 0 or max(chosen) >= len(positions):
-        raise InputError(f"fixed must name vertices from 0 to {len(positions) - 1}")
-    return _koebe.harmonic_map(positions, faces, chosen, points, bool(uniform))
+    positions, faces = as_surface(vertices, triangles)
+    chosen = as_indices(fixed, "fixed", len(positions))
+    if not len(chosen):
+        raise InputError("there must be one fixed vertex at least")
+    points = as_points(values, "values", 2, len(chosen))
+    return _koebe.harmonic_map(positions, faces, chosen, points, flag(uniform, "uniform"))
 
 
 def distortion(vertices: Any, triangles: Any, uv: Any) -> dict[str, Any]:
@@ -158,7 +147,13 @@ def distortion(vertices: Any, triangles: Any, uv: Any) -> dict[str, Any]:
 
     uv   (V, 2) points of the unit disk, x + iy
     """
-    positions, faces, points = as_vertices(vertices), as_triangles(triangles), as_planar(uv)
-    if points.shape[0] != positions.shape[0]:
-        raise InputError(f"uv has {points.shape[0]} rows for {positions.shape[0]} vertices")
-    return json.loads(_koebe.distortion(positions, faces, points))
+    positions, faces = as_surface(vertices, triangles)
+    report = json.loads(_koebe.distortion(positions, faces, as_points(uv, "uv", 2, len(positions))))
+    if not _is_finite(report):
+        raise SolverError("the distortion is beyond floating point: scale the surface, or the map, to about 1")
+    return report
+
+
+def _is_finite(report: Any) -> bool:
+    """Whether no number of a report is missing: what is not finite has no JSON."""
+    return all(map(_is_finite, report.values())) if isinstance(report, dict) else report is not None

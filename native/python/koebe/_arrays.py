@@ -1,4 +1,6 @@
-"""Arrays as the native module takes them; matching ones are passed without a copy and none is modified."""
+"""Arrays as the native module takes them: copies of the caller's, so that no other thread writes into them any more,
+and checked after the copying. What is no mesh, and what a cast would change, is an InputError.
+"""
 
 from collections.abc import Sequence
 from typing import Any
@@ -7,42 +9,109 @@ import numpy as np
 
 from .errors import InputError
 
-
-def as_vertices(vertices: Any) -> np.ndarray:
-    """(V, 3) float64, C order. Takes float32 or float64 in any order, read-only too."""
-    array = np.asarray(vertices)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise InputError(f"vertices must have shape (V, 3), not {array.shape}")
-    if array.dtype not in (np.float32, np.float64):
-        raise InputError(f"vertices must be float32 or float64, not {array.dtype}")
-    return np.ascontiguousarray(array, dtype=np.float64)
+_REAL = (np.dtype(np.float32), np.dtype(np.float64))
+_WHOLE = (np.dtype(np.int32), np.dtype(np.int64))
+# Half-edges, three to a face, are numbered by 32-bit integers too.
+_MOST_VERTICES = 2**31 - 2
+_MOST_FACES = _MOST_VERTICES // 3
 
 
-def as_triangles(triangles: Any) -> np.ndarray:
-    """(F, 3) int32, C order. Takes int32 or int64 in any order, read-only too."""
-    array = np.asarray(triangles)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise InputError(f"triangles must have shape (F, 3), not {array.shape}")
-    if array.dtype not in (np.int32, np.int64):
-        raise InputError(f"triangles must be int32 or int64, not {array.dtype}")
-    if array.dtype == np.int64:
-        limits = np.iinfo(np.int32)
-        bad = np.flatnonzero(((array < limits.min) | (array > limits.max)).any(axis=1))
-        if bad.size:
-            error = InputError(f"{bad.size} faces name a vertex that does not exist (faces listed)")
-            error.elements = bad.tolist()
-            raise error
-    return np.ascontiguousarray(array, dtype=np.int32)
+def as_surface(vertices: Any, triangles: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Positions (V, 3) float64 and faces (F, 3) int32, C order.
+
+    Takes float32 or float64, int32 or int64, in any order and byte order, read-only too.
+    """
+    positions = as_points(vertices, "vertices", 3)
+    if not len(positions):
+        raise InputError("the mesh has no vertices")
+    if len(positions) > _MOST_VERTICES:
+        raise InputError(f"the mesh has {len(positions)} vertices; there may be {_MOST_VERTICES}")
+    return positions, as_triangles(triangles, len(positions))
 
 
-def as_planar(points: Any) -> np.ndarray:
-    """(V, 2) float64, C order."""
-    array = np.asarray(points)
-    if array.ndim != 2 or array.shape[1] != 2 or array.dtype not in (np.float32, np.float64):
-        raise InputError(f"uv must be float with shape (V, 2), not {array.dtype} {array.shape}")
-    return np.ascontiguousarray(array, dtype=np.float64)
+def as_triangles(triangles: Any, vertex_count: int | None = None) -> np.ndarray:
+    """(F, 3) int32, C order: different vertices of 0 .. vertex_count - 1, or of any number without it."""
+    faces = _copy(triangles, "triangles", _WHOLE, 3)
+    if not len(faces):
+        raise InputError("the mesh has no faces")
+    if len(faces) > _MOST_FACES:
+        raise InputError(f"the mesh has {len(faces)} faces; there may be {_MOST_FACES}")
+    limit = _MOST_VERTICES if vertex_count is None else vertex_count
+    _refuse(((faces < 0) | (faces >= limit)).any(axis=1), "faces name a vertex that does not exist (faces listed)")
+    a, b, c = faces.T
+    _refuse((a == b) | (b == c) | (c == a), "faces name the same vertex twice (faces listed)")
+    return faces.astype(np.int32, copy=False)
+
+
+def as_points(
+    points: Any, name: str, dimension: int, count: int | None = None, dtypes: tuple[np.dtype, ...] = _REAL
+) -> np.ndarray:
+    """(n, dimension) float64, C order, finite; n = count, where that is given."""
+    array = _copy(points, name, dtypes, dimension)
+    if count is not None and len(array) != count:
+        raise InputError(f"{name} has {len(array)} rows, not {count}")
+    array = array.astype(np.float64, copy=False)
+    _refuse(~np.isfinite(array).all(axis=1), f"{name} have a coordinate that is NaN or infinite")
+    return array
+
+
+def as_indices(indices: Any, name: str, count: int) -> np.ndarray:
+    """(n,) int32: different ones of 0 .. count - 1. Takes any sequence of whole numbers, or none at all."""
+    array = np.zeros(0, np.int64) if _is_empty(indices) else _copy(indices, name, _WHOLE)
+    bad = array[(array < 0) | (array >= count)]
+    if len(bad):
+        raise InputError(f"{name} must name numbers from 0 to {count - 1}, not {bad[0]}", bad.tolist())
+    found, times = np.unique(array, return_counts=True)
+    if (times > 1).any():
+        raise InputError(f"{name} names {found[times > 1][0]} twice", found[times > 1].tolist())
+    return array.astype(np.int32, copy=False)
+
+
+def as_circles(domain: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Centers (L, 2) and radii (L,) of whatever has both."""
+    if not (hasattr(domain, "centers") and hasattr(domain, "radii")):
+        raise InputError(f"{type(domain).__name__} has no circles: give the result of uniformize")
+    radii = as_numbers(domain.radii, "radii")
+    return as_points(domain.centers, "centers", 2, len(radii), _REAL + _WHOLE), radii
+
+
+def as_numbers(numbers: Any, name: str) -> np.ndarray:
+    """(n,) float64, finite. Takes whole numbers too, and an empty list."""
+    array = np.zeros(0) if _is_empty(numbers) else _copy(numbers, name, _REAL + _WHOLE)
+    array = array.astype(np.float64, copy=False)
+    _refuse(~np.isfinite(array), f"numbers of {name} are NaN or infinite")
+    return array
 
 
 def as_loops(loops: Sequence[Sequence[int]]) -> list[np.ndarray]:
     """Vertex lists as int32 arrays."""
     return [np.asarray(loop, dtype=np.int32) for loop in loops]
+
+
+def _copy(values: Any, name: str, dtypes: tuple[np.dtype, ...], columns: int | None = None) -> np.ndarray:
+    """An array of its own with one of these types, C order and the machine's byte order; (n, columns), or (n,)."""
+    if np.ma.is_masked(values):
+        raise InputError(f"{name} must not be masked")
+    try:
+        array = np.array(values, order="C")
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{name} cannot be made an array: {error}") from error
+    expected = "(n,)" if columns is None else f"(n, {columns})"
+    if array.ndim != (1 if columns is None else 2) or array.shape[1:] not in ((), (columns,)):
+        raise InputError(f"{name} must have shape {expected}, not {array.shape}")
+    native = array.dtype.newbyteorder("=")
+    if native not in dtypes:
+        raise InputError(f"{name} must be {' or '.join(d.name for d in dtypes)}, not {array.dtype}")
+    return array.astype(native, copy=False)
+
+
+def _is_empty(values: Any) -> bool:
+    """Whether this is an empty list or tuple, which has no type of its own."""
+    return isinstance(values, (list, tuple)) and not values
+
+
+def _refuse(bad: np.ndarray, message: str) -> None:
+    """Raises InputError if any is bad, with their numbers."""
+    elements = np.flatnonzero(bad)
+    if elements.size:
+        raise InputError(f"{elements.size} {message}", elements.tolist())

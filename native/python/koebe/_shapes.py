@@ -3,24 +3,16 @@
 A domain here is whatever has `centers` (L, 2) and `radii` (L,), the unit circle first: a UniformizeResult, say.
 """
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from ._arrays import as_circles, as_indices, as_numbers, as_points
 from ._native import _koebe
-from .errors import InputError
-
-
-def _circles(domain: Any) -> tuple[np.ndarray, np.ndarray]:
-    try:
-        centers = np.ascontiguousarray(domain.centers, dtype=np.float64)
-        radii = np.ascontiguousarray(domain.radii, dtype=np.float64)
-    except AttributeError as error:
-        raise InputError(f"{type(domain).__name__} has no circles: give the result of uniformize") from error
-    if centers.shape != (len(radii), 2):
-        raise InputError(f"there are centers of shape {centers.shape} for {len(radii)} radii")
-    return centers, radii
+from ._options import flag, whole
+from .errors import InputError, OptionError
 
 
 def canonical_order(result: Any, any_outer: bool = False) -> np.ndarray:
@@ -29,7 +21,7 @@ def canonical_order(result: Any, any_outer: bool = False) -> np.ndarray:
     By how near they are to the outer loop conformally. It jumps where two loops are alike, so compare shapes by
     module_distance of two results, or give the order yourself. any_outer: the outer loop is chosen too.
     """
-    return np.array(_koebe.canonical_order(*_circles(result), any_outer), dtype=np.int32)
+    return np.array(_koebe.canonical_order(*as_circles(result), flag(any_outer, "any_outer")), dtype=np.int32)
 
 
 def conformal_module(result: Any, order: Sequence[int] | str | None = None) -> np.ndarray:
@@ -41,19 +33,20 @@ def conformal_module(result: Any, order: Sequence[int] | str | None = None) -> n
     3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, none without: lengths in the unit disk. Equal if and only
     if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError.
     """
-    centers, radii = _circles(result)
+    centers, radii = as_circles(result)
     if isinstance(order, str):
         if order != "canonical":
-            raise InputError(f"order must be None, 'canonical' or a list of loops, not {order!r}")
+            raise OptionError(f"order must be None, 'canonical' or a list of loops, not {order!r}")
         order = canonical_order(result)
-    elif order is not None and len(order) != len(radii):
+    chosen = np.arange(len(radii), dtype=np.int32) if order is None else as_indices(order, "order", len(radii))
+    if len(chosen) != len(radii):
         raise InputError(f"the order must name each of the {len(radii)} loops once")
-    return _koebe.conformal_module(centers, radii, [] if order is None else [int(k) for k in order])
+    return _koebe.conformal_module(centers, radii, chosen)
 
 
 def module_names(loop_count: int) -> list[str]:
     """What the module's numbers are called: ['r_1', 'y_2', 'r_2', ...]."""
-    return _koebe.module_names(int(loop_count))
+    return _koebe.module_names(whole(loop_count, "loop_count", least=0))
 
 
 def match_loops(a: Any, b: Any, any_outer: bool = False) -> tuple[np.ndarray, np.ndarray, float]:
@@ -63,7 +56,7 @@ def match_loops(a: Any, b: Any, any_outer: bool = False) -> tuple[np.ndarray, np
     first, and the distance of the modules in these orders. It is symmetric, and 0 only for equal shapes. any_outer:
     the outer loop of one may correspond to a hole of the other. Raises InputError for different numbers of loops.
     """
-    order_a, order_b, distance = _koebe.match_loops(*_circles(a), *_circles(b), any_outer)
+    order_a, order_b, distance = _koebe.match_loops(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))
     return np.array(order_a, dtype=np.int32), np.array(order_b, dtype=np.int32), distance
 
 
@@ -71,19 +64,44 @@ def module_distance(a: Any, b: Any) -> float:
     """L2 distance of two conformal modules; of two results, that in the orders that match_loops finds."""
     if hasattr(a, "radii") and hasattr(b, "radii"):
         return match_loops(a, b)[2]
-    first, second = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
-    if first.ndim != 1 or first.shape != second.shape:
+    first, second = as_numbers(a, "the module"), as_numbers(b, "the module")
+    if first.shape != second.shape:
         raise InputError(f"modules of shapes {first.shape} and {second.shape} cannot be compared")
-    return float(np.linalg.norm(first - second))
+    return math.dist(first, second)
 
 
-def align_domains(source: Any, target: Any, match: Sequence[int] | None = None) -> "_koebe.DomainAlignment":
+class DomainAlignment:
+    """An automorphism of the unit disk that lays one circle domain over another: z -> turn (z - a) / (1 - conj(a) z).
+
+    match       the target's loop for each of the source's
+    residual    root of the mean over the holes of squared differences of centres and radii
+    largest, worst    the largest of them and its hole
+    converged   whether no step made the residual smaller
+    """
+
+    def __init__(self, native: "_koebe.DomainAlignment") -> None:
+        self._native = native
+        self.a: complex = native.a
+        self.turn: complex = native.turn
+        self.match: list[int] = native.match
+        self.residual: float = native.residual
+        self.largest: float = native.largest
+        self.worst: int = native.worst
+        self.converged: bool = native.converged
+
+    def __call__(self, points: Any) -> np.ndarray:
+        """The images (n, 2) of points (n, 2) of the target's disk."""
+        return self._native(as_points(points, "points", 2))
+
+
+def align_domains(source: Any, target: Any, match: Sequence[int] | None = None) -> DomainAlignment:
     """The automorphism of the unit disk that takes the target's circles nearest to the source's, by least squares.
 
     match    the target's loop for each of the source's, 0 for 0; None: as match_loops finds them
-    Returns an object to call with points (n, 2) of the target's disk, with the fields match, residual (root of the
-    mean over the holes of squared differences of centres and radii), largest and worst (that hole), a and turn. With
-    one hole the circles leave the rotation free, and without a hole everything: the free part is the identity's.
+    With one hole the circles leave the rotation free, and without a hole everything: the free part is the identity's.
     """
-    chosen = [] if match is None else [int(k) for k in match]
-    return _koebe.align_domains(*_circles(source), *_circles(target), chosen)
+    a, b = as_circles(source), as_circles(target)
+    chosen = [] if match is None else as_indices(match, "match", len(b[1]))
+    if match is not None and not len(chosen):
+        raise InputError("the match must name each of the target's loops once, the outer one first")
+    return DomainAlignment(_koebe.align_domains(*a, *b, chosen))

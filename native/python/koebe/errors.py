@@ -1,14 +1,22 @@
 """Errors of the native module: each carries the offending elements."""
 
+from collections.abc import Sequence
+
 
 class KoebeError(Exception):
     """Base of all errors. ``elements`` lists the offending vertices or faces; the message says which."""
 
-    elements: tuple[int, ...] = ()
+    def __init__(self, message: str = "", elements: Sequence[int] = ()) -> None:
+        super().__init__(message)
+        self.elements = elements
 
 
 class InputError(KoebeError):
     """The arrays are no mesh: shape, dtype, index range, NaN or infinity."""
+
+
+class OptionError(InputError, ValueError):
+    """An option out of its range or of an unknown name."""
 
 
 class TopologyError(KoebeError):
@@ -21,7 +29,7 @@ class TopologyError(KoebeError):
 
 
 class SolverError(KoebeError):
-    """A linear system could not be solved."""
+    """A linear system could not be solved, or its solution is not finite."""
 
 
 class Cancelled(KoebeError):

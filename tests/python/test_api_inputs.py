@@ -1,0 +1,365 @@
+"""What the functions of the package take: an array that is no mesh, an option out of range is a typed error."""
+
+from fractions import Fraction
+
+import koebe
+import numpy as np
+import pytest
+from test_package import FACES, VERTICES
+
+COUNT = len(VERTICES)
+RIMS = koebe.boundary_loops(FACES)
+DISK = koebe.fill_holes(VERTICES, FACES, [0])[:2]
+UV = VERTICES[:, :2] / 2
+
+
+class Domain:
+    """The unit circle and two holes."""
+
+    def __init__(self, centers=((0.0, 0.0), (0.5, 0.0), (-0.4, 0.1)), radii=(1.0, 0.2, 0.3)):
+        self.centers, self.radii = centers, radii
+
+
+TAKE_A_SURFACE = {
+    "uniformize": koebe.uniformize,
+    "boundary_loops": lambda v, f: koebe.boundary_loops(f, COUNT),
+    "disk_map": koebe.disk_map,
+    "annulus_map": koebe.annulus_map,
+    "annulus_map, yamabe": lambda v, f: koebe.annulus_map(v, f, backend="yamabe"),
+    "fill_holes": koebe.fill_holes,
+    "fill_holes, fair": lambda v, f: koebe.fill_holes(v, f, fair=True),
+    "harmonic_map": lambda v, f: koebe.harmonic_map(v, f, [0, 1, 2], np.eye(3, 2)),
+    "distortion": lambda v, f: koebe.distortion(v, f, UV),
+}
+
+
+def with_entry(array, place, value):
+    array = array.copy()
+    array[place] = value
+    return array
+
+
+BAD_FACES = {
+    "an index beyond the vertices": with_entry(FACES, (7, 1), COUNT),
+    "an index far beyond": with_entry(FACES, (7, 1), 2**31 - 1),
+    "a negative index": with_entry(FACES, (7, 1), -1),
+    "the most negative index": with_entry(FACES, (7, 1), -(2**31)),
+    "beyond 32 bits": with_entry(FACES.astype(np.int64), (7, 1), 2**32 + 1),
+    "below 32 bits": with_entry(FACES.astype(np.int64), (7, 1), -(2**32) + 1),
+    "a vertex twice": with_entry(FACES, 7, [3, 3, 4]),
+    "a vertex three times": with_entry(FACES, 7, 3),
+    "floats": FACES.astype(float),
+    "bools": FACES.astype(bool),
+    "unsigned": FACES.astype(np.uint32),
+    "16 bits": FACES.astype(np.int16),
+    "objects": FACES.astype(object),
+    "complex": FACES.astype(complex),
+    "texts": FACES.astype(str),
+    "empty": FACES[:0],
+    "flat": FACES.ravel(),
+    "transposed": FACES.T,
+    "quadrilaterals": np.hstack([FACES, FACES[:, :1]]),
+    "stacked": FACES[None],
+    "ragged": [[0, 1, 2], [1, 2]],
+    "too large for an array": [[0, 1, 2**70]],
+    "None": None,
+    "a number": 3,
+    "a text": "faces",
+    "masked": np.ma.masked_array(FACES, FACES == 5),
+}
+BAD_VERTICES = {
+    "NaN": with_entry(VERTICES, (5, 2), np.nan),
+    "infinite": with_entry(VERTICES, (5, 0), np.inf),
+    "minus infinity of 32 bits": with_entry(VERTICES.astype(np.float32), (5, 1), -np.inf),
+    "whole numbers": VERTICES.astype(int),
+    "bools": VERTICES.astype(bool),
+    "16 bits": VERTICES.astype(np.float16),
+    "more than 64 bits": VERTICES.astype(np.longdouble),
+    "complex": VERTICES.astype(complex),
+    "objects": VERTICES.astype(object),
+    "texts": VERTICES.astype(str),
+    "empty": VERTICES[:0],
+    "two columns": VERTICES[:, :2],
+    "four columns": np.hstack([VERTICES, VERTICES[:, :1]]),
+    "flat": VERTICES.ravel(),
+    "a number": 1.0,
+    "None": None,
+    "ragged": [[0.0, 0.0, 0.0], [1.0]],
+    "masked": np.ma.masked_array(VERTICES, VERTICES > 0.9),
+}
+
+
+@pytest.mark.parametrize("name", TAKE_A_SURFACE)
+def test_faces_that_are_none_are_refused_by_every_function(name):
+    for what, faces in BAD_FACES.items():
+        with pytest.raises(koebe.InputError):
+            TAKE_A_SURFACE[name](VERTICES, faces)
+            pytest.fail(f"{name} took {what}")
+
+
+@pytest.mark.parametrize("name", set(TAKE_A_SURFACE) - {"boundary_loops"})
+def test_vertices_that_are_none_are_refused_by_every_function(name):
+    for what, vertices in BAD_VERTICES.items():
+        with pytest.raises(koebe.InputError):
+            TAKE_A_SURFACE[name](vertices, FACES)
+            pytest.fail(f"{name} took {what}")
+
+
+@pytest.mark.parametrize("name", TAKE_A_SURFACE)
+def test_the_error_names_the_offending_elements(name):
+    for place, value in ((([7, 70], 1), -1), (([7, 70], 1), COUNT), ([7, 70], 3)):
+        with pytest.raises(koebe.InputError) as caught:
+            TAKE_A_SURFACE[name](VERTICES, with_entry(FACES, place, value))
+        assert list(caught.value.elements) == [7, 70]
+    if name != "boundary_loops":
+        with pytest.raises(koebe.InputError) as caught:
+            TAKE_A_SURFACE[name](with_entry(VERTICES, (5, 1), np.nan), FACES)
+        assert list(caught.value.elements) == [5]
+
+
+def test_lists_are_arrays_too():
+    assert np.array_equal(
+        koebe.uniformize(VERTICES.tolist(), FACES.tolist()).uv, koebe.uniformize(VERTICES, FACES).uv
+    )
+
+
+# ---------------------------------------------------------------- arrays in any form
+
+
+def forms(array):
+    """The same numbers as arrays lie in memory elsewhere."""
+    frozen = array.copy()
+    frozen.flags.writeable = False
+    wide = np.repeat(array, 2, axis=1)
+    return {
+        "Fortran order": np.asfortranarray(array),
+        "read-only": frozen,
+        "every other column": wide[:, ::2],
+        "backwards": array[::-1].copy()[::-1],
+        "the other byte order": array.astype(array.dtype.newbyteorder()),
+        "unaligned": np.frombuffer(b"x" + array.tobytes(), dtype=array.dtype, offset=1).reshape(array.shape),
+        "a subclass": array.view(np.ma.MaskedArray),
+    }
+
+
+@pytest.mark.parametrize("name", set(TAKE_A_SURFACE) - {"disk_map"})
+def test_every_form_of_the_arrays_gives_the_same_and_is_left_alone(name):
+    def run(vertices, faces):
+        outcome = TAKE_A_SURFACE[name](vertices, faces)
+        return outcome.uv if name == "uniformize" else outcome
+
+    expected = run(VERTICES, FACES)
+    single = run(VERTICES.astype(np.float32).astype(np.float64), FACES)
+    for what, vertices in forms(VERTICES).items():
+        before = vertices.copy()
+        assert same(run(vertices, FACES), expected), what
+        assert np.array_equal(vertices, before)
+    for what, vertices in forms(VERTICES.astype(np.float32)).items():
+        assert same(run(vertices, FACES), single), what
+    for what, faces in (forms(FACES) | forms(FACES.astype(np.int64))).items():
+        before = faces.copy()
+        assert same(run(VERTICES, faces), expected), what
+        assert np.array_equal(faces, before)
+
+
+def same(a, b):
+    """Whether two results are equal to the last bit."""
+    if isinstance(a, dict):
+        return a == b
+    if isinstance(a, (tuple, list)):
+        return len(a) == len(b) and all(map(same, a, b))
+    return np.array_equal(a, b)
+
+
+# ---------------------------------------------------------------- options
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        {"method": "GK"}, {"method": ""}, {"engine": "dense"}, {"balance": "areas"}, {"outer": "shortest"},
+        {"outer": "7"}, {"tolerance": 0}, {"tolerance": -1e-6}, {"tolerance": np.nan}, {"tolerance": np.inf},
+        {"tolerance": 10**400}, {"max_sweeps": 0}, {"max_sweeps": -3}, {"max_sweeps": 2**31}, {"threads": -1},
+        {"threads": 2**40},
+    ],
+)  # fmt: skip
+def test_options_out_of_range_are_value_errors(option):
+    with pytest.raises(ValueError, match=next(iter(option))) as caught:
+        koebe.uniformize(VERTICES, FACES, **option)
+    assert isinstance(caught.value, koebe.OptionError) and isinstance(caught.value, koebe.KoebeError)
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        {"method": None}, {"method": 1}, {"method": b"gk"}, {"engine": ["mesh"]}, {"balance": False}, {"outer": 1.0},
+        {"outer": None}, {"outer": True}, {"outer": np.array([1])}, {"tolerance": "1e-6"}, {"tolerance": None},
+        {"tolerance": 1e-6 + 0j}, {"tolerance": True}, {"tolerance": np.array([1e-6])}, {"max_sweeps": 2.5},
+        {"max_sweeps": "5"}, {"max_sweeps": True}, {"max_sweeps": None}, {"threads": 1.0}, {"threads": None},
+        {"polish": "no"}, {"polish": 1}, {"polish": None}, {"progress": 1}, {"progress": "print"}, {"cancel": True},
+        {"cancel": object()}, {"no_such_option": 1},
+    ],
+)  # fmt: skip
+def test_options_of_a_wrong_type_are_type_errors(option):
+    with pytest.raises(TypeError, match=next(iter(option))):
+        koebe.uniformize(VERTICES, FACES, **option)
+
+
+def test_numbers_of_any_kind_are_numbers():
+    expected = koebe.uniformize(VERTICES, FACES, tolerance=2.0**-20, max_sweeps=3, outer=int(RIMS[0][0])).uv
+    for tolerance, sweeps, outer in (
+        (np.float32(2.0**-20), np.int64(3), np.int32(RIMS[0][0])),
+        (Fraction(1, 2**20), np.uint8(3), RIMS[0][0]),
+    ):
+        assert np.array_equal(
+            koebe.uniformize(VERTICES, FACES, tolerance=tolerance, max_sweeps=sweeps, outer=outer).uv, expected
+        )
+
+
+@pytest.mark.parametrize("vertex", [-1, 60, COUNT, 2**31 - 1, 2**31, -(2**40), 10**30])
+def test_an_outer_vertex_on_no_loop_is_named(vertex):
+    assert not any(vertex in rim for rim in RIMS)
+    with pytest.raises(koebe.InputError) as caught:
+        koebe.uniformize(VERTICES, FACES, outer=vertex)
+    assert list(caught.value.elements) == [vertex] and not isinstance(caught.value, ValueError)
+
+
+# ---------------------------------------------------------------- the other functions' own arguments
+
+
+def harmonic(fixed, values=None):
+    return koebe.harmonic_map(VERTICES, FACES, fixed, np.zeros((len(fixed), 2)) if values is None else values)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: koebe.boundary_loops([[0, 0, 1]]),
+        lambda: koebe.boundary_loops([[0, 1, 2]], 2),
+        lambda: koebe.boundary_loops([[0, 1, -2]]),
+        lambda: koebe.boundary_loops([]),
+        lambda: koebe.boundary_loops([[0, 1, 2]], 0),
+        lambda: koebe.boundary_loops([[0, 1, 2]], 2**31),
+        lambda: koebe.fill_holes(VERTICES, FACES, [2]),
+        lambda: koebe.fill_holes(VERTICES, FACES, [-1]),
+        lambda: koebe.fill_holes(VERTICES, FACES, [0, 0]),
+        lambda: koebe.fill_holes(VERTICES, FACES, [0.0]),
+        lambda: koebe.fill_holes(VERTICES, FACES, [False]),
+        lambda: koebe.fill_holes(VERTICES, FACES, [2**40]),
+        lambda: koebe.fill_holes(VERTICES, FACES, 0),
+        lambda: koebe.fill_holes(VERTICES, FACES, [[0]]),
+        lambda: koebe.annulus_map(VERTICES, FACES, backend="ricci"),
+        lambda: koebe.annulus_map(*DISK),
+        lambda: koebe.disk_map(VERTICES, FACES),
+        lambda: koebe.distortion(VERTICES, FACES, UV[1:]),
+        lambda: koebe.distortion(VERTICES, FACES, VERTICES),
+        lambda: koebe.distortion(VERTICES, FACES, with_entry(UV, (3, 1), np.nan)),
+        lambda: koebe.distortion(VERTICES, FACES, UV.astype(complex)),
+        lambda: koebe.distortion(VERTICES, FACES, UV.astype(object)),
+        lambda: harmonic([]),
+        lambda: harmonic([0, 1, 0]),
+        lambda: harmonic([0, COUNT]),
+        lambda: harmonic([-1, 0]),
+        lambda: harmonic([0.0, 1.0]),
+        lambda: harmonic([2**32, 1]),
+        lambda: harmonic([0, 1], np.zeros((3, 2))),
+        lambda: harmonic([0, 1], np.zeros((2, 3))),
+        lambda: harmonic([0, 1], np.full((2, 2), np.inf)),
+        lambda: harmonic([0, 1], np.zeros((2, 2), dtype=complex)),
+        lambda: koebe.conformal_module(Domain(), [0, 1]),
+        lambda: koebe.conformal_module(Domain(), []),
+        lambda: koebe.conformal_module(Domain(), [0, 1, 1]),
+        lambda: koebe.conformal_module(Domain(), [0, 1, 3]),
+        lambda: koebe.conformal_module(Domain(), [0, 1, -1]),
+        lambda: koebe.conformal_module(Domain(), [0.0, 1.0, 2.0]),
+        lambda: koebe.conformal_module(Domain(), "by length"),
+        lambda: koebe.conformal_module(Domain(radii=[1.0, 0.2])),
+        lambda: koebe.conformal_module(Domain(radii=[np.nan, 0.2, 0.3])),
+        lambda: koebe.conformal_module(Domain(radii=[1.0, 0.2, -0.3])),
+        lambda: koebe.conformal_module(Domain(radii=[1.0, 0.2, 3e300])),
+        lambda: koebe.conformal_module(Domain(radii=[])),
+        lambda: koebe.conformal_module(Domain([], [])),
+        lambda: koebe.conformal_module(Domain(centers=[[np.nan, 0.0], [0.5, 0.0], [-0.4, 0.1]])),
+        lambda: koebe.conformal_module(Domain(centers=[0.0, 0.5, 1.0])),
+        lambda: koebe.conformal_module(Domain(centers=np.zeros((3, 2), dtype=complex))),
+        lambda: koebe.conformal_module(VERTICES),
+        lambda: koebe.conformal_module(None),
+        lambda: koebe.canonical_order(3),
+        lambda: koebe.match_loops(Domain(), None),
+        lambda: koebe.match_loops(Domain(), Domain([[0.0, 0.0]], [1.0])),
+        lambda: koebe.align_domains(Domain(), Domain(), [1, 0, 2]),
+        lambda: koebe.align_domains(Domain(), Domain(), [0, 1]),
+        lambda: koebe.align_domains(Domain(), Domain(), []),
+        lambda: koebe.align_domains(Domain(), Domain(), [0, 1, 2**40]),
+        lambda: koebe.align_domains(Domain(), Domain())(UV.astype(complex)),
+        lambda: koebe.align_domains(Domain(), Domain())(VERTICES),
+        lambda: koebe.align_domains(Domain(), Domain())([[np.nan, 0.0]]),
+        lambda: koebe.module_distance([1.0], [1.0, 2.0]),
+        lambda: koebe.module_distance([np.nan], [1.0]),
+        lambda: koebe.module_distance([[1.0]], [[1.0]]),
+        lambda: koebe.module_distance(["1"], ["1"]),
+        lambda: koebe.module_distance([1j], [1j]),
+        lambda: koebe.module_distance(None, None),
+        lambda: koebe.module_names(-1),
+        lambda: koebe.module_names(2**40),
+    ],
+)
+def test_arguments_that_mean_nothing_are_input_errors(call):
+    with pytest.raises(koebe.InputError):
+        call()
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: koebe.boundary_loops([[0, 1, 2]], 3.0),
+        lambda: koebe.fill_holes(VERTICES, FACES, fair=1),
+        lambda: koebe.harmonic_map(VERTICES, FACES, [0], [[0.0, 0.0]], uniform="yes"),
+        lambda: koebe.annulus_map(VERTICES, FACES, backend=None),
+        lambda: koebe.canonical_order(Domain(), any_outer="no"),
+        lambda: koebe.match_loops(Domain(), Domain(), any_outer=0),
+        lambda: koebe.module_names(2.0),
+        lambda: koebe.module_names("2"),
+    ],
+)
+def test_arguments_of_a_wrong_type_are_type_errors(call):
+    with pytest.raises(TypeError):
+        call()
+
+
+def test_one_vertex_that_no_mesh_needs_costs_no_memory():
+    far = 2**31 - 3
+    loops = koebe.boundary_loops([[0, 7, far], [7, 9, far]], 2**31 - 1)
+    assert [loop.tolist() for loop in loops] == [[0, 7, 9, far]] and loops[0].dtype == np.int32
+    with pytest.raises(koebe.TopologyError) as caught:
+        koebe.boundary_loops([[0, 7, far], [7, 0, 9], [0, 7, 11]])
+    assert sorted(caught.value.elements) == [0, 7]
+    with pytest.raises(koebe.TopologyError) as caught:
+        koebe.boundary_loops([[0, 7, far], [7, 0, 9], [100, 101, 102]])
+    assert list(caught.value.elements) == [2]
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1e-160, 1e160, 1e300])
+def test_numbers_at_the_end_of_floating_point_give_finite_ones_or_an_error(scale):
+    vertices = VERTICES * scale
+    for name, call in TAKE_A_SURFACE.items():
+        if name in ("boundary_loops", "disk_map"):
+            continue
+        try:
+            outcome = call(vertices, FACES)
+        except (koebe.SolverError, koebe.InputError):
+            continue
+        arrays = [outcome.uv] if name == "uniformize" else outcome.values() if isinstance(outcome, dict) else outcome
+        for array in arrays:
+            numbers = list(array.values()) if isinstance(array, dict) else array
+            assert np.isfinite(np.asarray(numbers, dtype=float)).all(), name
+
+
+def test_errors_can_be_sent_to_another_process():
+    import pickle
+
+    with pytest.raises(koebe.TopologyError) as caught:
+        koebe.boundary_loops([[0, 1, 2], [1, 0, 3], [0, 1, 4]])
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value) and again.kind == "nonmanifold_edge"
+    assert list(again.elements) == list(caught.value.elements) == [0, 1]
