@@ -1,5 +1,6 @@
 #include "io/mesh_reader.h"
 
+#include "io/extension.h"
 #include "io/file_error.h"
 #include "io/format_readers.h"
 
@@ -16,10 +17,9 @@ namespace {
 
 using Reader = PolygonMesh (*)(std::string);
 
-Reader reader_for(std::string extension)
+Reader reader_for(const std::string& filed)
 {
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = io::lower(filed);
     if (extension == ".obj") return io::read_obj;
     if (extension == ".off") return io::read_off;
     if (extension == ".ply") return io::read_ply;
