@@ -1,5 +1,7 @@
 #include "cli/result_line.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace koebe::cli {
@@ -26,7 +28,8 @@ std::string counted(std::size_t number, const std::string& noun)
 std::string one_line(std::string text)
 {
     std::ranges::replace_if(text, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
-    return text;
+    using Json = nlohmann::json;  // which knows what is no UTF-8
+    return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
 std::string warning_count(const std::vector<std::string>& warnings)

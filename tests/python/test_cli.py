@@ -235,7 +235,9 @@ def test_wrong_usage_is_2_and_writes_nothing(mesh, arguments):
     assert names(mesh) == {"in.obj"}
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["uniformize", "--help"], ["fill", "--help"], ["ricci", "--help"]])
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["--version"], ["uniformize", "--help"], ["fill", "--help"], ["ricci", "--help"]]
+)
 def test_help_and_version_are_0(arguments):
     run = koebe(*arguments)
     assert run.returncode == 0 and run.stdout and not run.stderr
