@@ -6,7 +6,7 @@ set -euo pipefail
 declare -A groups=(
     # compilers, libraries, and Python with NumPy and pytest
     [build]="build-essential cmake ninja-build ccache
-        libopenmesh-dev libeigen3-dev libsuitesparse-dev libopenblas-pthread-dev libcgal-dev
+        libopenmesh-dev libeigen3-dev libsuitesparse-dev libopenblas-pthread-dev libcgal-dev liblemon-dev
         nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev
         python3-dev python3-venv python3-numpy python3-pytest ca-certificates"
     # Blender, what the bpy wheels link, and a screen with software OpenGL for windows and renders

@@ -2,11 +2,15 @@
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/mapping_options.h"
+#include "cli/output_files.h"
 #include "cli/shape_input.h"
+#include "cli/standard_streams.h"
 #include "cli/subcommand.h"
 
+#include "core/detachable_run.h"
 #include "core/errors.h"
 #include "io/atomic_file.h"
+#include "report/json.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"
 
@@ -25,6 +29,9 @@ struct Request {
     std::string loops = "match";
     bool any_outer = false, with_json = false;
     UniformizeOptions options;
+
+    bool to_file() const { return with_json && json != standard_output; }
+    std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}}; }
 };
 
 /// The loops as they are: the longest one outside, the others by length.
@@ -44,25 +51,31 @@ LoopMatch by_length(const ShapeInput& a, const ShapeInput& b)
 int run(const Request& request)
 {
     const CancelToken token = cancel_on_signal();
-    const bool to_file = request.with_json && request.json != standard_output;
-    if (to_file) require_writable(request.json);
+    const bool to_file = request.to_file();
+    require_writable_files(request.files(), true);
     const ShapeInput a = read_shape(request.first, request.options, token);
     const ShapeInput b = read_shape(request.second, request.options, token);
-    const LoopMatch match =
-        request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer) : by_length(a, b);
+    ExecutionContext context({}, token);
+    const LoopMatch match = run_detachable<LoopMatch>(context, [request, a, b](ExecutionContext& own) {
+        return request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer, own) : by_length(a, b);
+    });
     if (request.with_json) {
         const nlohmann::ordered_json report{
             {"distance", match.distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};
         if (to_file) {
             AtomicFile file(request.json);
-            file.write(report.dump(1) + "\n");
-            if (token.cancelled()) throw Cancelled();
+            file.write(json_text(report));
+            context.checkpoint();
             file.commit();
         } else {
-            std::printf("%s\n", report.dump(1).c_str());
+            print(json_text(report));
         }
     }
-    if (!request.with_json || to_file) std::printf("distance %.9g\n", match.distance);
+    if (!request.with_json || to_file) {
+        char line[64];
+        std::snprintf(line, sizeof line, "distance %.9g\n", match.distance);
+        print(line, to_file ? "; the file is written" : "");
+    }
     return a.converged && b.converged ? done : not_converged;
 }
 
@@ -78,6 +91,7 @@ void settle_words(Request& request, const CLI::Option& json)
     if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
     if (request.any_outer && request.loops != "match")
         throw CLI::ValidationError("--any-outer", "goes with --loops match");
+    require_different_files(request.files(), {request.first, request.second}, true);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "cli/error_line.h"
 
+#include "cli/result_line.h"
+
 #include <algorithm>
 
 namespace koebe::cli {
@@ -30,10 +32,7 @@ std::string full_name(const KoebeError& error)
 
 std::string error_line(const std::string& name, const std::string& reason)
 {
-    std::string line = name;
-    line.append(": ").append(reason);
-    std::ranges::replace_if(line, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return line;
+    return one_line(name + ": " + reason);
 }
 
 std::string error_line(const KoebeError& error)

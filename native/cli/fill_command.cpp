@@ -1,37 +1,43 @@
 // koebe fill IN OUT
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/loop_options.h"
 #include "cli/mesh_input.h"
+#include "cli/output_files.h"
+#include "cli/result_line.h"
+#include "cli/standard_streams.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
 
-#include "core/errors.h"
+#include "core/detachable_run.h"
 #include "geometry/hole_filling.h"
 #include "io/atomic_file.h"
-#include "io/obj_writer.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
 #include <set>
+#include <span>
 
 namespace koebe::cli {
 namespace {
 
 struct Request {
-    std::string input, output;
+    std::string input, output, outer = "longest";
+    WrittenFormat format = WrittenFormat::obj;
     std::vector<Index> loops;
-    bool quiet = false;
+    bool all = false, quiet = false;
+
+    std::vector<OutputFile> files() const { return {{"OUT", output}}; }
 };
 
-/// Polygons with a group for each: 0 the surface, k + 1 the patch of loop k.
-struct GroupedPolygons {
+/// Polygons with a patch for each: -1 the surface, k the patch of loop k.
+struct PatchedPolygons {
     PolygonMesh mesh;
-    std::vector<Index> group;
+    std::vector<Index> patch;
 };
 
-void add_polygon(GroupedPolygons& result, std::span<const Index> polygon, bool turned, Index group)
+void add_polygon(PatchedPolygons& result, std::span<const Index> polygon, bool turned, Index patch)
 {
     auto& corners = result.mesh.corners;
     if (turned)
@@ -39,57 +45,85 @@ void add_polygon(GroupedPolygons& result, std::span<const Index> polygon, bool t
     else
         corners.insert(corners.end(), polygon.begin(), polygon.end());
     result.mesh.face_begin.push_back(static_cast<Index>(corners.size()));
-    result.group.push_back(group);
+    result.patch.push_back(patch);
 }
 
 /// The polygons as filed, turned where their triangles were, and then the patches.
-GroupedPolygons join(const MeshInput& input, const FilledSurface& filled)
+PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
 {
     const Triangles& triangles = input.triangulation.triangles;
     std::vector<char> turned(static_cast<std::size_t>(input.polygons.face_count()), 0);
     for (Eigen::Index t = 0; t < triangles.rows(); ++t)
         turned[input.triangulation.face[t]] = !(triangles.row(t).array() == filled.triangles.row(t).array()).all();
 
-    GroupedPolygons result;
+    PatchedPolygons result;
     result.mesh.vertices = filled.vertices;
     for (Index f = 0; f < input.polygons.face_count(); ++f)
-        add_polygon(result, input.polygons.face(f), turned[f], 0);
+        add_polygon(result, input.polygons.face(f), turned[f], -1);
     for (Eigen::Index t = triangles.rows(); t < filled.triangles.rows(); ++t)
-        add_polygon(result, {filled.triangles.row(t).data(), 3}, false, filled.label[t] + 1);
+        add_polygon(result, {filled.triangles.row(t).data(), 3}, false, filled.label[t]);
     return result;
 }
 
-std::vector<std::string> group_names(const std::vector<Index>& groups)
+/// The loops to fill, by rank.
+std::vector<Index> chosen_loops(const Request& request, const Vertices& vertices, const Surface& surface)
 {
-    std::vector<std::string> names{"surface"};
-    for (Index k = 0; k < *std::ranges::max_element(groups); ++k) names.push_back("patch_" + std::to_string(k));
-    return names;
+    require_ranks(request.loops, surface.loops.size());
+    if (!request.loops.empty()) return request.loops;
+    std::vector<Index> ranks = chosen_ranks(surface, std::nullopt);
+    if (request.all || ranks.empty()) return ranks;
+    const Index outer = request.outer == "longest" ? longest_loop(vertices, surface)
+                                                   : loop_of(surface, std::stoi(request.outer));
+    ranks.erase(ranks.begin() + outer);
+    return ranks;
+}
+
+PatchedPolygons fill(const Request& request, const MeshInput& input)
+{
+    return with_filed_faces(input, [&] {
+        const Vertices& vertices = input.polygons.vertices;
+        const Triangles& triangles = input.triangulation.triangles;
+        const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
+        return join(input, fill_holes(vertices, triangles, chosen_loops(request, vertices, surface)));
+    });
+}
+
+std::string result_line(const Request& request, const MeshInput& input, const PatchedPolygons& filled, double seconds)
+{
+    const std::set<Index> patches(filled.patch.begin(), filled.patch.end());
+    const std::size_t loops = patches.size() - patches.count(-1);
+    const Index added = filled.mesh.face_count() - input.polygons.face_count();
+    std::vector<std::string> warnings = input.warnings;
+    if (loops == 0) warnings.push_back("there is no hole: no boundary but the outer one");
+    char time[32];
+    std::snprintf(time, sizeof time, "%.2f s", seconds);
+    return one_line(request.output) + ": " + counted(loops, "loop") + " filled, " +
+           counted(static_cast<std::size_t>(added), "face") + " added, " + time + warning_count(warnings) + "\n";
 }
 
 int run(const Request& request)
 {
     const auto begin = std::chrono::steady_clock::now();
     const CancelToken token = cancel_on_signal();
-    require_writable(request.output);
-    const MeshInput input = read_mesh_input(request.input, token);
-    const FilledSurface filled =
-        with_filed_faces(input, [&] {
-            return fill_holes(input.polygons.vertices, input.triangulation.triangles,
-                              request.loops.empty() ? std::nullopt : std::optional(request.loops));
-        });
-    const GroupedPolygons joined = join(input, filled);
+    require_writable_files(request.files(), !request.quiet);
+    const auto input = std::make_shared<const MeshInput>(read_mesh_input(request.input, token));
+    ExecutionContext context({}, token);
+    const PatchedPolygons filled = run_detachable<PatchedPolygons>(
+        context, [request, input](ExecutionContext&) { return fill(request, *input); });
     AtomicFile file(request.output);
-    write_obj_with_groups(file, joined.mesh, joined.group, group_names(joined.group));
-    if (token.cancelled()) throw Cancelled();
+    write_with_patches(file, request.format, filled.mesh, filled.patch);
+    context.checkpoint();
     file.commit();
 
-    if (!request.quiet) {
-        const std::set<Index> groups(joined.group.begin(), joined.group.end());
-        std::printf("%s: %zu loops filled, %d faces added, %.2f s\n", request.output.c_str(), groups.size() - 1,
-                    joined.mesh.face_count() - input.polygons.face_count(),
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (!request.quiet) print(result_line(request, *input, filled, seconds), "; the file is written");
     return done;
+}
+
+void check(Request& request)
+{
+    request.format = required_format(request.output);
+    require_different_files(request.files(), {}, !request.quiet);
 }
 
 }  // namespace
@@ -97,16 +131,29 @@ int run(const Request& request)
 Subcommand add_fill(CLI::App& app)
 {
     auto request = std::make_shared<Request>();
-    CLI::App* options = app.add_subcommand("fill", "fill the holes of a surface");
+    CLI::App* options = app.add_subcommand("fill", "fill the holes of a surface: all loops but the outer one");
     options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL")->required();
-    options->add_option("OUT", request->output, "OBJ to write, with the groups surface, patch_0, patch_1, …")
+    options
+        ->add_option("OUT", request->output,
+                     "OBJ to write, with the groups surface, patch_0, patch_1, …, or PLY, with the property patch")
         ->required();
+    CLI::Option* outer = options
+                             ->add_option("--outer", request->outer,
+                                          "loop that stays open: the longest, or that of a vertex (from 0)")
+                             ->check(outer_loop_choice({"longest"}))
+                             ->type_name("longest|VERTEX")
+                             ->capture_default_str();
+    CLI::Option* all = options->add_flag("--all", request->all, "fill the outer loop too: the surface is closed");
     options
         ->add_option("--loops", request->loops,
-                     "boundary loops to fill, as 0,2: by rank of their lowest vertices (default all)")
+                     "boundary loops to fill, as 0,2: by rank of their lowest vertices, and no others")
         ->delimiter(',')
-        ->check(whole_number(0));
+        ->check(whole_number(0))
+        ->excludes(outer)
+        ->excludes(all);
+    outer->excludes(all);
     options->add_flag("--quiet", request->quiet, "no result line");
+    options->callback([request] { check(*request); });
     return {options, [request] { return run(*request); }};
 }
 

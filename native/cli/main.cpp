@@ -2,12 +2,17 @@
 #include "cli/error_line.h"
 #include "cli/exit_code.h"
 #include "cli/fast_kernels.h"
+#include "cli/standard_streams.h"
 #include "cli/subcommand.h"
+#include "cli/wrong_usage.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <new>
+#include <sstream>
+#include <system_error>
 #include <vector>
 
 namespace {
@@ -20,41 +25,72 @@ int fail(const std::string& line, int code)
     return code;
 }
 
-int run_guarded(const Subcommand& command)
+int fail_for_memory()
+{
+    std::fputs("OutOfMemory: the mesh needs more memory than there is\n", stderr);  // nothing here allocates
+    std::_Exit(cannot_be_mapped);  // at an ordinary exit OpenBLAS joins threads that wait for memory for ever
+}
+
+int run_guarded(const std::function<int()>& run)
 {
     try {
-        return command.run();
+        return run();
     } catch (const koebe::Cancelled& error) {
         fail(error_line(error), interrupted);
         std::_Exit(interrupted);  // an ordinary exit waits for the computation's next checkpoint
     } catch (const koebe::KoebeError& error) {
         return fail(error_line(error), cannot_be_mapped);
+    } catch (const WrongUsage& error) {
+        return fail(error_line("WrongUsage", error.what()), wrong_usage);
     } catch (const std::bad_alloc&) {
-        fail(error_line("OutOfMemory", "the mesh needs more memory than there is"), cannot_be_mapped);
-        std::_Exit(cannot_be_mapped);  // at an ordinary exit OpenBLAS joins threads that wait for memory for ever
+        return fail_for_memory();
+    } catch (const std::length_error&) {  // more than any memory
+        return fail_for_memory();
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::resource_unavailable_try_again) return fail_for_memory();  // for a thread
+        return fail(error_line("InternalError", error.what()), cannot_be_mapped);
     } catch (const std::exception& error) {
         return fail(error_line("InternalError", error.what()), cannot_be_mapped);
     }
+}
+
+/// What the parser ends with: the help and the version, or an error as one line.
+int end_of_parsing(const CLI::App& app, const CLI::ParseError& error)
+{
+    std::ostringstream text, complaint;
+    if (app.exit(error, text, complaint) == 0) {
+        print(text.str());
+        return done;
+    }
+    return fail(error_line("WrongUsage", error.what()) + " (see koebe --help)", wrong_usage);
+}
+
+int run_command(int argc, char** argv)
+{
+    CLI::App app("Conformal maps of surfaces with holes onto circle domains.", "koebe");
+    app.set_version_flag("--version", KOEBE_VERSION);
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 done; 2 wrong usage; 3 the mesh cannot be mapped; 4 not converged (files are written);\n"
+               "130 interrupted (nothing is written).\n"
+               "A file is written as .koebe-PROCESS-NUMBER.tmp in its folder and then renamed: it is whole or absent.\n"
+               "Where it is a symbolic link, the link stays and its target is replaced.");
+    const std::vector<Subcommand> commands{add_uniformize(app), add_fill(app), add_module(app), add_compare(app),
+                                           add_ricci(app)};
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return end_of_parsing(app, error);
+    }
+    for (const Subcommand& command : commands)
+        if (command.options->parsed()) return command.run();
+    return wrong_usage;
 }
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
+    keep_standard_streams();
     restart_with_fast_kernels(argv);
-    CLI::App app("Conformal maps of surfaces with holes onto circle domains.", "koebe");
-    app.set_version_flag("--version", KOEBE_VERSION);
-    app.require_subcommand(1);
-    app.footer("Exit codes: 0 done; 2 wrong usage; 3 the mesh cannot be mapped; 4 not converged (files are written);\n"
-               "130 interrupted (nothing is written).");
-    const std::vector<Subcommand> commands{add_uniformize(app), add_fill(app), add_module(app), add_compare(app),
-                                           add_ricci(app)};
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? done : wrong_usage;
-    }
-    for (const Subcommand& command : commands)
-        if (command.options->parsed()) return run_guarded(command);
-    return wrong_usage;
+    return run_guarded([&] { return run_command(argc, argv); });
 }

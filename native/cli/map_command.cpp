@@ -2,12 +2,15 @@
 
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/loop_options.h"
 #include "cli/mapping_options.h"
 #include "cli/mesh_input.h"
+#include "cli/output_files.h"
 #include "cli/progress_line.h"
+#include "cli/result_line.h"
+#include "cli/standard_streams.h"
 #include "cli/validators.h"
 #include "io/atomic_file.h"
-#include "io/obj_writer.h"
 #include "report/svg.h"
 
 #include <algorithm>
@@ -26,12 +29,9 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// Everything that can be known to fail is found before the computation.
-void require_writable_files(const MapRequest& request)
+std::vector<OutputFile> output_files(const MapRequest& request)
 {
-    require_writable(request.output);
-    if (!request.json.empty()) require_writable(request.json);
-    if (!request.svg.empty()) require_writable(request.svg);
+    return {{"OUT", request.output}, {"--json", request.json}, {"--svg", request.svg}};
 }
 
 /// All files are complete before the first gets its name.
@@ -40,7 +40,7 @@ void write_files(const MapRequest& request, const MeshInput& input, UniformizeRe
 {
     const auto begin_write = Clock::now();
     std::vector<AtomicFile> files;
-    write_obj_with_uvs(files.emplace_back(request.output), input.polygons, result.uv);
+    write_with_uvs(files.emplace_back(request.output), request.format, input.polygons, result.uv);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(to_svg(result, input.polygons));
     result.seconds.write = seconds_since(begin_write);
     result.seconds.total = seconds_since(begin);
@@ -48,43 +48,38 @@ void write_files(const MapRequest& request, const MeshInput& input, UniformizeRe
         nlohmann::ordered_json report = to_json(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
         for (const auto& [name, value] : request.names) report[name] = value;
-        files.emplace_back(request.json).write(report.dump(1) + "\n");
+        files.emplace_back(request.json).write(json_text(report));
     }
     context.checkpoint();
     for (AtomicFile& file : files) file.commit();
 }
 
-void print_result_line(const MapRequest& request, const UniformizeResult& result)
+std::string result_line(const MapRequest& request, const UniformizeResult& result)
 {
     double roundness = 0.0;
     for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness);
-    const auto count = [](std::size_t n, const char* noun) {
-        return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+    const auto rounded = [](const char* format, double number) {
+        char text[32];
+        std::snprintf(text, sizeof text, format, number);
+        return std::string(text);
     };
-    std::printf("%s: %s, %s, roundness %.1e, angle error %.2f deg, %zu flipped", request.output.c_str(),
-                count(result.loops.size(), "loop").c_str(),
-                count(static_cast<std::size_t>(result.sweeps), "sweep").c_str(), roundness,
-                result.distortion.angle_error_deg.mean, result.distortion.flipped.size());
-    if (!result.distortion.below_resolution.empty())
-        std::printf(" (%zu below resolution)", result.distortion.below_resolution.size());
-    std::printf(", %.2f s%s\n", result.seconds.total, result.converged ? "" : ", not converged");
+    std::string line = one_line(request.output) + ": " + counted(result.loops.size(), "loop") + ", " +
+                       counted(static_cast<std::size_t>(result.sweeps), "sweep") + ", roundness " +
+                       rounded("%.1e", roundness) + ", angle error " +
+                       rounded("%.2f", result.distortion.angle_error_deg.mean) + " deg, " +
+                       std::to_string(result.distortion.flipped.size()) + " flipped";
+    if (const std::size_t tiny = result.distortion.below_resolution.size(); tiny > 0)
+        line += " (" + std::to_string(tiny) + " below resolution)";
+    line += ", " + rounded("%.2f", result.seconds.total) + " s";
+    if (!result.converged) line += ", not converged";
+    return line + warning_count(result.warnings) + "\n";
 }
 
-/// For people only: scripts find the warnings in the JSON.
-void print_warnings(const UniformizeResult& result)
+/// All of them, for people only: scripts find them in the JSON.
+void show_warnings(const UniformizeResult& result)
 {
     if (::isatty(STDERR_FILENO) != 1) return;
     for (const std::string& warning : result.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-}
-
-/// @throws CLI::ValidationError two of the files to write are one
-void require_different_files(const MapRequest& request)
-{
-    const auto same = [](const std::string& a, const std::string& b) {
-        return !a.empty() && std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
-    };
-    if (same(request.output, request.json) || same(request.output, request.svg) || same(request.json, request.svg))
-        throw CLI::ValidationError("OUT, --json and --svg", "must be different files");
 }
 
 }  // namespace
@@ -92,14 +87,14 @@ void require_different_files(const MapRequest& request)
 void add_mesh_arguments(CLI::App& app, MapRequest& request)
 {
     app.add_option("IN", request.input, "surface with holes: OBJ, OFF, PLY or STL")->required();
-    app.add_option("OUT", request.output, "OBJ to write: the same vertices and faces, with vt in [0, 1]^2")->required();
+    app.add_option("OUT", request.output, "OBJ or PLY to write: the same vertices and faces, with texture coordinates in [0, 1]^2")->required();
 }
 
 void add_map_options(CLI::App& app, MapRequest& request)
 {
     UniformizeOptions& options = request.options;
     app.add_option("--outer", request.outer, "loop for the unit circle: auto, longest, or that of a vertex (from 0)")
-        ->check(outer_loop_choice())
+        ->check(outer_loop_choice({"auto", "longest"}))
         ->type_name("auto|longest|VERTEX")
         ->capture_default_str();
     add_mapping_options(app, options);
@@ -110,7 +105,8 @@ void add_map_options(CLI::App& app, MapRequest& request)
 
 void check_map_options(MapRequest& request)
 {
-    require_different_files(request);
+    request.format = required_format(request.output);
+    require_different_files(output_files(request), {request.input}, !request.quiet);
     UniformizeOptions& options = request.options;
     if (request.outer == "auto") {
         options.outer = OuterLoop::automatic;
@@ -126,21 +122,23 @@ int run_map(const MapRequest& request, const MapFunction& compute)
 {
     const auto begin = Clock::now();
     const CancelToken token = cancel_on_signal();
-    require_writable_files(request);
+    require_writable_files(output_files(request), !request.quiet);
     const MeshInput input = read_mesh_input(request.input, token);
     UniformizeResult result;
     {
         ProgressLine progress(request.quiet);
         ExecutionContext context(progress.callback(), token);
-        result = with_filed_faces(
-            input, [&] { return compute(input.polygons.vertices, input.triangulation.triangles, context); });
+        result = with_filed_faces(input, [&] {
+            if (request.options.outer == OuterLoop::vertex) require_on_a_loop(input, request.options.outer_vertex);
+            return compute(input.polygons.vertices, input.triangulation.triangles, context);
+        });
         result.seconds.read = input.seconds;
         result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
         write_files(request, input, result, begin, context);
     }
     if (!request.quiet) {
-        print_result_line(request, result);
-        print_warnings(result);
+        print(result_line(request, result), "; the files are written");
+        show_warnings(result);
     }
     return result.converged ? done : not_converged;
 }

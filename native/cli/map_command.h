@@ -3,6 +3,7 @@
 
 #include "conformal/result.h"
 #include "core/execution.h"
+#include "io/mesh_writer.h"
 #include "report/json.h"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@ namespace koebe::cli {
 
 struct MapRequest {
     std::string input, output, json, svg, outer = "auto";
+    WrittenFormat format = WrittenFormat::obj;  ///< of OUT
     UniformizeOptions options;
     bool quiet = false;
     std::vector<std::pair<std::string, std::string>> names;  ///< entries of the report to set besides
@@ -26,7 +28,7 @@ void add_mesh_arguments(CLI::App& app, MapRequest& request);
 /// --outer, --tolerance, --max-sweeps, --json, --svg, --threads, --quiet.
 void add_map_options(CLI::App& app, MapRequest& request);
 /// Sets what the options' words mean.
-/// @throws CLI::ValidationError two of the files to write are one
+/// @throws CLI::ValidationError OUT names no format; two of the files are one
 void check_map_options(MapRequest& request);
 
 using MapFunction = std::function<UniformizeResult(const Vertices&, const Triangles&, ExecutionContext&)>;

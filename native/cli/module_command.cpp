@@ -3,14 +3,15 @@
 #include "cli/interrupt.h"
 #include "cli/mapping_options.h"
 #include "cli/shape_input.h"
+#include "cli/standard_streams.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
+#include "cli/wrong_usage.h"
 
-#include "core/errors.h"
+#include "report/json.h"
 #include "shape/conformal_module.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <numeric>
 
@@ -31,7 +32,8 @@ std::vector<int> order_of_ranks(const ShapeInput& shape, const std::vector<std::
     for (const std::string& word : words) {
         const auto found = std::ranges::find(shape.ranks, std::stoi(word));
         if (found == shape.ranks.end())
-            throw InputError("there is no boundary loop " + word + " among " + std::to_string(shape.ranks.size()));
+            throw WrongUsage("--loops: there is no boundary loop " + word + " among " +
+                             std::to_string(shape.ranks.size()) + ", counted from 0");
         order.push_back(static_cast<int>(found - shape.ranks.begin()));
     }
     return order;
@@ -50,8 +52,9 @@ std::vector<int> chosen_order(const ShapeInput& shape, const Request& request)
 int run(const Request& request)
 {
     const CancelToken token = cancel_on_signal();
+    require_standard_output();
     const ShapeInput shape = read_shape(request.input, request.options, token);
-    std::printf("%s\n", module_json(shape, chosen_order(shape, request)).dump(1).c_str());
+    print(json_text(module_json(shape, chosen_order(shape, request))));
     return shape.converged ? done : not_converged;
 }
 

@@ -20,7 +20,8 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
     const UniformizeResult result =
         with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
 
-    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged};
+    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged, input.warnings};
+    shape.warnings.insert(shape.warnings.end(), result.warnings.begin(), result.warnings.end());
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
     for (const LoopReport& loop : result.loops) {
         shape.circles.push_back(loop.circle);
@@ -42,7 +43,8 @@ nlohmann::ordered_json module_json(const ShapeInput& shape, const std::vector<in
             {"converged", shape.converged},
             {"loops", ranks},
             {"names", module_names(order.size())},
-            {"module", std::vector<double>(module.begin(), module.end())}};
+            {"module", std::vector<double>(module.begin(), module.end())},
+            {"warnings", shape.warnings}};
 }
 
 }  // namespace koebe::cli

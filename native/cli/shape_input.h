@@ -17,12 +17,13 @@ struct ShapeInput {
     std::vector<Circle> circles;  ///< the outer one first, then by length
     std::vector<Index> ranks;     ///< of each circle's loop, by lowest vertex as in `koebe fill`
     bool converged = false;
+    std::vector<std::string> warnings;
 };
 
 /// @throws FileError, InputError, TopologyError, SolverError, Cancelled
 ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token);
 
-/// {"version", "input", "converged", "loops", "names", "module"}: the module with the loops in this order.
+/// {"version", "input", "converged", "loops", "names", "module", "warnings"}: the module with the loops in this order.
 nlohmann::ordered_json module_json(const ShapeInput& shape, const std::vector<int>& order);
 
 }  // namespace koebe::cli

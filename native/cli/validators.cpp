@@ -1,8 +1,9 @@
 #include "cli/validators.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <string>
+#include <utility>
 
 namespace koebe::cli {
 namespace {
@@ -38,12 +39,14 @@ CLI::Validator positive_number()
     return {check, "", "positive_number"};
 }
 
-CLI::Validator outer_loop_choice()
+CLI::Validator outer_loop_choice(std::vector<std::string> words)
 {
-    const auto check = [](const std::string& word) -> std::string {
+    const auto check = [words = std::move(words)](const std::string& word) -> std::string {
         int vertex = 0;
-        if (word == "auto" || word == "longest" || (parse(word, vertex) && vertex >= 0)) return {};
-        return "must be auto, longest or the number of a vertex, counted from 0; got '" + word + "'";
+        if (std::ranges::find(words, word) != words.end() || (parse(word, vertex) && vertex >= 0)) return {};
+        std::string choice;
+        for (const std::string& known : words) choice += known + ", ";
+        return "must be " + choice + "or the number of a vertex, counted from 0; got '" + word + "'";
     };
     return {check, "", "outer_loop_choice"};
 }

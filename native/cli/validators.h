@@ -3,6 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+#include <vector>
+
 namespace koebe::cli {
 
 /// A whole number from `least` on that a 32-bit int can hold.
@@ -11,7 +14,7 @@ CLI::Validator whole_number(int least);
 /// A finite number above zero.
 CLI::Validator positive_number();
 
-/// auto, longest or a vertex, counted from 0.
-CLI::Validator outer_loop_choice();
+/// One of the words or a vertex, counted from 0.
+CLI::Validator outer_loop_choice(std::vector<std::string> words);
 
 }  // namespace koebe::cli

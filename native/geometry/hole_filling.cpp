@@ -11,6 +11,19 @@
 namespace koebe {
 namespace {
 
+/// Positions times a power of two, so that the largest coordinate is about 1: exact, and no sum overflows.
+struct ScaledPositions {
+    Vertices positions;
+    int exponent = 0;  ///< the positions are those given times 2^-exponent
+
+    explicit ScaledPositions(const Vertices& given)
+    {
+        const double largest = given.size() > 0 ? given.cwiseAbs().maxCoeff() : 0.0;
+        if (largest > 0.0) exponent = std::ilogb(largest);
+        positions = given.unaryExpr([this](double x) { return std::ldexp(x, -exponent); });
+    }
+};
+
 VectorXd edge_lengths_of(const Vertices& loop)
 {
     VectorXd lengths(loop.rows());
@@ -19,15 +32,18 @@ VectorXd edge_lengths_of(const Vertices& loop)
     return lengths;
 }
 
-Eigen::RowVector3d mass_center(const Vertices& loop)
+Eigen::RowVector3d mass_center(const Vertices& given)
 {
+    const ScaledPositions scaled(given);
+    const Vertices& loop = scaled.positions;
     const VectorXd lengths = edge_lengths_of(loop);
     const double total = lengths.sum();
-    if (!(total > 0.0)) return loop.colwise().mean();
     Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
-    for (Eigen::Index i = 0; i < loop.rows(); ++i)
+    for (Eigen::Index i = 0; i < loop.rows() && total > 0.0; ++i)
         center += lengths[i] / total * 0.5 * (loop.row(i) + loop.row((i + 1) % loop.rows()));
-    return center;
+    // Rounding may lead out of the box, where the largest numbers are not finite any more. A loop of no length is there.
+    center = center.cwiseMax(loop.colwise().minCoeff()).cwiseMin(loop.colwise().maxCoeff());
+    return center.unaryExpr([&](double x) { return std::ldexp(x, scaled.exponent); });
 }
 
 }  // namespace
@@ -67,6 +83,19 @@ std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std:
     std::sort(ranks.begin(), ranks.end());
     ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
     return ranks;
+}
+
+Index longest_loop(const Vertices& vertices, const Surface& surface)
+{
+    const Vertices positions = ScaledPositions(vertices).positions;
+    Index longest = 0;
+    double length = -1.0;
+    for (std::size_t k = 0; k < surface.loops.size(); ++k)
+        if (const double l = edge_lengths_of(positions(surface.loops[k], Eigen::all)).sum(); l > length) {
+            length = l;
+            longest = static_cast<Index>(k);
+        }
+    return longest;
 }
 
 FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,

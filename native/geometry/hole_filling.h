@@ -17,6 +17,7 @@ struct SurfacePatch {
 };
 
 /// Fan around the mass centre of the loop, the length-weighted mean of its edges.
+/// The centre is finite, and inside the loop's bounding box, for all finite positions.
 /// @param loop (m, 3) boundary loop, the surface on the left; the patch continues the surface's orientation
 /// @return m + 1 vertices, m triangles
 SurfacePatch fill_on_surface(const Vertices& loop);
@@ -37,6 +38,10 @@ struct FilledSurface {
 /// The loops to fill: the ranks given, sorted and once each, or all.
 /// @throws InputError a rank that does not exist
 std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std::vector<Index>>& loops);
+
+/// The rank of the longest boundary loop, the first of equal ones: what stays open if only the holes are filled.
+/// @param surface with one loop at least
+Index longest_loop(const Vertices& vertices, const Surface& surface);
 
 /// Fills boundary loops by fans on the surface.
 /// @param loops ranks of the loops to fill, in the order of Surface::loops; all of them if absent

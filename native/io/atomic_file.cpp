@@ -1,6 +1,8 @@
 #include "io/atomic_file.h"
 
 #include "io/file_error.h"
+#include "io/file_identity.h"
+#include "io/temporary_name.h"
 
 #include <atomic>
 #include <cerrno>
@@ -16,34 +18,11 @@ namespace koebe {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The file that a chain of symbolic links leads to, be it there or not.
-fs::path follow_links(fs::path path)
-{
-    std::error_code error;
-    for (int depth = 0; depth < 40 && fs::is_symlink(path, error); ++depth)
-        path = path.parent_path() / fs::read_symlink(path, error);
-    return path;
-}
-
-fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
-
-bool is_special(const fs::path& path)
-{
-    std::error_code error;
-    return fs::exists(path, error) && !fs::is_regular_file(path, error);
-}
+using io::folder_of;
 
 [[noreturn]] void fail_writing(const fs::path& path, int error_number)
 {
     throw FileError("cannot write " + path.string() + " (" + std::strerror(error_number) + ")");
-}
-
-/// A short name that does not depend on the target's, which may be as long as names can be.
-fs::path temporary_name(const fs::path& folder)
-{
-    static std::atomic<unsigned> counter{0};
-    return folder / (".koebe-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
 }
 
 /// @returns the target's permissions, if it is there
@@ -56,15 +35,22 @@ std::pair<bool, mode_t> permissions_of(const fs::path& path)
 
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& target) : target_(follow_links(target))
+fs::path io::temporary_name(const fs::path& folder)
 {
-    if (is_special(target_)) {
+    static std::atomic<unsigned> counter{0};
+    return folder / (".koebe-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+}
+
+AtomicFile::AtomicFile(const fs::path& target)
+    : target_(io::is_pipe_or_device(target) ? target : io::followed(target))  // a pipe's link leads to no path
+{
+    if (io::is_pipe_or_device(target_)) {
         descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
         if (descriptor_ < 0) fail();
         return;
     }
     do {
-        temporary_ = temporary_name(folder_of(target_));
+        temporary_ = io::temporary_name(folder_of(target_));
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) {
@@ -114,11 +100,15 @@ void AtomicFile::fail() const { fail_writing(target_, errno); }
 
 void require_writable(const fs::path& target)
 {
-    const fs::path file = follow_links(target);
+    if (io::is_pipe_or_device(target)) {
+        if (::access(target.c_str(), W_OK) != 0) fail_writing(target, errno);
+        return;
+    }
+    const fs::path file = io::followed(target);
     std::error_code error;
     if (file.empty()) fail_writing(target, ENOENT);
     if (fs::is_directory(file, error)) fail_writing(target, EISDIR);
-    if (is_special(file)) return;
+    if (fs::exists(file, error) && ::access(file.c_str(), W_OK) != 0) fail_writing(target, errno);
     const fs::path folder = folder_of(file);
     if (::access(folder.c_str(), W_OK | X_OK) != 0) fail_writing(target, errno);
     if (!fs::is_directory(folder, error)) fail_writing(target, ENOTDIR);

@@ -7,8 +7,10 @@
 namespace koebe {
 
 /// Writes to a temporary file in the target's folder, which commit renames to the target. Without commit, nothing
-/// of it stays and a file of the target's name stays as it was. A symbolic link is followed, and the permissions of
-/// the file replaced are kept. A target that is no regular file (a pipe, /dev/null) is written to directly.
+/// of it stays and a file of the target's name stays as it was; a process that is killed may leave the temporary file
+/// (io::temporary_name), which disturbs no later run. A symbolic link is followed, so that it stays and its target is
+/// replaced; the permissions of the file replaced are kept. A target that is no regular file (a pipe, /dev/null) is
+/// written to directly.
 class AtomicFile {
 public:
     /// @throws FileError the temporary file cannot be made
@@ -31,7 +33,7 @@ private:
 };
 
 /// What AtomicFile needs, asked before a long computation.
-/// @throws FileError the folder is missing or not writable, or the target is a folder
+/// @throws FileError the folder is missing or not writable; the target is a folder or a file that is not writable
 void require_writable(const std::filesystem::path& target);
 
 }  // namespace koebe

@@ -1,5 +1,6 @@
 #include "io/mesh_reader.h"
 
+#include "io/extension.h"
 #include "io/file_error.h"
 #include "io/format_readers.h"
 
@@ -14,12 +15,12 @@
 namespace koebe {
 namespace {
 
+namespace fs = std::filesystem;
 using Reader = PolygonMesh (*)(std::string);
 
-Reader reader_for(std::string extension)
+Reader reader_for(const std::string& filed)
 {
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = io::lower(filed);
     if (extension == ".obj") return io::read_obj;
     if (extension == ".off") return io::read_off;
     if (extension == ".ply") return io::read_ply;
@@ -27,16 +28,18 @@ Reader reader_for(std::string extension)
     throw InputError("format not supported: '" + extension + "'; supported are OBJ, OFF, PLY, STL");
 }
 
-std::string read_bytes(const std::filesystem::path& path)
+std::string read_bytes(const fs::path& path)
 {
     const auto fail = [&path] {
         throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")");
     };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     if (!file) fail();
+    if (fs::is_character_file(path) || fs::is_block_file(path))  // those may have no end
+        throw FileError("cannot read " + path.string() + " (it is a device)");
     std::string bytes;
     std::error_code no_size;  // a pipe has none
-    const auto size = std::filesystem::file_size(path, no_size);
+    const auto size = fs::file_size(path, no_size);
     std::size_t wanted = no_size ? 0 : static_cast<std::size_t>(size) + 1;
     for (std::size_t filled = 0;;) {
         wanted = std::max(wanted, filled + (std::size_t{1} << 16));

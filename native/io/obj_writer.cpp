@@ -1,52 +1,12 @@
 #include "io/obj_writer.h"
 
-#include "core/errors.h"
-
-#include <algorithm>
-#include <charconv>
-#include <string_view>
+#include "io/text_writer.h"
+#include "io/texture_coordinates.h"
 
 namespace koebe {
 namespace {
 
-/// Text to a file through a buffer that stays in the processor's cache.
-class TextWriter {
-public:
-    explicit TextWriter(AtomicFile& file) : file_(file), buffer_(std::size_t{1} << 16, '\0') {}
-
-    void add(char c)
-    {
-        reserve(1);
-        buffer_[used_++] = c;
-    }
-    void add(std::string_view word)
-    {
-        for (const char c : word) add(c);
-    }
-    template <typename Number>
-    void add_number(Number number)
-    {
-        reserve(longest_number);
-        char* const here = buffer_.data() + used_;
-        used_ += static_cast<std::size_t>(std::to_chars(here, here + longest_number, number).ptr - here);
-    }
-    void flush()
-    {
-        file_.write({buffer_.data(), used_});
-        used_ = 0;
-    }
-
-private:
-    static constexpr std::size_t longest_number = 24;  // bytes: -1.2345678901234567e-308
-    void reserve(std::size_t count)
-    {
-        if (used_ + count > buffer_.size()) flush();
-    }
-
-    AtomicFile& file_;
-    std::string buffer_;
-    std::size_t used_ = 0;
-};
+using io::TextWriter;
 
 void add_vertices(TextWriter& text, const Vertices& vertices)
 {
@@ -68,7 +28,7 @@ void add_texture_coordinates(TextWriter& text, const PlanarPoints& disk_points)
         text.add('t');
         for (int axis = 0; axis < 2; ++axis) {
             text.add(' ');
-            text.add_number(std::clamp(0.5 * (1.0 + disk_points(v, axis)), 0.0, 1.0));
+            text.add_number(io::texture_coordinate(disk_points(v, axis)));
         }
         text.add('\n');
     }
@@ -91,8 +51,7 @@ void add_face(TextWriter& text, std::span<const Index> face, bool with_texture)
 
 void write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points)
 {
-    if (disk_points.rows() != mesh.vertices.rows())
-        throw InputError("as many points of the disk as vertices are needed");
+    io::require_point_for_each_vertex(mesh, disk_points);
     TextWriter text(file);
     add_vertices(text, mesh.vertices);
     add_texture_coordinates(text, disk_points);

@@ -86,4 +86,9 @@ Json to_json(const UniformizeResult& result)
     return report;
 }
 
+std::string json_text(const Json& report)
+{
+    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace koebe

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
+
 namespace koebe {
 
 const char* to_string(Method method) noexcept;
@@ -17,5 +19,9 @@ nlohmann::ordered_json to_json(const UniformizeResult& result);
 /// The part of it that judges a map: angle_error_deg, beltrami, area_distortion, conformal_energy, flipped,
 /// below_resolution (the last two as counts).
 nlohmann::ordered_json to_json(const Distortion& distortion);
+
+/// A report as the text of a file: indented, and UTF-8 whatever bytes its strings have (file names may have any; what
+/// is no character becomes U+FFFD).
+std::string json_text(const nlohmann::ordered_json& report);
 
 }  // namespace koebe

@@ -1,50 +1,134 @@
 #include "shape/assignment.h"
 
-#include <limits>
+#define LEMON_ONLY_TEMPLATES  // header-only
+#include <lemon/network_simplex.h>
+#include <lemon/smart_graph.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <stdexcept>
 
 namespace koebe {
+namespace {
 
-std::vector<int> least_cost_assignment(const MatrixXd& cost)
+using Price = std::int64_t;
+using Prices = Eigen::Matrix<Price, Eigen::Dynamic, Eigen::Dynamic>;
+using Graph = lemon::SmartDigraph;
+
+constexpr int few = 16;         // pairs that a row or a column starts with
+constexpr int price_bits = 54;  // of a sum of n costs, so that no sum in the simplex method overflows
+
+/// The costs as whole numbers, the cheapest 0.
+Prices whole_costs(const MatrixXd& cost)
 {
-    constexpr int nobody = -1;
-    const int n = static_cast<int>(cost.rows());
-    VectorXd row_price = VectorXd::Zero(n), column_price = VectorXd::Zero(n);
-    std::vector<int> row_of(n, nobody);
-    for (int first = 0; first < n; ++first) {
-        // Dijkstra's algorithm on reduced costs, from this row to the nearest free column.
-        VectorXd distance = VectorXd::Constant(n, std::numeric_limits<double>::infinity());
-        std::vector<int> before(n, nobody);
-        std::vector<char> done(n, 0);
-        int row = first, column = nobody, last = nobody;
-        double reached = 0.0;
-        do {
-            for (int j = 0; j < n; ++j) {
-                const double way = reached + cost(row, j) - row_price[row] - column_price[j];
-                if (!done[j] && way < distance[j]) {
-                    distance[j] = way;
-                    before[j] = last;
-                }
-            }
-            column = nobody;
-            for (int j = 0; j < n; ++j)
-                if (!done[j] && (column == nobody || distance[j] < distance[column])) column = j;
-            done[column] = 1;
-            reached = distance[column];
-            last = column;
-            row = row_of[column];
-        } while (row != nobody);
+    const double least = cost.minCoeff(), range = cost.maxCoeff() - least;
+    const int bits = std::min(40, price_bits - static_cast<int>(std::bit_width(static_cast<std::size_t>(cost.rows()))));
+    const double scale = range > 0.0 ? std::ldexp(1.0, bits) / range : 0.0;
+    return ((cost.array() - least) * scale).round().cast<Price>();
+}
 
-        row_price[first] += reached;
-        for (int j = 0; j < n; ++j)
-            if (done[j]) {
-                column_price[j] += distance[j] - reached;
-                if (row_of[j] != nobody) row_price[row_of[j]] += reached - distance[j];
-            }
-        for (int j = column; j != nobody; j = before[j]) row_of[j] = before[j] == nobody ? first : row_of[before[j]];
+/// Marks the cheapest few rows of each column.
+void mark_cheap(const Prices& cost, std::vector<std::vector<int>>& rows_of)
+{
+    const int n = static_cast<int>(cost.rows()), count = std::min(few, n);
+    std::vector<int> rows(n);
+    for (int j = 0; j < n; ++j) {
+        std::iota(rows.begin(), rows.end(), 0);
+        const Price* column = cost.col(j).data();
+        std::nth_element(rows.begin(), rows.begin() + count - 1, rows.end(),
+                         [column](int a, int b) { return column[a] < column[b]; });
+        rows_of[j].assign(rows.begin(), rows.begin() + count);
     }
-    std::vector<int> assigned(n);
-    for (int j = 0; j < n; ++j) assigned[row_of[j]] = j;
-    return assigned;
+}
+
+/// For each column the rows it may go with: few, but for all to have one.
+std::vector<std::vector<int>> first_pairs(const Prices& cost)
+{
+    const int n = static_cast<int>(cost.rows());
+    std::vector<std::vector<int>> rows_of(n), columns_of(n);
+    mark_cheap(cost, rows_of);
+    mark_cheap(cost.transpose(), columns_of);
+    for (int i = 0; i < n; ++i)
+        for (const int j : columns_of[i]) rows_of[j].push_back(i);
+    for (int j = 0; j < n; ++j) {
+        rows_of[j].push_back(j);
+        std::ranges::sort(rows_of[j]);
+        rows_of[j].erase(std::unique(rows_of[j].begin(), rows_of[j].end()), rows_of[j].end());
+    }
+    return rows_of;
+}
+
+/// The best permutation over some of the pairs, and the prices that prove it: a cost is not below the difference of
+/// its column's price and its row's.
+struct Solution {
+    std::vector<int> column;
+    Eigen::Matrix<Price, Eigen::Dynamic, 1> row_price, column_price;
+};
+
+Solution solve(const Prices& cost, const std::vector<std::vector<int>>& rows_of)
+{
+    const int n = static_cast<int>(cost.rows());
+    Graph graph;
+    graph.reserveNode(2 * n);
+    for (int i = 0; i < 2 * n; ++i) graph.addNode();  // rows, then columns
+    const auto row = [&graph](int i) { return graph.nodeFromId(i); };
+    const auto column = [&graph, n](int j) { return graph.nodeFromId(n + j); };
+    for (int j = 0; j < n; ++j)
+        for (const int i : rows_of[j]) graph.addArc(row(i), column(j));
+    Graph::ArcMap<Price> price(graph);
+    for (Graph::ArcIt arc(graph); arc != lemon::INVALID; ++arc)
+        price[arc] = cost(graph.id(graph.source(arc)), graph.id(graph.target(arc)) - n);
+    Graph::NodeMap<Price> supply(graph);
+    for (int i = 0; i < n; ++i) {
+        supply[row(i)] = 1;
+        supply[column(i)] = -1;
+    }
+
+    lemon::NetworkSimplex<Graph, Price, Price> simplex(graph);
+    if (simplex.costMap(price).supplyMap(supply).run() != simplex.OPTIMAL)
+        throw std::logic_error("an assignment without a solution");  // each row j may go with column j
+    Solution solution{std::vector<int>(n), {}, {}};
+    solution.row_price.resize(n);
+    solution.column_price.resize(n);
+    for (Graph::ArcIt arc(graph); arc != lemon::INVALID; ++arc)
+        if (simplex.flow(arc) > 0)
+            solution.column[graph.id(graph.source(arc))] = graph.id(graph.target(arc)) - n;
+    for (int i = 0; i < n; ++i) {
+        solution.row_price[i] = simplex.potential(row(i));
+        solution.column_price[i] = simplex.potential(column(i));
+    }
+    return solution;
+}
+
+/// Adds the pairs that could lower the sum; false if there is none.
+bool add_cheaper(const Prices& cost, const Solution& solution, std::vector<std::vector<int>>& rows_of)
+{
+    const int n = static_cast<int>(cost.rows());
+    bool added = false;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+            if (cost(i, j) + solution.row_price[i] < solution.column_price[j]) {
+                rows_of[j].push_back(i);
+                added = true;
+            }
+    return added;
+}
+
+}  // namespace
+
+std::vector<int> least_cost_assignment(const MatrixXd& cost, const ExecutionContext& context)
+{
+    if (cost.rows() == 0) return {};
+    const Prices whole = whole_costs(cost);
+    std::vector<std::vector<int>> rows_of = first_pairs(whole);
+    for (;;) {
+        context.checkpoint();
+        Solution solution = solve(whole, rows_of);
+        if (!add_cheaper(whole, solution, rows_of)) return std::move(solution.column);
+    }
 }
 
 }  // namespace koebe

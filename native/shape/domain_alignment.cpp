@@ -43,13 +43,15 @@ struct Fit {
 };
 
 /// Levenberg's method from one start.
-Fit improve(const std::vector<Circle>& source, const std::vector<Circle>& target, const Moebius& start)
+Fit improve(const std::vector<Circle>& source, const std::vector<Circle>& target, const Moebius& start,
+            const ExecutionContext& context)
 {
     Fit fit{start};
     VectorXd now = differences(source, target, fit.map);
     fit.squares = now.squaredNorm();
     double damping = first_damping;
     while (fit.iterations < most_iterations && !fit.converged) {
+        context.checkpoint();
         ++fit.iterations;
         MatrixXd slope(now.size(), 3);
         for (int c = 0; c < 3; ++c) {
@@ -111,11 +113,11 @@ std::vector<Moebius> starts(const std::vector<Circle>& source, const std::vector
 }  // namespace
 
 DomainAlignment align_domains(const std::vector<Circle>& source, const std::vector<Circle>& target,
-                              std::vector<int> match)
+                              std::vector<int> match, const ExecutionContext& context)
 {
     DomainAlignment result;
     if (match.empty()) {
-        const LoopMatch found = match_loops(source, target);
+        const LoopMatch found = match_loops(source, target, false, context);
         match.resize(source.size());
         for (std::size_t i = 0; i < source.size(); ++i) match[found.order_a[i]] = found.order_b[i];
     } else {
@@ -140,7 +142,7 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
     Fit best;
     best.squares = std::numeric_limits<double>::infinity();
     for (const Moebius& start : starts(source, matched, largest))
-        if (const Fit fit = improve(source, matched, start); fit.squares < best.squares) best = fit;
+        if (const Fit fit = improve(source, matched, start, context); fit.squares < best.squares) best = fit;
 
     const VectorXd left = differences(source, matched, best.map);
     result.map = best.map;

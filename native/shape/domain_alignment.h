@@ -2,6 +2,7 @@
 #pragma once
 
 #include "conformal/moebius.h"
+#include "core/execution.h"
 
 #include <vector>
 
@@ -23,8 +24,8 @@ struct DomainAlignment {
 /// only if the domains are conformally equivalent. With one hole the circles leave the rotation free, and without a
 /// hole everything: the free part stays that of the identity.
 /// @param match as in the result, or empty to look for it
-/// @throws InputError as match_loops; a match that is no permutation or moves the outer loop
+/// @throws InputError as match_loops; a match that is no permutation or moves the outer loop; Cancelled
 DomainAlignment align_domains(const std::vector<Circle>& source, const std::vector<Circle>& target,
-                              std::vector<int> match = {});
+                              std::vector<int> match = {}, const ExecutionContext& context = {});
 
 }  // namespace koebe

@@ -5,6 +5,7 @@
 #include "shape/conformal_module.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -12,8 +13,18 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t exhaustive_loops = 7;  // inner loops; 7! = 5040 correspondences
-constexpr std::size_t most_candidates = 32;  // pairs of loops that are tried for one
+constexpr std::size_t most_starts = 32;      // pairs of loops that are tried for one
 constexpr int most_refinements = 8;
+constexpr double no_distance = 1e-10;  // of equal shapes, but for rounding: nothing better is looked for
+
+/// From so many loops on only the starts that promise most are followed up: each takes a time that grows with the
+/// square of their number.
+constexpr std::size_t many_loops = 250;
+
+std::size_t followed_starts(std::size_t loops)
+{
+    return loops < many_loops ? most_starts : std::max<std::size_t>(most_starts * many_loops / loops, 4);
+}
 
 /// One of the domains, seen from one of its loops as the outer one.
 struct View {
@@ -65,25 +76,45 @@ LoopMatch try_all(const View& a, const View& b)
     return best;
 }
 
-/// The orders with all but the first three loops assigned anew, in the position that these three fix.
-LoopMatch reassigned(const View& a, const View& b, const LoopMatch& given)
+constexpr Eigen::Index fixed = 3;  // loops that fix the position
+
+/// Squared differences of the circles that do not fix the position, a's as rows.
+MatrixXd costs(const View& a, const View& b, const LoopMatch& given)
 {
-    constexpr Eigen::Index fixed = 3;
-    const auto of_a = normalized_circles(a.circles, given.order_a), of_b = normalized_circles(b.circles, given.order_b);
-    const Eigen::Index n = static_cast<Eigen::Index>(of_a.size()) - fixed;
-    MatrixXd cost(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j)
-            cost(i, j) = std::norm(of_a[fixed + i].center - of_b[fixed + j].center) +
-                         std::pow(of_a[fixed + i].radius - of_b[fixed + j].radius, 2);
+    const auto coordinates = [](const std::vector<Circle>& circles) {
+        Eigen::Array3Xd result(3, static_cast<Eigen::Index>(circles.size()) - fixed);
+        for (Eigen::Index k = 0; k < result.cols(); ++k) {
+            const Circle& circle = circles[static_cast<std::size_t>(fixed + k)];
+            result.col(k) << circle.center.real(), circle.center.imag(), circle.radius;
+        }
+        return result;
+    };
+    const Eigen::Array3Xd of_a = coordinates(normalized_circles(a.circles, given.order_a));
+    const Eigen::Array3Xd of_b = coordinates(normalized_circles(b.circles, given.order_b));
+    MatrixXd cost(of_a.cols(), of_b.cols());
+    for (Eigen::Index j = 0; j < cost.cols(); ++j)
+        cost.col(j) = (of_a.colwise() - of_b.col(j)).square().colwise().sum().transpose();
+    return cost;
+}
+
+/// The orders with all but the first three loops assigned anew, in the position that these three fix.
+LoopMatch reassigned(const View& a, const View& b, const LoopMatch& given, const ExecutionContext& context)
+{
     std::vector<int> inner(given.order_a.begin() + 1, given.order_a.end());
     std::vector<int> partner(given.order_b.begin() + 1, given.order_b.begin() + fixed);
-    for (const int j : least_cost_assignment(cost)) partner.push_back(given.order_b[fixed + j]);
+    for (const int j : least_cost_assignment(costs(a, b, given), context)) partner.push_back(given.order_b[fixed + j]);
     return in_common_order(a, b, inner, partner);
 }
 
-/// Starts with each of the promising pairs of b's loops for the first two of a's.
-LoopMatch search(const View& a, const View& b)
+/// Orders that begin with the outer loops and a pair of inner ones, and what no assignment of the others can cost less
+/// than: each goes with its nearest.
+struct Start {
+    LoopMatch match;
+    double least_cost = 0.0;
+};
+
+/// The promising pairs of b's loops for the first two of a's, best first.
+std::vector<Start> starts(const View& a, const View& b, const ExecutionContext& context)
 {
     struct Candidate {
         int first, second;
@@ -100,31 +131,50 @@ LoopMatch search(const View& a, const View& b)
                                           std::abs(a.separation[two] - b.separation[l]) +
                                           std::abs(between - conformal_separation(b.circles[k], b.circles[l]))});
     std::ranges::stable_sort(candidates, {}, &Candidate::mismatch);
-    candidates.resize(std::min(candidates.size(), most_candidates));
+    candidates.resize(std::min(candidates.size(), most_starts));
 
+    std::vector<Start> result;
+    for (const Candidate& pair : candidates) {
+        context.checkpoint();
+        LoopMatch match{{a.outer}, {b.outer, pair.first, pair.second}};
+        match.order_a.insert(match.order_a.end(), a.inner.begin(), a.inner.end());
+        for (const int k : b.inner)
+            if (k != pair.first && k != pair.second) match.order_b.push_back(k);
+        const MatrixXd cost = costs(a, b, match);
+        const double least = std::max(cost.rowwise().minCoeff().sum(), cost.colwise().minCoeff().sum());
+        result.push_back({std::move(match), least});
+    }
+    std::ranges::stable_sort(result, {}, &Start::least_cost);
+    result.resize(std::min(result.size(), followed_starts(a.inner.size())));
+    return result;
+}
+
+LoopMatch search(const View& a, const View& b, const ExecutionContext& context)
+{
     LoopMatch best;
     best.distance = std::numeric_limits<double>::infinity();
-    for (const Candidate& pair : candidates) {
-        LoopMatch start{{a.outer}, {b.outer, pair.first, pair.second}};
-        start.order_a.insert(start.order_a.end(), a.inner.begin(), a.inner.end());
-        for (const int k : b.inner)
-            if (k != pair.first && k != pair.second) start.order_b.push_back(k);
-        LoopMatch match = reassigned(a, b, start);
-        for (int i = 0; i < most_refinements; ++i) {
-            LoopMatch next = reassigned(a, b, match);
+    for (const Start& start : starts(a, b, context)) {
+        if (a.inner.size() >= many_loops && std::sqrt(start.least_cost) >= best.distance) break;
+        LoopMatch match = reassigned(a, b, start.match, context);
+        for (int i = 0; i < most_refinements && match.distance > no_distance; ++i) {
+            LoopMatch next = reassigned(a, b, match, context);
             if (!(next.distance < match.distance)) break;
             match = std::move(next);
         }
         if (match.distance < best.distance) best = std::move(match);
+        if (best.distance <= no_distance) break;
     }
     best.exhaustive = false;
     return best;
 }
 
-LoopMatch match_views(const View& a, const View& b)
+LoopMatch match_views(const View& a, const View& b, const ExecutionContext& context)
 {
+    context.checkpoint();
     if (a.inner.size() <= exhaustive_loops) return try_all(a, b);
-    LoopMatch match = search(a, b), other = search(b, a);
+    LoopMatch match = search(a, b, context);
+    if (match.distance <= no_distance) return match;
+    LoopMatch other = search(b, a, context);
     if (other.distance < match.distance) {
         std::swap(other.order_a, other.order_b);
         return other;
@@ -132,19 +182,44 @@ LoopMatch match_views(const View& a, const View& b)
     return match;
 }
 
+/// The loops of `circles` that may be outside where the first of the other domain is, the likeliest first: whose
+/// separations from the others are like those there.
+std::vector<int> likely_outer(const View& other, const std::vector<Circle>& circles, const ExecutionContext& context)
+{
+    std::vector<std::pair<double, int>> likely;
+    for (int k = 1; k < static_cast<int>(circles.size()); ++k) {
+        context.checkpoint();
+        const View view(circles, k);
+        double unlike = 0.0;
+        for (std::size_t i = 0; i < view.inner.size(); ++i)
+            unlike += std::abs(view.separation[view.inner[i]] - other.separation[other.inner[i]]);
+        likely.emplace_back(unlike, k);
+    }
+    std::ranges::sort(likely);
+    likely.resize(std::min(likely.size(), followed_starts(circles.size())));
+    std::vector<int> loops;
+    for (const auto& [unlike, k] : likely) loops.push_back(k);
+    return loops;
+}
+
 }  // namespace
 
-LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b, bool any_outer)
+LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b, bool any_outer,
+                      const ExecutionContext& context)
 {
     require_circle_domain(a);
     require_circle_domain(b);
     if (a.size() != b.size())
         throw InputError("the surfaces have " + std::to_string(a.size()) + " and " + std::to_string(b.size()) +
                          " loops: their modules cannot be compared");
-    LoopMatch best = match_views(View(a, 0), View(b, 0));
-    for (int k = 1; any_outer && k < static_cast<int>(a.size()); ++k)
-        for (LoopMatch& next : std::vector{match_views(View(a, 0), View(b, k)), match_views(View(a, k), View(b, 0))})
-            if (next.distance < best.distance) best = std::move(next);
+    const View first_a(a, 0), first_b(b, 0);
+    LoopMatch best = match_views(first_a, first_b, context);
+    if (!any_outer) return best;
+    const auto try_also = [&](LoopMatch next) {
+        if (next.distance < best.distance) best = std::move(next);
+    };
+    for (const int k : likely_outer(first_a, b, context)) try_also(match_views(first_a, View(b, k), context));
+    for (const int k : likely_outer(first_b, a, context)) try_also(match_views(View(a, k), first_b, context));
     return best;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "conformal/result.h"
+#include "core/execution.h"
 
 #include <vector>
 
@@ -20,10 +21,14 @@ struct LoopMatch {
 /// only for equal shapes, and blind to how loops are numbered and to Moebius maps; the triangle inequality is not
 /// promised. Up to 7 inner loops all correspondences are tried. With more the best are sought among those that two
 /// pairs of loops induce: both domains are put into the position of their pair, the other loops assigned at the
-/// least sum of squared differences of centres and radii, and this repeated from the order that comes out.
+/// least sum of squared differences of centres and radii, and this repeated from the order that comes out. From 250
+/// loops on fewer than 32 such starts are followed up, 8 of 1000 loops: those whose circles come nearest to each other,
+/// and no more once an assignment of nearest circles would be farther than what was found.
 ///
-/// @param any_outer the outer loop of one may correspond to an inner loop of the other
-/// @throws InputError different numbers of loops; no circle domain (require_circle_domain)
-LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b, bool any_outer = false);
+/// @param any_outer the outer loop of one may correspond to an inner loop of the other; of more than 32 loops those are
+///        tried whose separations from the others are likest, as many as there are pairs
+/// @throws InputError different numbers of loops; no circle domain (require_circle_domain); Cancelled
+LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b, bool any_outer = false,
+                      const ExecutionContext& context = {});
 
 }  // namespace koebe

@@ -1,0 +1,18 @@
+// The one line on standard output.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace koebe::cli {
+
+/// "1 loop", "2 loops".
+std::string counted(std::size_t number, const std::string& noun);
+
+/// A text without line ends and other control characters, and in UTF-8: file names may have any bytes.
+std::string one_line(std::string text);
+
+/// The end of a result line: how many warnings there are, and the start of the first. Empty if there is none.
+std::string warning_count(const std::vector<std::string>& warnings);
+
+}  // namespace koebe::cli

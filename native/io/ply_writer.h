@@ -1,0 +1,25 @@
+// PLY files, as text: the polygons as they were filed, with texture coordinates or the numbers of patches.
+#pragma once
+
+#include "io/atomic_file.h"
+#include "io/polygon_mesh.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// Writes the mesh with u = (1 + x) / 2, v = (1 + y) / 2 of each vertex, clamped to [0, 1], under both pairs of names
+/// that programs look for: s and t (Blender), texture_u and texture_v (MeshLab, VTK). All numbers are the shortest
+/// that read back to the same 64-bit float. As text, since binary files of polygons with different numbers of corners
+/// are refused by readers in use (trimesh, meshio). The caller commits the file.
+/// @param disk_points (V, 2) points of the closed unit disk
+/// @throws InputError disk_points has not one row for each vertex
+/// @throws FileError
+void write_ply_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points);
+
+/// Writes the mesh with the property `patch` for each face. The caller commits the file.
+/// @param patch (F) number of each face's patch, -1 for none
+/// @throws FileError
+void write_ply_with_patches(AtomicFile& file, const PolygonMesh& mesh, const std::vector<Index>& patch);
+
+}  // namespace koebe

@@ -1,0 +1,101 @@
+"""What the tests of the command share: how it is called, meshes as files, and a reader of what it writes.
+
+The command is build/koebe, or what the environment variable KOEBE_COMMAND names.
+"""
+
+import os
+import struct
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+COMMAND = os.environ.get("KOEBE_COMMAND", str(ROOT / "build" / "koebe"))
+
+USAGE, CANNOT_BE_MAPPED, NOT_CONVERGED, INTERRUPTED = 2, 3, 4, 130
+
+
+def koebe(*args, **options):
+    return subprocess.run([COMMAND, *map(str, args)], capture_output=True, text=True, timeout=120, **options)
+
+
+def perforated(n=24, holes=((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))):
+    """A wavy square of n x n cells with round holes: vertices and quadrilaterals, no vertex unused."""
+    t = np.linspace(0.0, 1.0, n + 1)
+    points = np.stack([a.ravel() for a in np.meshgrid(t, t)], axis=1)
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    quads = np.stack([corner, corner + 1, corner + n + 2, corner + n + 1], axis=1)
+    center = points[quads].mean(axis=1)
+    for *middle, radius in holes:
+        inside = np.linalg.norm(center - middle, axis=1) < radius
+        rim = np.intersect1d(quads[inside], quads[~inside])
+        arm = points[rim] - middle
+        points[rim] = middle + radius * arm / np.linalg.norm(arm, axis=1, keepdims=True)
+        quads, center = quads[~inside], center[~inside]
+    used, quads = np.unique(quads, return_inverse=True)
+    x, y = points[used].T
+    return np.stack([x, y, 0.15 * np.sin(3.0 * x) * np.cos(2.0 * y)], axis=1), quads.reshape(-1, 4)
+
+
+def triangles_of(quads):
+    return quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+
+def obj_text(vertices, faces):
+    lines = ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
+    lines += ["f " + " ".join(str(i + 1) for i in f) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def off_text(vertices, faces):
+    lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
+    lines += [" ".join(repr(float(x)) for x in v) for v in vertices]
+    lines += [" ".join(map(str, [len(f), *f])) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def ply_bytes(vertices, faces):
+    header = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n"
+        "property double x\nproperty double y\nproperty double z\n"
+        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    body = b"".join(struct.pack(f"<B{len(f)}i", len(f), *f) for f in faces)
+    return header.encode() + np.asarray(vertices, dtype="<f8").tobytes() + body
+
+
+def stl_text(vertices, triangles):
+    facets = []
+    for triangle in triangles:
+        corners = "".join(f"vertex {x!r} {y!r} {z!r}\n" for x, y, z in vertices[triangle].tolist())
+        facets.append(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    return "solid a\n" + "".join(facets) + "endsolid a\n"
+
+
+class Obj:
+    """An OBJ as it is written: vertices, texture coordinates, faces as tuples, groups as [(name, first face)]."""
+
+    def __init__(self, path):
+        self.vertices, self.uv, self.faces, self.groups = [], [], [], []
+        for line in Path(path).read_text().splitlines():
+            keyword, *words = line.split() or [""]
+            if keyword == "v":
+                self.vertices.append([float(w) for w in words])
+            elif keyword == "vt":
+                self.uv.append([float(w) for w in words])
+            elif keyword == "f":
+                corners = [w.split("/") for w in words]
+                assert all(len(set(c)) == 1 for c in corners), "vt has another number than v"
+                self.faces.append(tuple(int(c[0]) - 1 for c in corners))
+            elif keyword == "g":
+                self.groups.append((words[0], len(self.faces)))
+        self.vertices, self.uv = np.array(self.vertices), np.array(self.uv)
+
+
+def names(folder):
+    return {p.name for p in folder.iterdir()}
+
+
+def disk(uv):
+    return 2.0 * uv - 1.0
