@@ -22,6 +22,7 @@ SCRATCH = ".unpacking-"  # folders and files that are not whole yet
 ABANDONED_SECONDS = 3600.0  # age at which one is of a program that was killed
 KNOWN = "checked.json"  # beside unpacked wheels: size and time of the files whose hash was right
 INSTALL_AGAIN = "remove the add-on and install it again"
+EMPTY = "its RECORD is empty"
 
 
 class WheelError(Exception):
@@ -149,7 +150,7 @@ def _parse(record):
     """The lines of a RECORD that have a hash: name -> (hash, size)."""
     rows = [row for row in csv.reader(io.StringIO(record.decode("utf-8"))) if len(row) == 3 and row[1]]
     if not rows:
-        raise ValueError("its RECORD is empty")
+        raise ValueError(EMPTY)
     return {name: (digest.removeprefix("sha256="), int(size)) for name, digest, size in rows}
 
 
