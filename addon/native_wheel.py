@@ -134,10 +134,11 @@ class Wheel:
 
 def remove_leftovers(place, wheel, keep):
     """Remove from a place for unpacked wheels what else was made for the same interpreter, and unfinished work."""
+    tags = wheel.path.stem.split("-")[2:5]
     with contextlib.suppress(OSError):
         for other in place.iterdir():
-            same_tags = other.name.startswith("koebe-") and other.name.split("-")[2:5] == wheel.path.stem.split("-")[2:5]
-            if other != keep and (same_tags or _is_abandoned(other)):
+            outdated = other.name.startswith("koebe-") and other.name.split("-")[2:5] == tags
+            if other != keep and (outdated or _is_abandoned(other)):
                 shutil.rmtree(other, ignore_errors=True)
         place.rmdir()  # if nothing else is in it
 

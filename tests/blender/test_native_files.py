@@ -205,8 +205,8 @@ def test_a_package_of_that_name_from_elsewhere_is_not_taken(home):
 
 def test_another_version_in_the_same_session_is_an_error(home):
     script = home.script.read_text()
-    loaded = "import sys, types\nsys.modules['koebe'] = types.ModuleType('koebe')\n"
-    home.script.write_text(f"{loaded}sys.modules['koebe'].__file__, sys.modules['koebe'].__version__ = 'there', '0'\n{script}")
+    loaded = "import sys, types\nkoebe = sys.modules['koebe'] = types.ModuleType('koebe')\n"
+    home.script.write_text(f"{loaded}koebe.__file__, koebe.__version__ = 'there', '0'\n{script}")
     said, _ = home.load()
     assert said.startswith("REFUSED") and "restart Blender" in said
 
