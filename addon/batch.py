@@ -15,6 +15,7 @@ import concurrent.futures
 import importlib.util
 import os
 import shutil
+import signal
 import sys
 import traceback
 from pathlib import Path
@@ -34,6 +35,8 @@ def load_package():
     spec.loader.exec_module(package)
 
 
+for name in {"SIGXFSZ", "SIGPIPE"} & set(dir(signal)):  # a file or a pipe that takes no more is an error, not the end
+    signal.signal(getattr(signal, name), signal.SIG_IGN)
 load_package()
 
 from koebe_uv_batch import batch_exit  # noqa: E402

@@ -36,9 +36,6 @@ class Signals:
             # What the caller has ignored, as nohup does, stays ignored.
             if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, self._note)
-        for name in ("SIGXFSZ", "SIGPIPE"):  # a file or a pipe that takes no more is an error, not the end
-            if hasattr(signal, name):
-                signal.signal(getattr(signal, name), signal.SIG_IGN)
 
     def _note(self, number, frame):
         self.came = True

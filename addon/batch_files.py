@@ -33,7 +33,7 @@ class Target:
         self.path = Path(path[1:] if path.startswith("//") else path)  # which Blender takes for the .blend's folder
         self._temporary = self._write = None
         try:
-            self.direct = _is_stream(self.path)
+            self.direct = _is_stream(given)
             if not self.direct:
                 self._require_writable()
         except OSError as error:
@@ -73,7 +73,7 @@ class Target:
         """Move what was filled in to its place."""
         with self._failure():
             if self.direct:
-                self._write(str(self.path))
+                self._write(self.given)
             else:
                 os.replace(self._temporary, self.path)
                 self._temporary = None

@@ -58,11 +58,11 @@ def in_their_places(objects):
     try:
         for scene, ones in hidden.items():
             helpers += [_helper(obj, scene) for obj in ones]
-            layer = scene.view_layers[0]
-            layer.update()
+            # Not only an update of the view layer: 3.4 does not animate another scene by that.
+            scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
             for obj in ones:  # 3.4 needs to be told again of one whose visibility is animated
                 obj.update_tag(refresh={"OBJECT"})
-            layer.update()
+            scene.view_layers[0].update()
         yield
     finally:
         for helper in helpers:
