@@ -92,7 +92,7 @@ def _checker_size(text):
 def _split(texts):
     """The names in the values of --objects: commas divide them, except in double quotes, as in a CSV file."""
     try:
-        names = [name for text in texts for name in next(csv.reader([text], strict=True), [""])]
+        names = [name for text in texts for name in next(csv.reader([text], strict=True), None) or [""]]
     except csv.Error as error:
         raise Stop(USAGE, f"--objects: {error}") from None
     if "" in names:

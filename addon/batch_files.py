@@ -7,7 +7,6 @@ import math
 import os
 import shutil
 import stat
-import sys
 import tempfile
 import time
 import unicodedata
@@ -33,11 +32,16 @@ class Target:
         self.path = Path(path[1:] if path.startswith("//") else path)  # which Blender takes for the .blend's folder
         self._temporary = self._write = None
         try:
-            self.direct = _is_stream(given)
+            self._sink = _sink(given)
             if not self.direct:
                 self._require_writable()
         except OSError as error:
             raise Stop(USAGE, f"{given} cannot be written: {error.strerror or error}") from None
+
+    @property
+    def direct(self):
+        """Whether it is written to directly: a device, a pipe, or the file into which this process prints."""
+        return self._sink is not None
 
     def _require_writable(self):
         folder = self.path.parent
@@ -73,7 +77,7 @@ class Target:
         """Move what was filled in to its place."""
         with self._failure():
             if self.direct:
-                self._write(self.given)
+                self._write(os.dup(self._sink) if isinstance(self._sink, int) else self._sink)
             else:
                 os.replace(self._temporary, self.path)
                 self._temporary = None
@@ -110,7 +114,7 @@ def write_all(makers, last_chance):
 
 
 def save_json(path, content):
-    """Save plain values there; after whatever a device or a pipe was given before."""
+    """Save plain values in a file or a descriptor; after whatever a device or a pipe was given before."""
     with open(path, "a", encoding="utf-8") as file:
         file.write(json.dumps(_finite(content), indent=1, allow_nan=False) + "\n")
 
@@ -140,19 +144,17 @@ def _folded(name):
     return unicodedata.normalize("NFC", name).casefold()
 
 
-def _is_stream(path):
-    """Whether it is a device or a pipe, or the file into which this process prints."""
+def _sink(path):
+    """What to open instead of replacing the file: a descriptor of this process's, the path, or None."""
     try:
         status = os.stat(path)
     except FileNotFoundError:
-        return False
-    if not (stat.S_ISREG(status.st_mode) or stat.S_ISDIR(status.st_mode)):
-        return True
-    for stream in (sys.__stdout__, sys.__stderr__):
-        with contextlib.suppress(OSError, ValueError, AttributeError):
-            if os.path.samestat(os.fstat(stream.fileno()), status):
-                return True
-    return False
+        return None
+    for descriptor in (1, 2):  # opened anew, it would be written over what is printed
+        with contextlib.suppress(OSError):
+            if os.path.samestat(os.fstat(descriptor), status):
+                return descriptor
+    return None if stat.S_ISREG(status.st_mode) or stat.S_ISDIR(status.st_mode) else path
 
 
 def _remove_abandoned(folder):
