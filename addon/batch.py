@@ -2,204 +2,234 @@
 """Map the objects of a .blend file without a window.
 
     blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend --report OUT.json [options]
+    blender -b --python-exit-code 1 -P batch.py -- IN.blend --output OUT.blend --report OUT.json [options]
     python batch.py IN.blend -- --output OUT.blend --report OUT.json [options]     (with the bpy module)
 
-Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage,
-3 a mesh cannot be mapped (no OUT), 4 not converged (OUT is written).
-OUT and the report are written to temporary files and renamed: each is whole or absent.
+Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage, 3 the file cannot be read or an
+object cannot be mapped (no OUT), 4 not converged (OUT is written), 130 interrupted (nothing is written).
+OUT and the report are written to temporary files and renamed: each is whole or absent. There is a report whenever the
+exit code is 0, 3 or 4, and with 1 if it can be written.
 """
 
-import argparse
+import concurrent.futures
 import importlib.util
-import json
 import os
+import shutil
+import signal
 import sys
-import uuid
+import traceback
 from pathlib import Path
-
-import bpy
 
 HERE = Path(__file__).resolve().parent
 PACKAGE = "koebe_uv_batch"  # a name of its own: another copy of the add-on may be enabled
 
-DONE, NOT_INSTALLED, USAGE, UNMAPPABLE, NOT_CONVERGED = range(5)
+POLL_SECONDS = 0.05  # how soon a signal is obeyed while the computation runs
+PATIENCE_SECONDS = 10.0  # how long its next checkpoint is waited for then
 
 
 def load_package():
     """Import the add-on that this script is part of, installed or not, without registering it."""
-    spec = importlib.util.spec_from_file_location(
-        PACKAGE, HERE / "__init__.py", submodule_search_locations=[str(HERE)]
-    )
+    spec = importlib.util.spec_from_file_location(PACKAGE, HERE / "__init__.py", submodule_search_locations=[str(HERE)])
     package = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = package
     spec.loader.exec_module(package)
 
 
+for name in {"SIGXFSZ", "SIGPIPE"} & set(dir(signal)):  # a file or a pipe that takes no more is an error, not the end
+    signal.signal(getattr(signal, name), signal.SIG_IGN)
 load_package()
 
+from koebe_uv_batch import batch_exit  # noqa: E402
+
+SIGNALS = batch_exit.Signals()  # before bpy, which as a module takes a second to load
+
+import bpy  # noqa: E402
+from koebe_uv_batch import batch_arguments, batch_files, batch_objects, native, report, transfer  # noqa: E402
 from koebe_uv_batch import job as koebe_job  # noqa: E402
-from koebe_uv_batch import native, options, report, transfer  # noqa: E402
+from koebe_uv_batch.batch_exit import Stop  # noqa: E402
 
-
-def parse(arguments):
-    """The command line's options. Exits with code 2 if they are wrong."""
-    default = options.Options()
-    parser = argparse.ArgumentParser(prog="batch.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--output", type=Path, required=True, metavar="OUT.blend")
-    parser.add_argument("--report", type=Path, metavar="OUT.json")
-    parser.add_argument("--objects", metavar="A,B,...", help="default: all meshes of the scene")
-    parser.add_argument("--method", choices=options.METHODS, default=default.method)
-    parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
-    parser.add_argument("--outer", type=outer_loop, default=default.outer, metavar="auto|longest|VERTEX")
-    parser.add_argument("--tolerance", type=float, default=default.tolerance)
-    parser.add_argument("--max-sweeps", type=int, default=default.max_sweeps)
-    parser.add_argument("--balance", choices=options.BALANCES, default=default.balance)
-    parser.add_argument("--polish", action=argparse.BooleanOptionalAction, default=default.polish)
-    parser.add_argument("--threads", type=int, default=default.threads, help="0: all cores")
-    parser.add_argument("--upright", action=argparse.BooleanOptionalAction, default=default.upright)
-    parser.add_argument("--tube", choices=options.TUBES, default=default.tube)
-    parser.add_argument("--layer", default=default.layer, help="UV layer to write")
-    parser.add_argument("--placement", choices=options.PLACEMENTS, default=default.placement)
-    parser.add_argument("--margin", type=float, default=default.margin, help="between islands, in UV units")
-    parser.add_argument("--checker", action=argparse.BooleanOptionalAction, default=default.checker)
-    parser.add_argument("--checker-size", type=float, default=default.checker_size, metavar="SQUARES")
-    parser.add_argument("--checker-even", action=argparse.BooleanOptionalAction, default=default.checker_even)
-    values = vars(parser.parse_args(arguments))
-    output, report_file, objects = (values.pop(name) for name in ("output", "report", "objects"))
-    for file in (output, report_file):
-        if file is not None and not file.absolute().parent.is_dir():
-            parser.error(f"there is no folder {file.absolute().parent}")
-    try:
-        chosen = options.Options(**values)
-    except options.OptionError as error:
-        parser.error(str(error))
-    return output, report_file, objects, chosen
-
-
-def outer_loop(text):
-    """The value of --outer."""
-    if text in ("auto", "longest"):
-        return text
-    if not text.isdigit():
-        raise argparse.ArgumentTypeError(f"{text!r} is not auto, longest or a vertex index")
-    return int(text)
-
-
-def mesh_objects(names):
-    """The mesh objects of the scene, or those named. Exits with code 2 if one is missing."""
-    if names is None:
-        found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
-        return found or fail(USAGE, "the scene has no mesh objects")
-    found = []
-    for name in names.split(","):
-        obj = bpy.data.objects.get(name)
-        if obj is None or obj.type != "MESH":
-            fail(USAGE, f"there is no mesh object named {name!r}")
-        found.append(obj)
-    return found
-
-
-def fail(code, message):
-    """Say why on stderr and end."""
-    print(f"koebe: {message}", file=sys.stderr, flush=True)
-    sys.exit(code)
-
-
-def leave_edit_mode(objects):
-    """A file may have been saved in Edit Mode."""
-    for obj in objects:
-        if obj.mode != "OBJECT":
-            bpy.context.view_layer.objects.active = obj
-            bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def write_whole(path, write):
-    """Let `write(temporary)` make a file beside `path`, then rename it."""
-    path = path.absolute()
-    # No file of that name may exist yet: Blender would keep it as a backup.
-    temporary = path.with_name(f".{path.stem}-{uuid.uuid4().hex}{path.suffix}")
-    try:
-        write(str(temporary))
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def save_blend(path):
-    """Save the open file there."""
-    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, check_existing=False)
-
-
-def save_json(path, content):
-    """Save plain values there."""
-    Path(path).write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-
-
-def run(output, report_file, names, chosen):
-    """Map, save, report; return the exit code."""
-    source = bpy.data.filepath
-    objects = mesh_objects(names)
-    leave_edit_mode(objects)
-    bpy.context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-    try:
-        job = koebe_job.Job(objects, chosen)
-    except native.NativeError as error:
-        fail(NOT_INSTALLED, error)
-    except transfer.TransferError as error:
-        fail(UNMAPPABLE, error)
-    if chosen.placement == "keep":
-        job.read_old_uv()
-    job.compute()
-
-    failed = [outcome for outcome in job.outcomes if outcome.failed]
-    if failed:
-        code = UNMAPPABLE
-    elif all(outcome.converged for outcome in job.outcomes):
-        code = DONE
-    else:
-        code = NOT_CONVERGED
-    if code != UNMAPPABLE:
-        job.write()
-        write_whole(output, save_blend)
-    if report_file is not None:
-        content = {
-            "input": source,
-            "output": None if code == UNMAPPABLE else str(output),
-            "layer": chosen.layer,
-            "exit_code": code,
-            "objects": [entry for outcome in job.outcomes for entry in report.entries(outcome)],
-        }
-        write_whole(report_file, lambda path: save_json(path, content))
-    for outcome in job.outcomes:
-        if outcome.mapped:
-            print(report.result_line(outcome), flush=True)
-        if outcome.failed:
-            print(f"koebe: {report.failure_line(outcome)}", file=sys.stderr, flush=True)
-    return code
+OUT_OF_MEMORY = Stop(batch_exit.UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
 
 
 def main():
-    """Entry point of Blender's -P and of a plain Python with the bpy module."""
-    before, _, after = (list(part) for part in partition(sys.argv, "--"))
-    chosen = parse(after)
-    if not bpy.app.binary_path:
-        if len(before) != 2:
-            fail(USAGE, "usage: python batch.py IN.blend -- --output OUT.blend [options]")
+    """Entry point of Blender's -P and of a plain Python with the bpy module: the exit code."""
+    try:
+        return run()
+    except Stop as stop:
+        batch_exit.tell(stop.reason)
+        return stop.code
+    except Exception:
+        traceback.print_exc()
+        return batch_exit.BROKEN
+
+
+def run():
+    """Read, map, save, report; return the exit code. Raises Stop where there is nothing to report on."""
+    request, source = request_and_source()
+    output, report_file = targets(request, source)
+    content = {"input": source, "output": None, "layer": request.options.layer, "exit_code": None, "objects": []}
+    job = None
+    try:
+        open_source(source)
+        refuse_what_is_read([file for file in (output, report_file) if file is not None])
+        job = map_objects(request)
+        code = exit_code(job)
+        content["objects"] = [entry for outcome in job.outcomes for entry in report.entries(outcome)]
+    except (Stop, MemoryError) as error:
+        stop = error if isinstance(error, Stop) else OUT_OF_MEMORY
+        if stop.code not in (batch_exit.BROKEN, batch_exit.UNMAPPABLE):
+            raise
+        batch_exit.tell(stop.reason)
+        code = stop.code
+        content.update(error={"name": stop.name, "reason": stop.reason}, objects=stop.objects)
+    content["exit_code"] = code
+    if code not in (batch_exit.DONE, batch_exit.NOT_CONVERGED):
+        output = None
+    else:
+        content["output"] = request.output
+    save(output, report_file, content)
+    tell_outcomes(job.outcomes if job is not None else ())
+    return code
+
+
+def request_and_source():
+    """What is asked for, and the path of the .blend file."""
+    at = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
+    request = batch_arguments.parse(sys.argv[at + 1 :])
+    sources = [bpy.data.filepath] if bpy.app.binary_path else sys.argv[1:at]
+    sources = [source for source in (*sources, request.source) if source]
+    if len(sources) != 1:
+        what = "no IN.blend" if not sources else f"more than one IN.blend: {', '.join(sources)}"
+        usage = batch_arguments.IN_BLENDER if bpy.app.binary_path else batch_arguments.WITH_BPY
+        raise Stop(batch_exit.USAGE, f"{what}; usage: {usage}")
+    return request, os.path.abspath(sources[0])
+
+
+def targets(request, source):
+    """The files to write, of which the second may be None."""
+    output = batch_files.Target(request.output)
+    if output.direct:
+        raise Stop(batch_exit.USAGE, f"--output {request.output} is no file that can be replaced")
+    if request.report is None:
+        return output, None
+    for other, what in ((source, "the input"), (output.path, "the output")):
+        if batch_files.is_same(request.report, other):
+            raise Stop(batch_exit.USAGE, f"--report {request.report} is {what}")
+    return output, batch_files.Target(request.report)
+
+
+def open_source(source):
+    """Open the file, unless Blender has. What a newer Blender has saved this one reads with losses, or crashes."""
+    if bpy.data.filepath != source:
         try:
-            bpy.ops.wm.open_mainfile(filepath=str(Path(before[1]).absolute()))
+            bpy.ops.wm.open_mainfile(filepath=source)
         except RuntimeError as error:
-            fail(USAGE, str(error).strip())
-    if not bpy.data.filepath:
-        fail(USAGE, "no .blend file is open: blender -b IN.blend -P batch.py -- --output OUT.blend [options]")
-    return run(*chosen)
+            reason = str(error).strip().removeprefix("Error: ")
+            raise Stop(batch_exit.UNMAPPABLE, f"{source} cannot be read: {reason}", "FileError") from None
+    if bpy.data.version[:2] > bpy.app.version[:2]:
+        by, this = (".".join(map(str, version[:2])) for version in (bpy.data.version, bpy.app.version))
+        reason = f"{source} was saved by Blender {by}, and this is {this}: data would be lost"
+        raise Stop(batch_exit.UNMAPPABLE, reason, "FileError")
+    SIGNALS.obey()
 
 
-def partition(items, mark):
-    """What is before the first mark, the mark, what is after it."""
-    if mark not in items:
-        return items, [], []
-    at = items.index(mark)
-    return items[:at], [mark], items[at + 1 :]
+def refuse_what_is_read(files):
+    """No file is written onto a library, an image or whatever else the .blend reads."""
+    for path in bpy.utils.blend_paths(absolute=True):
+        for file in files:
+            if os.path.exists(path) and batch_files.is_same(path, file.path):
+                raise Stop(batch_exit.USAGE, f"{file.given} is a file that the input uses")
+
+
+def map_objects(request):
+    """The job that was run, its results written into the open file unless an object failed."""
+    objects = batch_objects.chosen_objects(request.names)
+    batch_objects.leave_edit_mode(objects)
+    with batch_objects.in_their_places(objects):
+        job = new_job(objects, request)
+        check_outer(job)
+        if request.options.placement == "keep":
+            job.read_old_uv()
+        compute(job)
+        if exit_code(job) != batch_exit.UNMAPPABLE:
+            job.write()
+    SIGNALS.obey()
+    return job
+
+
+def new_job(objects, request):
+    """A job on all the objects, or the reasons why some of them cannot be mapped."""
+    without_faces = [obj.name for obj in objects if len(obj.data.polygons) == 0]
+    if without_faces and (request.names is not None or len(without_faces) == len(objects)):
+        raise batch_exit.refusal(dict.fromkeys(without_faces, "it has no faces"))
+    try:
+        return koebe_job.Job(objects, request.options)
+    except native.NativeError as error:
+        raise Stop(batch_exit.BROKEN, error, "NativeError") from error
+    except transfer.TransferError as error:
+        raise batch_exit.refusal(reasons(objects, request.options) or {"all objects": str(error)}) from error
+
+
+def reasons(objects, chosen):
+    """Why objects cannot be mapped, by their names."""
+    found = {}
+    for obj in objects:
+        try:
+            if len(obj.data.polygons):
+                koebe_job.Job([obj], chosen)
+        except transfer.TransferError as error:
+            found[obj.name] = str(error).removeprefix(f"{obj.name}: ")
+    return found
+
+
+def check_outer(job):
+    """A vertex asked for as that of the outer loop has to be one."""
+    outer = job.options.outer
+    for task in job.tasks if isinstance(outer, int) else ():
+        if not (task.surface.corner_vertex == outer).any():
+            raise Stop(batch_exit.USAGE, f"--outer {outer}: {task.name!r} has no face at a vertex of that number")
+
+
+def compute(job):
+    """Run the job on a thread, so that a signal is heard at once; it ends at the next checkpoint, or is left alone."""
+    future = concurrent.futures.ThreadPoolExecutor(max_workers=1).submit(job.compute)
+    while not concurrent.futures.wait([future], POLL_SECONDS).done:
+        if SIGNALS.came:
+            job.cancel_token.cancel()
+            if not concurrent.futures.wait([future], PATIENCE_SECONDS).done:
+                batch_exit.tell("interrupted: nothing was written")
+                shutil.rmtree(bpy.app.tempdir, ignore_errors=True)
+                os._exit(batch_exit.INTERRUPTED)
+    SIGNALS.obey()
+    future.result()
+
+
+def exit_code(job):
+    """The code for a job that was run."""
+    if any(outcome.failed for outcome in job.outcomes):
+        return batch_exit.UNMAPPABLE
+    return batch_exit.DONE if all(outcome.converged for outcome in job.outcomes) else batch_exit.NOT_CONVERGED
+
+
+def save(output, report_file, content):
+    """Write the open file and the report, each of which may be None. Where the report is, the output is too."""
+    makers = {output: save_blend, report_file: lambda path: batch_files.save_json(path, content)}
+    makers.pop(None, None)
+    batch_files.write_all(makers, SIGNALS.obey)
+
+
+def save_blend(path):
+    """Save the open file there. Not compressed: then Blender takes no notice of a full disk."""
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, check_existing=False, compress=False)
+
+
+def tell_outcomes(outcomes):
+    """The result lines of the objects, and the reasons of those that failed."""
+    for outcome in outcomes:
+        if outcome.mapped:
+            batch_exit.say(report.result_line(outcome), sys.stdout)
+        if outcome.failed:
+            batch_exit.tell(report.failure_line(outcome))
 
 
 if __name__ == "__main__":

@@ -199,5 +199,5 @@ def test_a_file_that_is_no_blend(batch, tmp_path):
     junk = tmp_path / "in.blend"
     junk.write_text("this is no blend file")
     done = batch("--output", "out.blend", source=junk)
-    assert done.returncode not in (0, 3, 4)
+    assert done.returncode == (1 if bpy.app.binary_path else 3)  # Blender itself ends, before it runs a script
     assert outputs(tmp_path) == []

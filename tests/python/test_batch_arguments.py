@@ -1,0 +1,93 @@
+"""The batch script's command line: what is out of range is exit code 2 and one line. Without Blender."""
+
+import importlib
+import importlib.util
+import random
+import sys
+from pathlib import Path
+
+import pytest
+
+ADDON = Path(__file__).resolve().parents[2] / "addon"
+OUT = ["--output", "out.blend"]
+
+
+@pytest.fixture(scope="module")
+def batch():
+    """A function that imports one of the modules that need no bpy."""
+    spec = importlib.util.spec_from_file_location(
+        "addon_without_bpy", ADDON / "__init__.py", submodule_search_locations=[str(ADDON)]
+    )
+    sys.modules["addon_without_bpy"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sys.modules["addon_without_bpy"])
+    return lambda name: importlib.import_module(f"addon_without_bpy.{name}")
+
+
+WRONG = [
+    [], ["--output"], ["--what"], ["in.blend", "more.blend", *OUT], [*OUT, "--out", "x"],
+    *([*OUT, "--outer", value] for value in
+      ("", "sideways", "-1", "1.5", "2147483648", "99999999999999999999999", "²", "٣", "0x10", "active", " 1")),
+    *([*OUT, "--tolerance", value] for value in ("0", "-1e-6", "nan", "inf", "1e-400", "x", "")),
+    *([*OUT, "--max-sweeps", value] for value in ("0", "-1", "1.0", "2147483648", "1e3", "nan", "")),
+    *([*OUT, "--threads", value] for value in ("-1", "2147483648", "two", "")),
+    *([*OUT, "--margin", value] for value in ("-0.001", "0.5", "1", "nan", "inf", "")),
+    *([*OUT, "--checker-size", value] for value in ("0", "-1", "nan", "inf", "1e39", "1e-39", "")),
+    *([*OUT, "--layer", value] for value in ("", "  ", ".hidden", "x" * 64, "ö" * 32, "\udcff")),
+    *([*OUT, f"--{name}", "nonsense"] for name in ("method", "engine", "balance", "tube", "placement")),
+    *([*OUT, "--objects", value] for value in ("", ",", "A,", ",A", '"A', '"A"B', '""')),
+    [*OUT, "--polish=yes"], [*OUT, "--objects"],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("words", WRONG, ids=ascii)
+def test_wrong_usage_is_2_in_one_line(batch, capsys, words):
+    with pytest.raises(batch("batch_exit").Stop) as stop:
+        batch("batch_arguments").parse(words)
+    assert stop.value.code == 2
+    batch("batch_exit").tell(stop.value.reason)
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("koebe: ") and err.count("\n") == 1 and len(err) > 20
+
+
+@pytest.mark.parametrize(
+    ("values", "names"),
+    [
+        (["A"], ["A"]), (["A,B C"], ["A", "B C"]), (["A", "B"], ["A", "B"]), (['"A, B",C'], ["A, B", "C"]),
+        (['"He said ""no"", twice"'], ['He said "no", twice']), (['5" pipe,B'], ['5" pipe', "B"]),
+        ([" A ,B"], [" A ", "B"]), (['"two\nlines"'], ["two\nlines"]), (["ö,🍳"], ["ö", "🍳"]), (["-A"], ["-A"]),
+        (["'A'"], ["'A'"]), (["A;B\\,C"], ["A;B\\", "C"]),
+    ],
+)  # fmt: skip
+def test_names_are_divided_as_in_a_csv_file(batch, values, names):
+    words = [*OUT, *(f"--objects={value}" for value in values)]
+    assert batch("batch_arguments").parse(words).names == names
+
+
+def test_every_name_can_be_asked_for(batch):
+    noise = random.Random(3)
+    for _ in range(2000):
+        names = ["".join(noise.choices('ab ,"\'\\\n\tö🍳', k=noise.randint(1, 8))) for _ in range(noise.randint(1, 4))]
+        value = ",".join('"' + name.replace('"', '""') + '"' for name in names)
+        assert batch("batch_arguments").parse([*OUT, f"--objects={value}"]).names == names
+
+
+def test_the_defaults_are_those_of_the_options(batch):
+    request = batch("batch_arguments").parse(OUT)
+    assert request.options == batch("options").Options() and request.names is None and request.report is None
+    assert (request.source, request.output) == (None, "out.blend")
+
+
+def test_all_that_is_in_range_is_taken(batch):
+    words = "in.blend --output o.blend --report r.json --method ck --engine mesh --outer 2147483647 --tolerance 1e-300"
+    words += " --max-sweeps 2147483647 --balance none --polish --threads 1024 --no-upright --tube unroll --margin 0"
+    words += " --placement keep --no-checker --checker-size 1e6 --no-checker-even"
+    request = batch("batch_arguments").parse([*words.split(), "--layer", "ö" * 31])
+    assert request.options.outer == request.options.max_sweeps == 2**31 - 1 and request.options.layer == "ö" * 31
+
+
+def test_help_tells_the_exit_codes(batch, capsys):
+    with pytest.raises(SystemExit) as end:
+        batch("batch_arguments").parse(["--help"])
+    assert end.value.code == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert all(word in text for word in ("130 interrupted", "4 not converged", "blender -b IN.blend", "--objects"))
