@@ -1,4 +1,4 @@
-// A one-to-one map of any surface of genus 0 with boundary: convex combinations (Tutte 1963, Floater 2003).
+// A one-to-one map of any surface of genus 0 with boundary: convex combinations (Tutte 1963), made safe in floating point.
 #pragma once
 
 #include "core/topology.h"
@@ -17,13 +17,18 @@ struct FilledSurface {
 /// @param loops the outer one, which stays open, first
 FilledSurface fill_with_fans(const Surface& surface, const std::vector<VertexLoop>& loops);
 
-/// The outer loop on the unit circle, every other vertex a weighted mean of its neighbours with positive weights. In exact
-/// arithmetic every triangle keeps its orientation, whatever the weights (Floater 2003, theorem 6: the boundary is
-/// strictly convex). The weights are there for arithmetic that is not exact: equal ones draw what lies deep inside
-/// exponentially small, so edges that came out short are made softer, in some rounds (as Yoshizawa, Belyaev and Seidel
-/// 2004 lower the stretch).
+/// The outer loop on the unit circle, every other vertex the mean of its neighbours. In exact arithmetic every triangle
+/// keeps its orientation (Floater 2003, theorem 6: the boundary is strictly convex); but what lies deep inside, as in
+/// stacked triangles or at the end of a limb, comes out exponentially small, at last below the precision of numbers.
+///
+/// So where faces come out wrong or too small, inner vertices in and around them are taken out (disk_complex.h) until
+/// what is left comes out right, and put back one after the other, as in the proof of Fary's theorem (Fary 1948) and in
+/// progressive embedding (Shen, Jiang, Zorin and Panozzo 2019): each into the kernel of the polygon of its neighbours,
+/// where every face gets an area in proportion to the number of faces it stands for (star_centre.h), which the
+/// neighbours then follow. That is how Schnyder (1990) draws any triangulation on a grid of its size; a face is not
+/// exponentially small then, but about as large as the others.
 /// @param rim (n) points of the outer loop on the unit circle, in order, all different
-/// @return (filled.vertex_count, 2) the round in which most triangles are upright and large enough for 32-bit UVs
+/// @return (filled.vertex_count, 2)
 PlanarPoints convex_embedding(const FilledSurface& filled, const VertexLoop& outer, const VectorXcd& rim);
 
 }  // namespace koebe

@@ -116,15 +116,18 @@ private:
 
     bool pulled(Eigen::Index v) const { return problem_.pull[v] > 0.0 && problem_.mobility[v] == Mobility::free; }
 
-    /// The outward direction of a pulled vertex and its distance from the circle, over the radius.
+    bool to_centre(Eigen::Index v) const { return !problem_.pull_inside.empty() && problem_.pull_inside[v]; }
+
+    /// The outward direction of a pulled vertex and its distance from the circle, or the centre, over the radius.
     std::pair<Eigen::Vector2d, double> offset(const PlanarPoints& points, Eigen::Index v) const
     {
         const Circle& circle = problem_.circles[v];
         const Eigen::Vector2d arm =
             points.row(v).transpose() - Eigen::Vector2d(circle.center.real(), circle.center.imag());
         const double distance = arm.norm();
-        if (!(distance > 0.0)) return {Eigen::Vector2d::Zero(), -1.0};
-        return {arm / distance, distance / circle.radius - 1.0};
+        const double target = to_centre(v) ? 0.0 : 1.0;
+        if (!(distance > 0.0)) return {Eigen::Vector2d::Zero(), -target};
+        return {arm / distance, distance / circle.radius - target};
     }
 
     void derivatives(Eigen::Index f, Gradient& gradient, Hessian& hessian) const
@@ -213,7 +216,9 @@ private:
             const double weight = 2.0 * problem_.pull[v] / problem_.circles[v].radius;
             const Index row = first_unknown_[v];
             gradient.segment<2>(row) += weight * distance * outward;
-            const Eigen::Matrix2d block = weight / problem_.circles[v].radius * outward * outward.transpose();
+            Eigen::Matrix2d block = outward * outward.transpose();
+            if (to_centre(v)) block.setIdentity();
+            block *= weight / problem_.circles[v].radius;
             for (Index i = 0; i < 2; ++i)
                 for (Index j = 0; j < 2; ++j) entries_.emplace_back(row + i, row + j, block(i, j));
         }

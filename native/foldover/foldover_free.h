@@ -22,6 +22,7 @@ struct FoldoverProblem {
     std::vector<Mobility> mobility;          ///< (V) sliding: along its circle
     std::vector<Circle> circles;             ///< (V) of sliding and of pulled vertices
     VectorXd pull;                           ///< (V) of free vertices to their circles, dimensionless; empty: none
+    std::vector<char> pull_inside;           ///< (V) 1: to the circle's centre instead; empty: nowhere
 };
 
 struct FoldoverOptions {
@@ -33,8 +34,9 @@ struct FoldoverOptions {
 
 /// Minimizes sum_f (tr(J'J) / chi(det J - floor) + theta (det^2 + 1) / chi) over the mobile vertices, J the linear map
 /// from the reference to the image, chi(D, eps) = (D + sqrt(eps^2 + D^2)) / 2, eps shrinking as the worst
-/// determinant rises, and pull ((|z - c| - r) / r)^2 over the pulled vertices (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50
-/// lines of code", sections 2 and 3), by Newton's method on Hessians made positive semidefinite face by face.
+/// determinant rises, and pull ((|z - c| - r) / r)^2, to centres pull (|z - c| / r)^2, over the pulled vertices
+/// (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50 lines of code", sections
+/// 2 and 3), by Newton's method on Hessians made positive semidefinite face by face.
 /// @return whether every determinant is above its floor; problem.points holds the result either way
 bool minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
                             const FoldoverOptions& options = {});

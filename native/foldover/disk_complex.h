@@ -1,0 +1,68 @@
+// A triangulated disk whose inner vertices can be taken out and put back.
+#pragma once
+
+#include "core/types.h"
+
+#include <array>
+#include <vector>
+
+namespace koebe {
+
+/// Taking out a vertex means to slide it along an edge into a neighbour: the polygon of its neighbours is filled with a
+/// fan of faces round that one. The neighbour is such that the complex stays simplicial (it shares no other neighbour
+/// with the vertex than the two on their common faces; Dey, Edelsbrunner, Guha and Nekhayev 1999, "link condition"). So
+/// wherever a drawing of what is left is one to one, the polygon has a kernel for the vertex to come back to, near that
+/// neighbour at the least.
+///
+/// Every face stands for a number of faces of the whole mesh: those it has taken the place of.
+class DiskComplex {
+public:
+    using Face = std::array<Index, 3>;
+
+    /// @param outer the disk's only boundary loop, whose vertices stay
+    DiskComplex(const Triangles& triangles, Index vertex_count, const std::vector<Index>& outer);
+
+    Index vertex_count() const { return static_cast<Index>(around_.size()); }
+    bool outer(Index vertex) const { return outer_[vertex] != 0; }
+    bool present(Index vertex) const { return !around_[vertex].empty(); }
+    /// Faces round a vertex, in no special order.
+    const std::vector<Index>& around(Index vertex) const { return around_[vertex]; }
+    const Face& face(Index f) const { return faces_[f]; }
+    double weight(Index f) const { return weights_[f]; }  ///< how many faces it stands for
+    bool alive(Index f) const { return alive_[f] != 0; }
+    Index face_count() const { return static_cast<Index>(faces_.size()); }  ///< dead ones too
+    Triangles triangles() const;                                            ///< those alive
+
+    /// The face turned so that a vertex of it comes first.
+    Face seen_from(Index vertex, Index f) const;
+    /// Neighbours of an inner vertex in order, counter-clockwise, and the face from each to the next.
+    void link(Index vertex, std::vector<Index>& neighbours, std::vector<Index>& faces) const;
+
+    /// @param chords whether an edge between two outer vertices may come in
+    /// @return whether a neighbour can take it
+    bool take_out(Index vertex, bool chords);
+    std::size_t taken_out() const { return removals_.size(); }
+    /// Undoes the last take_out. @return the vertex
+    Index put_back();
+
+private:
+    struct Removal {
+        Index vertex;
+        std::vector<Index> old_faces;
+        Index first_new;
+    };
+
+    Index heir(const std::vector<Index>& link, bool chords);
+    void add(Index f);
+    void drop(Index f);
+
+    std::vector<Face> faces_;
+    std::vector<double> weights_;
+    std::vector<char> alive_, outer_;
+    std::vector<std::vector<Index>> around_;
+    std::vector<Removal> removals_;
+    mutable std::vector<Index> next_, next_face_;  // scratch of link
+    std::vector<char> marked_;                     // scratch of heir
+};
+
+}  // namespace koebe

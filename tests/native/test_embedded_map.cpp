@@ -1,0 +1,132 @@
+#include "conformal/stored_uv.h"
+#include "foldover/embedded_map.h"
+#include "geometry/boundary_crossings.h"
+#include "pipeline/loop_images.h"
+#include "random_disks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+/// Takes some faces that have no vertex in common out of a disk, none at its loop (vertices 0 to `outer`).
+FaceList with_holes(FaceList faces, Index outer, std::size_t count, std::mt19937& random)
+{
+    std::shuffle(faces.begin(), faces.end(), random);
+    std::set<Index> taken;
+    for (Index v = 0; v < outer; ++v) taken.insert(v);
+    std::erase_if(faces, [&](const auto& face) {
+        if (count == 0 || std::any_of(face.begin(), face.end(), [&](Index v) { return taken.contains(v); })) return false;
+        taken.insert(face.begin(), face.end());
+        --count;
+        return true;
+    });
+    return faces;
+}
+
+Vertices random_positions(Index count, std::mt19937& random)
+{
+    Vertices vertices(count, 3);
+    std::normal_distribution<double> normal;
+    for (Eigen::Index i = 0; i < vertices.size(); ++i) vertices.data()[i] = normal(random);
+    return vertices;
+}
+
+/// Maps a surface, and checks what is promised of every face, loop and circle.
+EmbeddedMap expect_one_to_one(const FaceList& faces, const Vertices& vertices, const std::vector<Circle>& wanted,
+                              bool crowded_rim = false)
+{
+    const Triangles triangles = as_triangles(faces);
+    const Surface surface = require_bordered_genus_zero(triangles, triangles.maxCoeff() + 1);
+    const VertexLoop& outer = surface.loops[0];
+    VectorXcd rim(outer.size());
+    for (std::size_t i = 0; i < outer.size(); ++i)
+        rim[i] = std::polar(1.0, (crowded_rim ? 2e-3 : 2.0 * std::numbers::pi / outer.size()) * static_cast<double>(i));
+    const EmbeddedMap map = embedded_map(vertices, surface, surface.loops, {}, wanted, rim, {});
+
+    EXPECT_TRUE(map.uv.allFinite());
+    EXPECT_TRUE(circles_apart(map.circles));
+    EXPECT_TRUE(crossing_boundary_edges(surface.loops, map.uv, 2.0 * uv_resolution).empty());
+    int folded = 0, lost = 0, off = 0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const Eigen::RowVector2d a = map.uv.row(surface.triangles(f, 0)), u = map.uv.row(surface.triangles(f, 1)) - a,
+                                 v = map.uv.row(surface.triangles(f, 2)) - a;
+        folded += !(u[0] * v[1] - u[1] * v[0] > 0.0);
+        const StoredFace stored(surface.triangles, map.uv, f);
+        lost += stored.flipped() && !stored.below_resolution();
+    }
+    for (std::size_t k = 0; k < surface.loops.size(); ++k)
+        for (const Index v : surface.loops[k]) {
+            const double distance = std::abs(Complex(map.uv(v, 0), map.uv(v, 1)) - map.circles[k].center);
+            const bool listed = std::binary_search(map.off_circle.begin(), map.off_circle.end(), v);
+            off += std::abs(distance - map.circles[k].radius) > 1e-6 && !listed;
+        }
+    EXPECT_EQ(folded, 0);
+    EXPECT_EQ(lost, 0) << "as stored";
+    EXPECT_EQ(off, 0) << "off their circles, and not listed";
+    return map;
+}
+
+}  // namespace
+
+TEST(EmbeddedMap, is_one_to_one_and_round_on_its_own_circles)
+{
+    std::mt19937 random(1);
+    std::size_t off = 0, on = 0;
+    for (int i = 0; i < 12; ++i) {
+        const FaceList disk = i % 3 == 0 ? stacked_disk(150, 0, random) : i % 3 == 1 ? limb(30, 6) : stacked_disk(60, 2, random);
+        const FaceList faces =
+            with_holes(flipped_at_random(disk, 500, random), i % 3 == 1 ? 6 : 3, 1 + i / 2, random);
+        const EmbeddedMap map = expect_one_to_one(faces, random_positions(200, random), {});
+        off += map.off_circle.size();
+        on += 3 * (map.circles.size() - 1);
+    }
+    EXPECT_LT(off, on / 20);
+}
+
+TEST(EmbeddedMap, wanted_circles_that_cannot_be_reached_cost_no_face)
+{
+    std::mt19937 random(2);
+    for (int i = 0; i < 8; ++i) {
+        const FaceList faces =
+            with_holes(flipped_at_random(stacked_disk(100, 0, random), 500, random), 3, 3, random);
+        // Tiny ones side by side, at the rim; then ones as large as there is room for.
+        std::vector<Circle> wanted{Circle{}};
+        const std::size_t loops = require_bordered_genus_zero(as_triangles(faces), 103).loops.size();
+        for (std::size_t k = 1; k < loops; ++k)
+            wanted.push_back(i % 2 == 0 ? Circle{{0.999, 1e-5 * static_cast<double>(k)}, 1e-11}
+                                        : Circle{std::polar(0.5, 2.0 * static_cast<double>(k)), 0.4});
+        expect_one_to_one(faces, random_positions(103, random), wanted);
+    }
+}
+
+TEST(EmbeddedMap, a_rim_without_room_is_given_some)
+{
+    std::mt19937 random(3);
+    for (int i = 0; i < 6; ++i)
+        expect_one_to_one(with_holes(flipped_at_random(limb(20, 5), 100, random), 5, i, random),
+                          random_positions(101, random), {}, true);
+}
+
+TEST(EmbeddedMap, circles_within_reach_are_kept)
+{
+    FaceList faces = limb(12, 12);
+    std::erase_if(faces, [](const auto& face) { return face[2] == 144; });
+    Vertices rings = Vertices::Zero(144, 3);
+    for (Index v = 0; v < 144; ++v) {
+        const Complex place = std::polar(1.0 - (v / 12) / 15.0, std::numbers::pi / 6.0 * (v % 12));
+        rings.row(v) << place.real(), place.imag(), 0.0;
+    }
+    const std::vector<Circle> wanted{Circle{}, {{0.2, 0.1}, 0.3}};
+    const EmbeddedMap map = expect_one_to_one(faces, rings, wanted);
+    EXPECT_EQ(map.circles[1].center, wanted[1].center);
+    EXPECT_EQ(map.circles[1].radius, wanted[1].radius);
+    EXPECT_TRUE(map.off_circle.empty());
+}
