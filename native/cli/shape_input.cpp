@@ -20,6 +20,7 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
     const UniformizeResult result =
         with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
 
+    require_own_circles(result.loops);
     ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged, input.warnings};
     shape.warnings.insert(shape.warnings.end(), result.warnings.begin(), result.warnings.end());
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;

@@ -22,7 +22,7 @@ constexpr int last_sweeps = 20;
 
 class ConvexEmbedding {
 public:
-    ConvexEmbedding(const FilledSurface& filled, const VertexLoop& outer, const VectorXcd& rim)
+    ConvexEmbedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim)
         : complex_(filled.triangles, filled.vertex_count, outer),
           given_(MatrixXd::Zero(filled.vertex_count, 2)),
           smallest_(least_share * std::numbers::pi / static_cast<double>(filled.triangles.rows()))
@@ -178,11 +178,11 @@ private:
 
 }  // namespace
 
-FilledSurface fill_with_fans(const Surface& surface, const std::vector<VertexLoop>& loops)
+FilledDisk fill_with_fans(const Surface& surface, const std::vector<VertexLoop>& loops)
 {
     Eigen::Index row = surface.triangles.rows(), count = row;
     for (std::size_t k = 1; k < loops.size(); ++k) count += static_cast<Eigen::Index>(loops[k].size());
-    FilledSurface filled{Triangles(count, 3), surface.vertex_count, surface.vertex_count};
+    FilledDisk filled{Triangles(count, 3), surface.vertex_count, surface.vertex_count};
     filled.triangles.topRows(row) = surface.triangles;
     for (std::size_t k = 1; k < loops.size(); ++k) {
         const Index center = filled.vertex_count++;
@@ -192,7 +192,7 @@ FilledSurface fill_with_fans(const Surface& surface, const std::vector<VertexLoo
     return filled;
 }
 
-PlanarPoints convex_embedding(const FilledSurface& filled, const VertexLoop& outer, const VectorXcd& rim)
+PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim)
 {
     return ConvexEmbedding(filled, outer, rim).run();
 }

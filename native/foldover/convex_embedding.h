@@ -8,14 +8,14 @@
 namespace koebe {
 
 /// The surface with a fan of triangles in every inner hole, round a vertex of its own: a disk.
-struct FilledSurface {
+struct FilledDisk {
     Triangles triangles;     ///< the surface's faces first
     Index surface_vertices;  ///< the fans' centres follow these, one for each inner loop
     Index vertex_count;
 };
 
 /// @param loops the outer one, which stays open, first
-FilledSurface fill_with_fans(const Surface& surface, const std::vector<VertexLoop>& loops);
+FilledDisk fill_with_fans(const Surface& surface, const std::vector<VertexLoop>& loops);
 
 /// The outer loop on the unit circle, every other vertex the mean of its neighbours. In exact arithmetic every triangle
 /// keeps its orientation (Floater 2003, theorem 6: the boundary is strictly convex); but what lies deep inside, as in
@@ -29,6 +29,6 @@ FilledSurface fill_with_fans(const Surface& surface, const std::vector<VertexLoo
 /// exponentially small then, but about as large as the others.
 /// @param rim (n) points of the outer loop on the unit circle, in order, all different
 /// @return (filled.vertex_count, 2)
-PlanarPoints convex_embedding(const FilledSurface& filled, const VertexLoop& outer, const VectorXcd& rim);
+PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim);
 
 }  // namespace koebe

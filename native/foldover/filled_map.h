@@ -74,7 +74,7 @@ private:
     const Vertices& vertices_;
     const Surface& surface_;
     const std::vector<VertexLoop>& loops_;
-    FilledSurface filled_;
+    FilledDisk filled_;
     std::vector<std::vector<Index>> around_;  // faces of each vertex
     std::vector<int> loop_of_;
     std::vector<char> pulled_;  // 1 for vertices that should be on the circles of inner loops

@@ -19,7 +19,7 @@ struct Arc {
 };
 
 /// The faces parted by edges that join outer vertices; each part's arc, inner ones first, but for the largest part.
-std::vector<Arc> arcs_of(const FilledSurface& filled, const VertexLoop& outer)
+std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer)
 {
     const Triangles& triangles = filled.triangles;
     const auto n = static_cast<Index>(outer.size());
@@ -76,7 +76,7 @@ std::vector<Arc> arcs_of(const FilledSurface& filled, const VertexLoop& outer)
 
 }  // namespace
 
-VectorXcd roomy_rim(const FilledSurface& filled, const VertexLoop& outer, const VectorXcd& rim, double share)
+VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share)
 {
     const auto n = static_cast<Index>(outer.size());
     VectorXd steps = VectorXd::Constant(n, 2.0 * std::numbers::pi / n);

@@ -11,6 +11,6 @@ namespace koebe {
 /// the t at which its faces are as large as the others.
 /// @param rim (n) points of the outer loop on the unit circle, in order; the first keeps its place
 /// @param share 0: the rim as it is; 1: nothing is left of it
-VectorXcd roomy_rim(const FilledSurface& filled, const VertexLoop& outer, const VectorXcd& rim, double share);
+VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share);
 
 }  // namespace koebe

@@ -214,6 +214,7 @@ private:
         }
         const double grid = std::exp2(
             std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
+        form_.thinnest /= grid;
         points = (points.array() / grid).round() * grid;
     }
 

@@ -15,7 +15,7 @@ struct CanonicalForm {
     std::vector<Index> original_vertices; ///< of the input, for each vertex
     std::vector<Index> original_faces;    ///< of the input, for each face
     std::vector<char> first_corners;      ///< of each face: the corner that was the first of the input's
-    double thinnest = 0.0;                ///< least height of a face, over the extent
+    double thinnest = 0.0;                ///< least height of a face, in steps of the grid
 };
 
 /// The same surface, renumbered, turned, moved or scaled, gets the same form, as a rule to the last bit. So whatever is

@@ -19,7 +19,7 @@ struct Domain {
     std::vector<VertexLoop> loops;     // outer first, then by falling length on the surface
     std::vector<VectorXd> edges;       // length of the edge from each loop vertex to the next
     std::vector<char> first_corners;   // of each face, the corner that was the first of the input's; of a core: empty
-    double thinnest = 0.0;             // least height of a face, over the extent
+    double thinnest = 0.0;             // least height of a face, in steps of the canonical grid
     int outer_rank = 0;                // of the outer loop among the input's, which go by their lowest vertices
 };
 

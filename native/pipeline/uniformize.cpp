@@ -27,7 +27,7 @@
 namespace koebe {
 namespace {
 
-constexpr double delicate = 1e-8;         // height of a face over the extent, below which the grid shows
+constexpr double delicate = 1e4;          // least height of a face in steps of the grid, for the grid not to show
 constexpr double bytes_per_face = 900.0;  // of everything but the factor; measured on 0.1 to 2.6 million faces
 
 class Stopwatch {
@@ -70,8 +70,8 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
         warnings.push_back(plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
                            " without flux, kept apart by a least distance");
     if (domain.thinnest < delicate)
-        warnings.push_back("the thinnest face is less than 1e-8 of the surface high: the last digits of the coordinates show in "
-                           "the map");
+        warnings.push_back("faces so thin that the last digits of their coordinates show in the map: turned or scaled, the "
+                           "surface may get another one");
     if (!outcome.converged)
         warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
 }

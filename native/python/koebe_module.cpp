@@ -180,6 +180,7 @@ PYBIND11_MODULE(_koebe, m)
         return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); });
     });
     m.def("module_names", &module_names);
+    m.def("require_own_circles", [](const UniformizeResult& result) { require_own_circles(result.loops); });
     m.def("canonical_order", [](const PlanarPoints& centers, const VectorXd& radii, bool any_outer) {
         return detached(
             [circles = circles_of(centers, radii), any_outer] { return canonical_order(circles, any_outer); });

@@ -184,4 +184,16 @@ std::vector<int> canonical_order(const std::vector<Circle>& circles, bool any_ou
     return best.second;
 }
 
+void require_own_circles(const std::vector<LoopReport>& loops)
+{
+    std::vector<Index> shrunk;
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        if (loops[k].shrunk) shrunk.push_back(static_cast<Index>(k));
+    if (!shrunk.empty())
+        throw InputError("the circles of " + std::to_string(shrunk.size()) +
+                             " loops were made smaller, as the mesh between them is too coarse: there is no conformal "
+                             "module (loops listed, the outer one is 0)",
+                         shrunk);
+}
+
 }  // namespace koebe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "conformal/moebius.h"
+#include "conformal/result.h"
 #include "core/types.h"
 
 #include <string>
@@ -45,5 +46,10 @@ double conformal_separation(const Circle& a, const Circle& b);
 
 /// @throws InputError the first circle is not the unit circle, circles meet or lie outside (their numbers listed)
 void require_circle_domain(const std::vector<Circle>& circles);
+
+/// A module tells about circles that the surface has; where the mesh was too coarse to keep them apart, and circles were
+/// made smaller, there is none.
+/// @throws InputError with the loops of such circles
+void require_own_circles(const std::vector<LoopReport>& loops);
 
 }  // namespace koebe

@@ -17,7 +17,7 @@ PlanarPoints expect_embedded(const FaceList& faces)
 {
     const Triangles triangles = as_triangles(faces);
     const Surface surface = require_bordered_genus_zero(triangles, triangles.maxCoeff() + 1);
-    const FilledSurface filled = fill_with_fans(surface, surface.loops);
+    const FilledDisk filled = fill_with_fans(surface, surface.loops);
     const VertexLoop& outer = surface.loops[0];
     const double step = 2.0 * std::numbers::pi / static_cast<double>(outer.size());
     VectorXcd rim(outer.size());

@@ -23,7 +23,7 @@ struct Lopsided {
         }
         filled = {as_triangles(faces), count + 6, count + 6};
     }
-    FilledSurface filled;
+    FilledDisk filled;
     VertexLoop outer{0, 1, 2, 3, 4, 5};
 };
 

@@ -30,6 +30,7 @@ class UniformizeResult:
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
+        self._native = native
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
 
     def __getattr__(self, name: str) -> Any:

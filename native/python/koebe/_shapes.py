@@ -12,7 +12,14 @@ import numpy as np
 from ._arrays import as_circles, as_indices, as_numbers, as_points
 from ._native import _koebe
 from ._options import flag, whole
+from ._result import UniformizeResult
 from .errors import InputError, OptionError
+
+
+def _require_own_circles(domain: Any) -> None:
+    """Refuse a result whose circles were made smaller: it has no module."""
+    if isinstance(domain, UniformizeResult):
+        _koebe.require_own_circles(domain._native)
 
 
 def canonical_order(result: Any, any_outer: bool = False) -> np.ndarray:
@@ -31,8 +38,9 @@ def conformal_module(result: Any, order: Sequence[int] | str | None = None) -> n
              'canonical': by canonical_order
     The second loop is moved to the middle of the unit disk and the third's centre onto the positive y axis. Returns
     3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, none without: lengths in the unit disk. Equal if and only
-    if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError.
+    if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError, also where circles were made smaller because the mesh between them is too coarse.
     """
+    _require_own_circles(result)
     centers, radii = as_circles(result)
     if isinstance(order, str):
         if order != "canonical":
@@ -56,6 +64,8 @@ def match_loops(a: Any, b: Any, any_outer: bool = False) -> tuple[np.ndarray, np
     first, and the distance of the modules in these orders. It is symmetric, and 0 only for equal shapes. any_outer:
     the outer loop of one may correspond to a hole of the other. Raises InputError for different numbers of loops.
     """
+    _require_own_circles(a)
+    _require_own_circles(b)
     order_a, order_b, distance = _koebe.match_loops(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))
     return np.array(order_a, dtype=np.int32), np.array(order_b, dtype=np.int32), distance
 
