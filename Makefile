@@ -20,7 +20,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .NOTPARALLEL:
 .SECONDARY:
 .PHONY: help build native wheel package test test-native test-python test-blender test-gui test-asan \
-        demo bench reproduce bench-addon samples clean distclean
+        demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -90,6 +90,12 @@ reproduce: build $(DONE)/install-blender ## the paper's comparison, its rates an
 
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python bench/addon_overhead.py
+
+figures: native ## measure the figures of README.md and docs/ and write them there
+	$(PYTHON) bench/doc_figures.py
+
+reliability: native ## map random surfaces of all kinds, check every answer: out/reliability/ and docs/reliability.md
+	$(PYTHON) bench/reliability.py --write
 
 samples: $(DONE)/install-blender ## make blend_samples/*.blend again
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py

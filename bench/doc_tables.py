@@ -6,6 +6,8 @@ nothing but this repository; the others scans that are not in it, in ../shared/m
 """
 
 import json
+import math
+import random
 import re
 import subprocess
 import sys
@@ -14,6 +16,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+
+import shape_distances
 
 ROOT = Path(__file__).resolve().parent.parent
 KOEBE = ROOT / "build" / "koebe"
@@ -136,6 +140,68 @@ def module_distance(row: str) -> list[str]:
     return [f"{float(said.split()[1]):.1e}"]
 
 
+@cache
+def made_faces() -> dict[str, Path]:
+    return {path.stem: path for path in shape_distances.made_faces()}
+
+
+def face_distances(name: str) -> list[str]:
+    """A row of the table of bench/shape_distances.py."""
+    options = shape_distances.parse(list(map(str, made_faces().values())))
+    faces = made_faces()
+    return ["0" if other == name else shape_distances.distance(options, faces[name], faces[other]) for other in faces]
+
+
+def same_shape(way: str) -> list[str]:
+    """The distance of the face from itself, changed in a way that a module must not see; or from its mirror image."""
+    mesh = mesh_file("face").read_text(encoding="ascii").splitlines()
+    points = [tuple(map(float, line.split()[1:])) for line in mesh if line.startswith("v ")]
+    faces = [tuple(int(word) - 1 for word in line.split()[1:]) for line in mesh if line.startswith("f ")]
+    points, faces = CHANGES[way](points, faces)
+    with tempfile.TemporaryDirectory() as folder:
+        other = Path(folder) / "other.obj"
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
+        lines += ["f " + " ".join(str(v + 1) for v in face) for face in faces]
+        other.write_text("\n".join(lines) + "\n", encoding="ascii")
+        found = float(run(KOEBE, "compare", mesh_file("face"), other).split()[1])
+    return ["below 1e-9" if found < 1e-9 else f"{found:.1e}"]
+
+
+def renumbered(points, faces):
+    number = random.Random(1).sample(range(len(points)), len(points))
+    moved = [point for _, point in sorted(zip(number, points))]
+    return moved, [tuple(number[v] for v in face) for face in reversed(faces)]
+
+
+def turned(points, faces):
+    c, s = math.cos(1.0), math.sin(1.0)
+    return [(c * x - s * y + 3.0, s * x + c * y, z - 1.0) for x, y, z in points], faces
+
+
+def cut_in_four(points, faces):
+    points, middles, finer = list(points), {}, []
+    for face in faces:
+        halves = []
+        for a, b in zip(face, face[1:] + face[:1]):
+            key = frozenset((a, b))
+            if key not in middles:
+                middles[key] = len(points)
+                points.append(tuple((x + y) / 2 for x, y in zip(points[a], points[b])))
+            halves.append(middles[key])
+        (a, b, c), (x, y, z) = face, halves
+        finer += [(a, x, z), (x, b, y), (z, y, c), (x, y, z)]
+    return points, finer
+
+
+CHANGES = {
+    "turned and moved": turned,
+    "1e-8 times as large": lambda points, faces: ([tuple(1e-8 * x for x in p) for p in points], faces),
+    "1e8 times as large": lambda points, faces: ([tuple(1e8 * x for x in p) for p in points], faces),
+    "vertices and faces renumbered": renumbered,
+    "each face cut in four": cut_in_four,
+}
+
+
 def scans() -> list[str]:
     return sorted(path.stem for path in SCANS.glob("*.obj"))
 
@@ -151,7 +217,7 @@ TABLES = {
     ),
     "exact": Table(
         ["lift, engine", "978 faces", "4,042", "16,340", "36,675"],
-        [f"{lift}, {engine}" for engine in ("condensed", "mesh") for lift in ("polynomial", "sphere", "enneper")],
+        [f"{lift}, {engine}" for engine in ("condensed", "mesh") for lift in ("polynomial", "sphere", "Enneper")],
         domain_error,
         lambda row: [BENCH],
     ),
@@ -173,6 +239,13 @@ TABLES = {
         OWN + ["choi_sophie1", "fig12_nefertiti_74k_9"],
         balance,
         mesh_files,
+    ),
+    "same_shape": Table(["the face", "distance from itself"], list(CHANGES), same_shape, lambda row: [SAMPLES / "face.obj"]),
+    "faces": Table(
+        ["", "face", "face_finer", "surprised", "face_cut"],
+        ["face", "face_finer", "surprised", "face_cut"],
+        face_distances,
+        lambda row: [SAMPLES / "make_obj.py"],
     ),
     "distances": Table(
         ["meshes", "distance"],

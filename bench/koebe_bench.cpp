@@ -3,7 +3,7 @@
 //   koebe_bench MESH RUNS ENGINE METHOD
 //
 // MESH is a file; TIMES:FILE for each of its faces cut in four so many times; or LIFT:FACES for five known circles
-// on a surface, LIFT one of polynomial, sphere, enneper (tests/native/circle_domain.h): then "circle_error", the
+// on a surface, LIFT one of polynomial, sphere, Enneper (tests/native/circle_domain.h): then "circle_error", the
 // relative error of the inversive distances, is printed too.
 //
 // The unit of time is what any linear conformal map costs at least: assemble the cotan Laplacian, order it by AMD,

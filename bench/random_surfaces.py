@@ -112,7 +112,8 @@ def opened(points, faces, rng):
 
 def without_some(faces, rng, most=5):
     """One to `most` faces fewer, at least one left."""
-    return np.delete(faces, rng.choice(len(faces), min(len(faces) - 1, rng.integers(1, most + 1)), replace=False), axis=0)
+    fewer = min(len(faces) - 1, rng.integers(1, most + 1))
+    return np.delete(faces, rng.choice(len(faces), fewer, replace=False), axis=0)
 
 
 # ---------------------------------------------------------------- kinds
@@ -255,7 +256,8 @@ def strip(rng):
     n = int(rng.integers(1, 30))
     i = np.arange(n + 2)
     points = np.column_stack([0.5 * i, i % 2, rng.normal(size=n + 2) * rng.choice([0, 1])])
-    return points * rng.choice([1, 50], 3), np.array([[k, k + 1, k + 2] if k % 2 else [k, k + 2, k + 1] for k in range(n)])
+    faces = [[k, k + 1, k + 2] if k % 2 else [k, k + 2, k + 1] for k in range(n)]
+    return points * rng.choice([1, 50], 3), np.array(faces)
 
 
 def ears(rng):
