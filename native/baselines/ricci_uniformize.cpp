@@ -112,7 +112,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     draw_in(domain.loops[0], core_uv);
     const std::size_t own_flips = flipped_faces(domain.surface.triangles, core_uv).size();
     const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original,
-                             whole.original_faces};
+                             whole.original_faces, whole.first_corners};
     // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
     const UntangledMap map =
         flow.curvature_error < flat

@@ -5,6 +5,7 @@
 #include "conformal/condensed_state.h"
 #include "conformal/grounded_state.h"
 #include "conformal/sparse_state.h"
+#include "core/memory_limit.h"
 
 #include <cmath>
 #include <memory>
@@ -12,6 +13,8 @@
 
 namespace koebe {
 namespace {
+
+constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and one on the way
 
 /// With more loops one factor for all of them costs less than an elimination for each step; one or two leave no choice.
 bool opened_at_once(const std::vector<VertexLoop>& loops) { return loops.size() <= 2 || loops.size() > 8; }
@@ -62,6 +65,8 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         outcome.converged = true;
         return outcome;
     }
+    if (surface.has_sigma())
+        require_memory(dense_copies * 8.0 * std::pow(surface.boundary_size(), 2), "the boundary's dense matrices");
     std::unique_ptr<GroundedState> grounded;
     std::unique_ptr<CondensedState> condensed;
     if (!surface.has_sigma())

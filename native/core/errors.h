@@ -61,6 +61,12 @@ public:
     const char* name() const noexcept override { return "SolverError"; }
 };
 
+/// A computation that does not fit into the memory there is; refused before it starts.
+class OutOfMemory : public SolverError {
+public:
+    using SolverError::SolverError;
+};
+
 /// The caller asked to stop.
 class Cancelled : public KoebeError {
 public:

@@ -2,6 +2,7 @@
 
 #include "conformal/circle_fit.h"
 #include "conformal/distortion.h"
+#include "conformal/stored_uv.h"
 #include "foldover/flap_map.h"
 
 #include <algorithm>
@@ -10,6 +11,21 @@ namespace koebe {
 namespace {
 
 constexpr double on_circle = 1e-6;  // disk units
+
+/// Flipped faces as a reader of the result finds them, who takes areas from the first corner of the input's faces.
+void report_flips(const NamedSurface& whole, const PlanarPoints& uv, Distortion& distortion)
+{
+    distortion.flipped.clear();
+    distortion.below_resolution.clear();
+    for (Eigen::Index f = 0; f < whole.surface.triangles.rows(); ++f) {
+        const StoredFace face(whole.surface.triangles, uv, f, whole.first_corners[f]);
+        if (!face.flipped()) continue;
+        distortion.flipped.push_back(whole.original_faces[f]);
+        if (face.below_resolution()) distortion.below_resolution.push_back(whole.original_faces[f]);
+    }
+    std::sort(distortion.flipped.begin(), distortion.flipped.end());
+    std::sort(distortion.below_resolution.begin(), distortion.below_resolution.end());
+}
 
 }  // namespace
 
@@ -66,10 +82,7 @@ void report_map(const NamedSurface& whole, const UntangledMap& map, UniformizeRe
         report.roundness_projected = count > 0 ? roundness(points.head(count), report.circle) : 0.0;
     }
     result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
-    for (std::vector<Index>* faces : {&result.distortion.flipped, &result.distortion.below_resolution}) {
-        for (Index& f : *faces) f = whole.original_faces[f];
-        std::sort(faces->begin(), faces->end());
-    }
+    report_flips(whole, map.uv, result.distortion);
     result.uv = PlanarPoints::Zero(result.vertex_count, 2);
     result.uv(whole.original, Eigen::all) = map.uv;
 }

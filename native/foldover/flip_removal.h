@@ -17,6 +17,7 @@ struct NamedSurface {
     const std::vector<VertexLoop>& loops;  ///< the outer one first
     const std::vector<Index>& original;    ///< vertex of the input for each
     const std::vector<Index>& original_faces;
+    const std::vector<char>& first_corners;  ///< of each face: the corner that was the first of the input's
 };
 
 struct UntangledMap {

@@ -69,13 +69,13 @@ private:
             double longest = 1.5 * std::sqrt(area);
             for (int k = 0; k < 3; ++k) longest = std::max(longest, (corner(k) - corner(k + 1)).norm());
             const StoredFace face(map_.triangles(), map_.uv(), f);
-            if (map_.hangs(f) && !face.flipped()) {
+            if (map_.hangs(f) && !face.doubtful()) {
                 // A flap keeps the shape in which it fits into its hole.
                 result_.problem.reference[i] << corner(1) - corner(0), corner(2) - corner(0);
                 area = 0.5 * result_.problem.reference[i].determinant();
             }
             double floor = face.below_resolution() ? 0.0 : rounding * longest / (2.0 * area);
-            if (!face.flipped()) floor = std::min(floor, 2.0 * face.area() / area);
+            if (!face.doubtful()) floor = std::min(floor, 2.0 * face.area() / area);
             triangles_.emplace_back(result_.row(map_.triangles()(f, 0)), result_.row(map_.triangles()(f, 1)),
                                     result_.row(map_.triangles()(f, 2)));
             floors_.push_back(floor);

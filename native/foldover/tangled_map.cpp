@@ -48,7 +48,7 @@ std::vector<Index> TangledMap::tangled() const
 {
     std::vector<Index> result;
     for (Eigen::Index f = 0; f < triangles().rows(); ++f)
-        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution())
+        if (const StoredFace face(triangles(), uv_, f); face.doubtful() && !face.below_resolution())
             result.push_back(static_cast<Index>(f));
     return result;
 }
@@ -57,14 +57,14 @@ std::vector<Index> TangledMap::tangled(const std::vector<Index>& faces) const
 {
     std::vector<Index> result;
     for (const Index f : faces)
-        if (const StoredFace face(triangles(), uv_, f); face.flipped() && !face.below_resolution()) result.push_back(f);
+        if (const StoredFace face(triangles(), uv_, f); face.doubtful() && !face.below_resolution()) result.push_back(f);
     return result;
 }
 
 std::size_t TangledMap::flipped(const std::vector<Index>& faces) const
 {
     return std::count_if(faces.begin(), faces.end(),
-                         [&](Index f) { return StoredFace(triangles(), uv_, f).flipped(); });
+                         [&](Index f) { return StoredFace(triangles(), uv_, f).doubtful(); });
 }
 
 bool TangledMap::collapsed(Index vertex) const

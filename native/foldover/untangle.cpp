@@ -127,7 +127,7 @@ UntangleReport untangle(const Vertices& vertices, const Surface& surface, const 
 {
     const auto tangled = [&](Eigen::Index f) {
         const StoredFace face(surface.triangles, uv, f);
-        return face.flipped() && !face.below_resolution();
+        return face.doubtful() && !face.below_resolution();
     };
     Eigen::Index f = 0;
     while (f < surface.triangles.rows() && !tangled(f)) ++f;

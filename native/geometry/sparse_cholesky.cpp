@@ -1,5 +1,6 @@
 #include "geometry/sparse_cholesky.h"
 
+#include "core/memory_limit.h"
 #include "geometry/dense_spd.h"
 #include "geometry/elimination_order.h"
 #include "geometry/path_solution.h"
@@ -7,6 +8,7 @@
 #include "geometry/supernodal_factor.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace koebe {
 
@@ -42,6 +44,8 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, co
         l.factor =
             own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, l.common.get()), l.common);
         l.common.require(l.factor != nullptr, "symbolic analysis");
+        require_memory(8.0 * (static_cast<double>(l.factor->xsize) + 2.0 * std::pow(last.size(), 2)),
+                       "the factorization");
         l.number();
         if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= impl_->inner_count(); })) break;
     }

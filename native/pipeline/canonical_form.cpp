@@ -130,6 +130,7 @@ private:
         for (std::size_t head = 0; head < queue.size(); ++head) {
             Index h = queue[head];
             form_.original_faces.push_back(face_of(h));
+            form_.first_corners.push_back(static_cast<char>((3 - h % 3) % 3));
             for (int k = 0; k < 3; ++k, h = next_halfedge(h)) {
                 const Index v = origin(surface_.triangles, h);
                 if (rank_[v] < 0) {
@@ -202,6 +203,7 @@ private:
             for (int k = 0; k < 3; ++k)
                 if (const double l = (points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k))).norm(); l > 0.0)
                     shortest = std::min(shortest, l);
+        form_.shortest_edge = shortest;
         const double grid = std::exp2(
             std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
         points = (points.array() / grid).round() * grid;

@@ -14,6 +14,8 @@ struct CanonicalForm {
     Vertices vertices;                    ///< (V, 3) within the unit ball, on a grid
     std::vector<Index> original_vertices; ///< of the input, for each vertex
     std::vector<Index> original_faces;    ///< of the input, for each face
+    std::vector<char> first_corners;      ///< of each face: the corner that was the first of the input's
+    double shortest_edge = 0.0;           ///< that is not 0, over the extent
 };
 
 /// The same surface, renumbered, turned, moved or scaled, gets the same form, as a rule to the last bit. So whatever is

@@ -69,6 +69,8 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
     domain.vertices = std::move(form.vertices);
     domain.original = std::move(form.original_vertices);
     domain.original_faces = std::move(form.original_faces);
+    domain.first_corners = std::move(form.first_corners);
+    domain.shortest_edge = form.shortest_edge;
 
     const std::size_t outer = choose_outer_loop(domain, options);
     domain.outer_rank = rank_by_lowest_vertex(domain, outer);

@@ -18,6 +18,8 @@ struct Domain {
     std::vector<Index> original_faces; // face of the input for each face; of a core: empty
     std::vector<VertexLoop> loops;     // outer first, then by falling length on the surface
     std::vector<VectorXd> edges;       // length of the edge from each loop vertex to the next
+    std::vector<char> first_corners;   // of each face, the corner that was the first of the input's; of a core: empty
+    double shortest_edge = 0.0;        // that is not 0, over the extent
     int outer_rank = 0;                // of the outer loop among the input's, which go by their lowest vertices
 };
 

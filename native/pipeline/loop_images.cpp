@@ -99,6 +99,8 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
     const auto attempt = [&](const auto& run) {
         try {
             return run();
+        } catch (const OutOfMemory&) {
+            throw;
         } catch (const SolverError&) {
         } catch (const InputError&) {
         }

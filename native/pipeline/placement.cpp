@@ -61,7 +61,8 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     const Moebius moebius = normal_position(circles);
     if (!std::isfinite(std::abs(moebius.a))) return {};
     for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = moebius(circles[k]);
-    if (const auto changed = set_apart(circles); !changed.empty())
+    const std::vector<std::size_t> changed = set_apart(circles);
+    if (!changed.empty())
         result.warnings.push_back("circles that met another made smaller, the mesh between them is too coarse: " +
                                   std::to_string(changed.size()) + "; the first is that of loop " +
                                   std::to_string(changed.front()));
@@ -74,6 +75,7 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
         LoopReport report;
         report.circle = circles[k];
+        report.shrunk = std::find(changed.begin(), changed.end(), k) != changed.end();
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
         const VectorXcd projected =

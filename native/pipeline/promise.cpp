@@ -54,7 +54,7 @@ MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>&
             faults.outside.push_back(v);
     }
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (const StoredFace face(triangles, uv, f); face.flipped() && !face.below_resolution())
+        if (const StoredFace face(triangles, uv, f); face.doubtful() && !face.below_resolution())
             faults.flipped.push_back(static_cast<Index>(f));
     faults.bad_circles = bad_circles(circles);
     if (faults.not_finite.empty()) faults.crossings = crossing_boundary_edges(loops, uv, 2.0 * uv_resolution);

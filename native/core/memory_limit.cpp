@@ -1,0 +1,63 @@
+#include "core/memory_limit.h"
+
+#include "core/errors.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace koebe {
+namespace {
+
+constexpr double worth_asking = 64e6;  // bytes: looking costs some ten microseconds
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// The number after a word in a file of lines like "MemAvailable:  123 kB", in bytes.
+double number_after(const char* file, const std::string& word)
+{
+    std::ifstream stream(file);
+    std::string key;
+    double number = 0.0;
+    for (std::string rest; stream >> key; std::getline(stream, rest))
+        if (key == word && stream >> number) return 1024.0 * number;
+    return unknown;
+}
+
+/// The one number in a file; "max" or no file is no limit.
+double only_number(const char* file)
+{
+    double number = 0.0;
+    return std::ifstream(file) >> number ? number : unknown;
+}
+
+}  // namespace
+
+double available_memory()
+{
+    double available = number_after("/proc/meminfo", "MemAvailable:");
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        if (const double used = number_after("/proc/self/status", "VmSize:"); used < unknown)
+            available = std::min(available, static_cast<double>(limit.rlim_cur) - used);
+    if (const double group = only_number("/sys/fs/cgroup/memory.max"); group < unknown)
+        if (const double used = only_number("/sys/fs/cgroup/memory.current"); used < unknown)
+            available = std::min(available, group - used);
+    return std::max(available, 0.0);
+}
+
+void require_memory(double bytes, const char* purpose)
+{
+    if (bytes < worth_asking) return;
+    const double available = available_memory();
+    if (bytes <= available) return;
+    char text[160];
+    std::snprintf(text, sizeof text, "not enough memory for %s: %.2g GB needed at least, %.2g GB free", purpose,
+                  1e-9 * bytes, 1e-9 * available);
+    throw OutOfMemory(text);
+}
+
+}  // namespace koebe

@@ -1,0 +1,135 @@
+#include "circle_domain.h"
+#include "core/errors.h"
+#include "core/memory_limit.h"
+#include "geometry/boundary_crossings.h"
+#include "pipeline/promise.h"
+#include "pipeline/refinement.h"
+#include "pipeline/uniformize.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace koebe;
+using namespace koebe::test;
+
+namespace {
+
+PlanarPoints rows(const VectorXcd& points)
+{
+    PlanarPoints result(points.size(), 2);
+    result << points.real(), points.imag();
+    return result;
+}
+
+}  // namespace
+
+/// A good map with one thing made wrong.
+class Promise : public testing::Test {
+protected:
+    CircleDomain domain = make_circle_domain(five_circles(), 800);
+    PlanarPoints uv = rows(domain.points);
+    std::vector<Circle> circles = domain.circles;
+    MapFaults faults() const { return find_faults(domain.triangles, domain.loops, uv, circles); }
+    Index inner_vertex() const { return static_cast<Index>(domain.points.size()) - 1; }
+};
+
+TEST_F(Promise, a_circle_domain_keeps_it)
+{
+    uv *= 1.0 - 1e-15;
+    EXPECT_FALSE(faults().any());
+}
+
+TEST_F(Promise, what_is_not_finite_is_named)
+{
+    uv(inner_vertex(), 1) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(faults().not_finite, std::vector<Index>{inner_vertex()});
+}
+
+TEST_F(Promise, what_lies_outside_the_disk_is_named)
+{
+    const Index v = domain.loops[0][3];
+    uv.row(v) *= 1.0 + 1e-9;
+    EXPECT_EQ(faults().outside, std::vector<Index>{v});
+}
+
+TEST_F(Promise, flips_are_found)
+{
+    uv.row(inner_vertex()) = uv.row(domain.loops[0][0]);
+    EXPECT_FALSE(faults().flipped.empty());
+}
+
+TEST_F(Promise, circles_are_positive_inside_and_apart)
+{
+    circles[1].radius = -circles[1].radius;
+    EXPECT_EQ(faults().bad_circles, std::vector<int>{1});
+    circles = domain.circles;
+    circles[2].center = {0.99, 0.0};
+    EXPECT_EQ(faults().bad_circles, std::vector<int>{2});
+    circles = domain.circles;
+    circles[3].center = circles[4].center;
+    EXPECT_EQ(faults().bad_circles, (std::vector<int>{3, 4}));
+}
+
+TEST_F(Promise, a_loop_that_crosses_another_is_found)
+{
+    // The vertex of one hole across another hole.
+    const Index v = domain.loops[1][0];
+    const Complex far = 1.9 * domain.circles[2].center - 0.9 * Complex(uv(v, 0), uv(v, 1));
+    uv.row(v) << far.real(), far.imag();
+    ASSERT_FALSE(faults().crossings.empty());
+}
+
+TEST(BoundaryCrossings, of_a_figure_eight_is_one)
+{
+    PlanarPoints points(4, 2);
+    points << 0, 0, 1, 1, 1, 0, 0, 1;
+    const auto crossings = crossing_boundary_edges({{0, 1, 2, 3}}, points, 0.0);
+    ASSERT_EQ(crossings.size(), 1u);
+    EXPECT_EQ(crossings[0], (std::pair<Index, Index>(0, 2)));
+    EXPECT_TRUE(crossing_boundary_edges({{0, 2, 1, 3}}, points, 0.0).empty());
+}
+
+TEST(RefinedDomain, has_the_same_metric_and_every_second_loop_vertex)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 300);
+    const Domain coarse = prepare_domain(lift(domain.points, Lift::enneper), domain.triangles, {});
+    const Domain fine = refined_domain(coarse);
+    EXPECT_EQ(fine.surface.triangles.rows(), 4 * coarse.surface.triangles.rows());
+    const Surface checked = analyze_surface(fine.surface.triangles, fine.surface.vertex_count);
+    EXPECT_EQ(checked.loops.size(), coarse.loops.size());
+    EXPECT_EQ(checked.genus, 0);
+    EXPECT_TRUE(checked.reoriented.empty());
+    for (std::size_t k = 0; k < coarse.loops.size(); ++k) {
+        EXPECT_NEAR(fine.edges[k].sum(), coarse.edges[k].sum(), 1e-12);
+        for (std::size_t i = 0; i < coarse.loops[k].size(); ++i)
+            EXPECT_EQ(fine.loops[k][2 * i], coarse.loops[k][i]);
+    }
+}
+
+TEST(Uniformize, a_ring_without_inner_vertices_is_mapped_to_a_round_annulus)
+{
+    // Two concentric hexagons and nothing between: NaN without refinement.
+    const CircleDomain ring = make_round_annulus(0.5, 6, 1);
+    ExecutionContext context;
+    const UniformizeResult result = uniformize(lift(ring.points, Lift::plane), ring.triangles, {}, context);
+    EXPECT_TRUE(result.converged);
+    EXPECT_TRUE(result.distortion.flipped.empty());
+    EXPECT_LT(std::abs(result.loops[1].circle.center), 1e-9);
+    EXPECT_NEAR(result.loops[1].circle.radius, 0.5, 0.05);
+}
+
+TEST(MemoryLimit, what_cannot_fit_is_refused_with_the_figure)
+{
+    EXPECT_GT(available_memory(), 0.0);
+    EXPECT_NO_THROW(require_memory(1e6, "a test"));
+    if (!std::isfinite(available_memory())) GTEST_SKIP() << "this system does not tell";
+    try {
+        require_memory(1e18, "a test");
+        FAIL();
+    } catch (const OutOfMemory& error) {
+        EXPECT_STREQ(error.name(), "SolverError");
+        EXPECT_NE(std::string(error.what()).find("1e+09 GB"), std::string::npos) << error.what();
+    }
+}
