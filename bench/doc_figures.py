@@ -37,15 +37,16 @@ def save(figures: dict) -> None:
 
 def measure(names: list[str]) -> None:
     """The rows that can be measured here, table by table."""
-    figures = load()
     for name in names:
         table = TABLES[name]
-        rows = {} if len(table.available()) == len(table.rows) and table.rows else figures.get(name, {}).get("rows", {})
+        complete = len(table.available()) == len(table.rows) > 0
+        rows = {} if complete else load().get(name, {}).get("rows", {})
         for row in table.available():
             cells = table.cells(row)
             print(name, "|", row, "|", " | ".join(cells), flush=True)
             if table.worth(cells):
                 rows[row] = cells
+        figures = load()
         figures[name] = {"command": f"bench/doc_figures.py measure {name}", "head": table.head, "rows": rows}
         save(figures)
 
@@ -65,10 +66,12 @@ def figure(figures: dict, place: str) -> str:
 
 
 def filled(text: str, figures: dict) -> str:
-    """A page with all its marked places as the figures say."""
+    """A page with all its marked places as the figures say; a table that was never measured stays as it is."""
 
     def place(match: re.Match) -> str:
         start, name, _, end = match.groups()
+        if name.split("/")[0] not in figures:
+            return match[0]
         if "figures:" in start:
             return f"{start}\n\n{markdown(figures[name])}\n\n{end}"
         return f"{start}{figure(figures, name)}{end}"

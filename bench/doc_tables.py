@@ -202,6 +202,23 @@ CHANGES = {
 }
 
 
+def annulus(name: str) -> list[str]:
+    """The annulus map by a harmonic function and by the Yamabe flow: the radius of its hole and the angle error."""
+    sys.path.insert(0, str(ROOT / "build" / "python"))
+    import koebe
+    import numpy as np
+
+    lines = [line.split() for line in mesh_file(name).read_text(encoding="utf-8").splitlines()]
+    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float)
+    triangles = np.array([[word.split("/")[0] for word in line[1:]] for line in lines if line[:1] == ["f"]], int) - 1
+    radii, errors = [], []
+    for backend in ("harmonic", "yamabe"):
+        uv, radius = koebe.annulus_map(vertices, triangles, backend=backend)
+        radii.append(f"{radius:.3g}")
+        errors.append(f"{koebe.distortion(vertices, triangles, uv)['angle_error_deg']['mean']:.2f}")
+    return radii + errors
+
+
 def scans() -> list[str]:
     return sorted(path.stem for path in SCANS.glob("*.obj"))
 
@@ -240,7 +257,18 @@ TABLES = {
         balance,
         mesh_files,
     ),
-    "same_shape": Table(["the face", "distance from itself"], list(CHANGES), same_shape, lambda row: [SAMPLES / "face.obj"]),
+    "annulus": Table(
+        ["mesh", "radius, harmonic", "radius, Yamabe", "degrees, harmonic", "degrees, Yamabe"],
+        ["choi_sophie1", "choi_amoeba1", "pmp_suzanne2", "cat_8k_2"],
+        annulus,
+        mesh_files,
+    ),
+    "same_shape": Table(
+        ["the face", "distance from itself"],
+        list(CHANGES),
+        same_shape,
+        lambda row: [SAMPLES / "face.obj"],
+    ),
     "faces": Table(
         ["", "face", "face_finer", "surprised", "face_cut"],
         ["face", "face_finer", "surprised", "face_cut"],

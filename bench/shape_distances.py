@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Distances between the conformal modules of surfaces, as a Markdown table. Standard library only.
+"""Distances between the conformal modules of surfaces, as a Markdown table.
 
     bench/shape_distances.py [MESH ...] [--any-outer] [--command build/koebe]
 
-By default expressions, meshes and cuts of one face, which blend_samples/make_obj.py makes into out/shapes/. The table of
-docs/shapes.md.
+By default expressions, meshes and cuts of one face, which blend_samples/make_obj.py makes into out/shapes/: the table
+of docs/shapes.md. Making them needs NumPy.
 """
 
 import argparse

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The picture of docs/method.md, "What is guaranteed, and why": docs/images/embedded_map.svg. NumPy alone.
 
-A coarse ring with a square hole: filled, by convex combination, with the loop pulled round, and a step that is too long.
+A coarse ring with a square hole: filled, by convex combination, its loop pulled round, and after a step too long.
 """
 
 from pathlib import Path
@@ -15,11 +15,12 @@ SIDE, GAP = 190, 30
 
 
 def mesh():
-    """A bent strip round a square hole: points of the surface seen from above, faces, faces of the fan, fixed vertices."""
+    """A bent strip round an uneven hole: points of the surface seen from above, faces, faces of the fan."""
     angle = 2 * np.pi * np.arange(RIM) / RIM
     outer = np.column_stack([np.cos(angle), 0.75 * np.sin(angle) + 0.22 * np.cos(2 * angle)])
     middle = 0.62 * outer + [0.1, 0.05]
-    hole = np.array([[0.45, 0.0], [0.2, 0.38], [-0.15, 0.1], [0.12, -0.18]])
+    corner = np.radians([30, 120, 210, 300])
+    hole = [0.1, 0.05] + np.array([[0.34], [0.15], [0.38], [0.2]]) * np.column_stack([np.cos(corner), np.sin(corner)])
     points = np.concatenate([outer, middle, hole, [hole.mean(axis=0)]])
     i = np.arange(RIM)
     j = (i + 1) % RIM
@@ -84,7 +85,7 @@ def main():
     round_hole = convex_combination(len(surface), every, fixed, np.concatenate([circle, on_circle]))
     too_far = round_hole.copy()
     too_far[RIM + 1] += 2.6 * (round_hole[hole[1]] - round_hole[RIM + 1])
-    assert upright(surface, every) and upright(start, every) and upright(round_hole, every) and not upright(too_far, every)
+    assert [upright(points, every) for points in (surface, start, round_hole, too_far)] == [True, True, True, False]
     parts = panel(surface, faces, fan, 0, "the surface, its hole filled")
     parts += panel(start, faces, fan, 1, "start: convex combinations")
     parts += panel(round_hole, faces, fan, 2, "the hole pulled to a circle", (center, radius))
