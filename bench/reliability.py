@@ -151,7 +151,7 @@ HEAD = [
 
 
 def cancel_delays(tries=12):
-    """Seconds from a cancel to the end of the call, on a surface of 320,000 faces, after waits of all lengths."""
+    """Seconds from a cancel to the end of the call, on a plate of 300,000 faces, after waits of all lengths."""
     m = 401
     x, y = (part.ravel() for part in np.meshgrid(np.linspace(-1, 1, m), np.linspace(-1, 1, m)))
     i = (m * np.arange(m - 1)[:, None] + np.arange(m - 1)).ravel()

@@ -6,9 +6,9 @@ conformal unwrap, also turn by turn.
 """
 
 import json
-import statistics
 import os
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile

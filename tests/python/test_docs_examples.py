@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("BLENDER", "blender")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "blend_samples" / "README.md"]
 LINKED = ("build", "addon", "bench", "blend_samples", "docs", "native", "scripts", "CMakeLists.txt")
+PATH = "build/python"  # as README.md says
 LIMIT = 300  # seconds
 # Names that stand for a file of the reader.
 STANDS_FOR = {"IN.blend": "blend_samples/bowl.blend"}
@@ -46,16 +47,16 @@ def clone(tmp_path):
     return tmp_path
 
 
-def run(words, folder, **options):
-    path = os.pathsep.join(filter(None, [str(ROOT / "build" / "python"), os.environ.get("PYTHONPATH")]))
-    environment = {**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}
-    return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=LIMIT, **options)
+def run(words, folder, **variables):
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    environment |= {"PYTHONDONTWRITEBYTECODE": "1", **variables}
+    return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=LIMIT)
 
 
 @pytest.mark.parametrize("kind, text", ALL)
 def test_an_example_runs_as_printed(kind, text, clone):
     if kind == "python":
-        done = run([sys.executable, "-c", text], clone)
+        done = run([sys.executable, "-c", text], clone, PYTHONPATH=PATH)
     else:
         for name, file in STANDS_FOR.items():
             text = text.replace(name, file)

@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
 
 import doc_figures  # noqa: E402
+import reproduce  # noqa: E402
 from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
@@ -91,3 +92,37 @@ def test_exact_domains_give_the_figures(row):
     if not all(path.exists() for path in table.needs(row)):
         pytest.skip("build/bench/koebe_bench is not built")
     assert all(agree(*pair) for pair in zip(FIGURES["exact"]["rows"][row], table.cells(row)))
+
+
+# ---------------------------------------------------------------- docs/reproduction.md: samples of `make reproduce`
+
+
+def rows_of(page, start):
+    """The cells of the rows of a page's tables that start so."""
+    lines = (ROOT / "docs" / page).read_text(encoding="utf-8").splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith(f"| {start} |")]
+
+
+def bare(cell):
+    return cell.removesuffix("°")
+
+
+@pytest.mark.parametrize("figure, name, holes, faces", [s for s in reproduce.SURFACES if s[3] < 36000])
+def test_the_comparison_of_methods_holds(figure, name, holes, faces, tmp_path, monkeypatch):
+    scan = reproduce.MESHES / f"{name}.obj"
+    if not scan.exists():
+        pytest.skip("this scan is not in the repository")
+    monkeypatch.setattr(reproduce, "OUT", tmp_path)
+    printed = {row[4]: row for row in rows_of("reproduction.md", figure) if len(row) == 12}
+    for method in ("GK condensed", "CK condensed"):
+        measured = reproduce.result_cells(reproduce.measure(scan, reproduce.RUNS[method], 1))
+        assert all(agree(*map(bare, pair)) for pair in zip(printed[method][5:11], measured))
+
+
+def test_the_rates_of_the_theorems_hold():
+    if not reproduce.convergence.RATES.exists():
+        pytest.skip("build/bench/koebe_rates is not built")
+    row = "circles far apart, condensed"
+    for printed, measured in zip(FIGURES["rates"]["rows"][row], TABLES["rates"].cells(row)):
+        # Slopes fitted to errors down to round-off: one digit.
+        assert float(printed) == pytest.approx(float(measured), rel=0.15)
