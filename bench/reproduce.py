@@ -126,6 +126,18 @@ def compare(surfaces, runs):
     return rows
 
 
+def result_cells(row):
+    """What of a row does not depend on the machine's speed."""
+    return [
+        "yes" if row["converged"] else "no",
+        str(row["steps"]),
+        f"{row['mean_roundness']:.1e}",
+        f"{row['max_roundness']:.1e}",
+        f"{row['angle_error_deg']:.2f}°",
+        str(row["flipped"]),
+    ]
+
+
 def markdown(rows):
     """The table of all runs, and that of the steps."""
     lines = [
@@ -140,10 +152,7 @@ def markdown(rows):
         if row["stopped"]:
             lines.append(start + f"| stopped after {LIMIT} s |" + " |" * 6)
             continue
-        lines.append(
-            start + f"| {'yes' if row['converged'] else 'no'} | {row['steps']} | {row['mean_roundness']:.1e} "
-            f"| {row['max_roundness']:.1e} | {row['angle_error_deg']:.2f}° | {row['flipped']} | {row['ratio']:.1f} |"
-        )
+        lines.append(start + "| " + " | ".join([*result_cells(row), f"{row['ratio']:.1f}"]) + " |")
     lines += [
         "",
         "Steps until the mean roundness stays within 2 % of its last value:",

@@ -6,9 +6,9 @@ conformal unwrap, also turn by turn.
 """
 
 import json
-import statistics
 import os
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -113,7 +113,7 @@ def main() -> None:
     finer = [f"{times}:{MESHES / 'choi_sophie1.obj'}" for times in (1, 2) if (MESHES / "choi_sophie1.obj").exists()]
     largest = [mesh.replace("2:", "3:", 1) for mesh in finer[1:]]
     unwrapped = [mesh for mesh in scans if "ict_head" in mesh and shutil.which(BLENDER)]
-    exact = [f"enneper:{faces}" for faces in (1000, 4000, 16000, 36000)]
+    exact = [f"Enneper:{faces}" for faces in (1000, 4000, 16000, 36000)]
 
     base = {
         "mesh": lambda r: r["mesh"],

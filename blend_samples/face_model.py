@@ -5,7 +5,6 @@ import face_surface
 import numpy as np
 from surface_mesher import Surface, closed_spline, mesh_surface, refine
 
-CHART_CENTER = np.array([0.0, 0.1, 0.0])
 AHEAD = np.array([0.0, 1.0, 0.0])
 UPWARD = np.array([0.0, 0.0, 1.0])
 
@@ -51,7 +50,12 @@ def dense():
 
 
 def _mesh(spacing, holes):
-    surface = Surface(_chart, _lift, lambda p: face_surface.project(p, 2), lambda p: spacing * _coarseness(p))
+    surface = Surface(
+        face_surface.chart,
+        face_surface.lift,
+        lambda p: face_surface.project(p, 2),
+        lambda p: spacing * _coarseness(p),
+    )
     return mesh_surface(surface, _outline(), holes)
 
 
@@ -63,25 +67,11 @@ def _coarseness(p):
     return 1.35 - np.max(fine, axis=0)
 
 
-def _chart(p):
-    """Azimuthal equidistant chart of the directions seen from CHART_CENTER, with -y in the middle."""
-    d = p - CHART_CENTER
-    sideways = np.hypot(d[:, 0], d[:, 2])
-    angle = np.arctan2(sideways, -d[:, 1])
-    return d[:, [0, 2]] * (angle / np.maximum(sideways, 1e-12))[:, None]
-
-
-def _lift(q):
-    angle = np.hypot(q[:, 0], q[:, 1])
-    scale = np.sinc(angle / np.pi)
-    outward = np.stack([q[:, 0] * scale, -np.cos(angle), q[:, 1] * scale], axis=1)
-    return face_surface.cast(CHART_CENTER + 1.5 * outward, -outward)
-
-
 def _outline():
     """From the hairline along the temples and the jaw to below the chin, counterclockwise as seen from ahead."""
     side = [(0.45, -1.16), (0.85, -0.92), (1.08, -0.55), (1.15, -0.1), (1.10, 0.32), (0.90, 0.66), (0.50, 0.86)]
-    return _lift(closed_spline([(0.0, -1.24), *side, (0.0, 0.92), *((-x, y) for x, y in reversed(side))]))
+    drawing = [(0.0, -1.24), *side, (0.0, 0.92), *((-x, y) for x, y in reversed(side))]
+    return face_surface.lift(closed_spline(drawing))
 
 
 def _holes():

@@ -8,6 +8,8 @@ Every function takes points of shape (n, 3) and returns (n,).
 
 import numpy as np
 
+CHART_CENTER = np.array([0.0, 0.1, 0.0])
+
 
 def smooth_union(a, b, width):
     """min(a, b), rounded where |a - b| < width; pushes the surface out by at most width / 6."""
@@ -128,3 +130,19 @@ def cast(origins, directions, rounds=40):
         if not len(active):
             break
     return project(p, 2)
+
+
+def chart(p):
+    """Azimuthal equidistant chart of the directions seen from CHART_CENTER, with -y in the middle."""
+    d = p - CHART_CENTER
+    sideways = np.hypot(d[:, 0], d[:, 2])
+    angle = np.arctan2(sideways, -d[:, 1])
+    return d[:, [0, 2]] * (angle / np.maximum(sideways, 1e-12))[:, None]
+
+
+def lift(q):
+    """Where the rays from CHART_CENTER leave the head, for points (n, 2) of the chart."""
+    angle = np.hypot(q[:, 0], q[:, 1])
+    scale = np.sinc(angle / np.pi)
+    outward = np.stack([q[:, 0] * scale, -np.cos(angle), q[:, 1] * scale], axis=1)
+    return cast(CHART_CENTER + 1.5 * outward, -outward)

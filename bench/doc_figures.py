@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures the figures of README.md and docs/ (`make figures`), and writes them there.
+
+    bench/doc_figures.py [measure] [TABLE ...]     measures into docs/figures.json, then writes the pages
+    bench/doc_figures.py write                     writes the pages from docs/figures.json
+
+In a page a table stands between <!-- figures: NAME --> and <!-- end -->; a single figure of a table,
+TABLE/ROW/COLUMN, between <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->.
+Rows whose meshes are not there keep what was measured before. tests/python/test_docs_figures.py compares.
+"""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+from doc_tables import ROOT, TABLES  # noqa: E402
+
+FIGURES = ROOT / "docs" / "figures.json"
+MARK = re.compile(r"(<!-- figures?: ([^>]*?) -->)(.*?)(<!-- end -->)", re.DOTALL)
+
+
+def pages() -> list[Path]:
+    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def load() -> dict:
+    return json.loads(FIGURES.read_text(encoding="utf-8")) if FIGURES.exists() else {}
+
+
+def save(figures: dict) -> None:
+    FIGURES.write_text(json.dumps(figures, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def measure(names: list[str]) -> None:
+    """The rows that can be measured here, table by table."""
+    for name in names:
+        table = TABLES[name]
+        complete = len(table.available()) == len(table.rows) > 0
+        rows = {} if complete else load().get(name, {}).get("rows", {})
+        for row in table.available():
+            cells = table.cells(row)
+            print(name, "|", row, "|", " | ".join(cells), flush=True)
+            if table.worth(cells):
+                rows[row] = cells
+        figures = load()
+        figures[name] = {"command": f"bench/doc_figures.py measure {name}", "head": table.head, "rows": rows}
+        save(figures)
+
+
+def markdown(table: dict) -> str:
+    """A measured table."""
+    lines = ["| " + " | ".join(table["head"]) + " |", "|" + " --- |" * len(table["head"])]
+    lines += [f"| {row} | " + " | ".join(cells) + " |" for row, cells in table["rows"].items()]
+    return "\n".join(lines)
+
+
+def figure(figures: dict, place: str) -> str:
+    """One cell, TABLE/ROW/COLUMN."""
+    name, row, column = place.split("/")
+    table = figures[name]
+    return table["rows"][row][table["head"].index(column) - 1]
+
+
+def filled(text: str, figures: dict) -> str:
+    """A page with all its marked places as the figures say; a table that was never measured stays as it is."""
+
+    def place(match: re.Match) -> str:
+        start, name, _, end = match.groups()
+        if name.split("/")[0] not in figures:
+            return match[0]
+        if "figures:" in start:
+            return f"{start}\n\n{markdown(figures[name])}\n\n{end}"
+        return f"{start}{figure(figures, name)}{end}"
+
+    return MARK.sub(place, text)
+
+
+def write() -> None:
+    figures = load()
+    for page in pages():
+        page.write_text(filled(page.read_text(encoding="utf-8"), figures), encoding="utf-8")
+
+
+def main() -> None:
+    words = sys.argv[1:]
+    if words[:1] != ["write"]:
+        names = [word for word in words if word != "measure"]
+        unknown = set(names) - set(TABLES)
+        if unknown:
+            sys.exit(f"no table {sorted(unknown)[0]}; there are {', '.join(TABLES)}")
+        measure(names or list(TABLES))
+    write()
+
+
+if __name__ == "__main__":
+    main()

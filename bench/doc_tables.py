@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the tables of README.md and docs/ say, each row from one or a few runs of a command.
+
+A table has a head, the rows' names and a function from a name to its cells, all as they are printed. `own` rows need
+nothing but this repository; the others scans that are not in it, in ../shared/meshes/good.
+"""
+
+import json
+import math
+import random
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import convergence
+import shape_distances
+
+ROOT = Path(__file__).resolve().parent.parent
+KOEBE = ROOT / "build" / "koebe"
+BENCH = ROOT / "build" / "bench" / "koebe_bench"
+SAMPLES = ROOT / "blend_samples"
+SCANS = ROOT.parent / "shared" / "meshes" / "good"
+LIMIT = 900  # seconds for a command
+
+
+@dataclass
+class Table:
+    """`rows` are names that `cells` understands; `measured` is the command for the page's reader."""
+
+    head: list[str]
+    rows: list[str]
+    cells: Callable[[str], list[str]]
+    needs: Callable[[str], list[Path]]
+    worth: Callable[[list[str]], bool] = lambda cells: True
+
+    def available(self) -> list[str]:
+        return [row for row in self.rows if all(path.exists() for path in self.needs(row))]
+
+
+def mesh_file(name: str) -> Path:
+    """A sample of this repository, or a scan beside it."""
+    own = SAMPLES / f"{name}.obj"
+    return own if own.exists() else SCANS / f"{name}.obj"
+
+
+def mesh_files(row: str) -> list[Path]:
+    return [mesh_file(name) for name in row.split(", ")]
+
+
+def run(*words: object) -> str:
+    """Standard output of a command; exit 4 (not converged) is an answer too."""
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=LIMIT)
+    if done.returncode not in (0, 4):
+        sys.exit(f"{' '.join(map(str, words))}: {done.stderr.strip()}")
+    return done.stdout
+
+
+@cache
+def report(name: str, *options: str) -> dict:
+    """The report of `koebe uniformize`."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder)
+        run(KOEBE, "uniformize", mesh_file(name), out / "out.obj", "--json", out / "out.json", "--quiet", *options)
+        return json.loads((out / "out.json").read_text(encoding="utf-8"))
+
+
+def count(number: int) -> str:
+    return f"{number:,}"
+
+
+def worst_roundness(found: dict) -> float:
+    """As the command prints it: of the worst loop, before its vertices were put on its circle."""
+    return max(loop["roundness"] for loop in found["loops"])
+
+
+def made_smaller(found: dict) -> int:
+    """Circles that had to be made smaller, as the warning counts them."""
+    told = [re.search(r"made smaller[^:]*: (\d+)", warning) for warning in found["warnings"]]
+    return sum(int(match[1]) for match in told if match)
+
+
+# ---------------------------------------------------------------- the tables
+
+
+def quality(name: str) -> list[str]:
+    plain, polished = report(name), report(name, "--polish")
+    return [
+        count(plain["faces"]),
+        str(len(plain["loops"])),
+        f"{plain['angle_error_deg']['mean']:.2f}",
+        f"{polished['angle_error_deg']['mean']:.2f}",
+        f"{worst_roundness(plain):.1e}",
+        str(plain["sweeps"]),
+        str(plain["flipped"]),
+    ]
+
+
+def domain_error(row: str) -> list[str]:
+    lift, engine = row.split(", ")
+    errors = []
+    for faces in (1000, 4000, 16000, 36000):
+        found = json.loads(run(BENCH, f"{lift}:{faces}", 1, engine, "gk"))[-1]
+        errors.append(f"{found['circle_error']:.1e}")
+    return errors
+
+
+def repairs(name: str) -> list[str]:
+    found = report(name)
+    return [
+        count(len(found["loops"])),
+        str(found["sweeps"]),
+        count(found["flipped"] - found["below_resolution"]),
+        count(found["below_resolution"]),
+        count(sum(len(loop["off_circle"]) for loop in found["loops"])),
+        str(made_smaller(found)),
+        f"{found['angle_error_deg']['mean']:.2f}",
+    ]
+
+
+def needed_repair(cells: list[str]) -> bool:
+    return any(cell != "0" for cell in cells[2:6])
+
+
+def polish(name: str) -> list[str]:
+    plain, polished = (found["angle_error_deg"] for found in (report(name), report(name, "--polish")))
+    return [f"{plain['mean']:.2f}", f"{polished['mean']:.2f}", f"{plain['max']:.0f}", f"{polished['max']:.0f}"]
+
+
+def balance(name: str) -> list[str]:
+    plain, balanced = (found["area_distortion"] for found in (report(name), report(name, "--balance", "area")))
+    return [f"{plain['log_sd']:.2f}", f"{balanced['log_sd']:.2f}"]
+
+
+def module_distance(row: str) -> list[str]:
+    said = run(KOEBE, "compare", *mesh_files(row))
+    return [f"{float(said.split()[1]):.1e}"]
+
+
+@cache
+def made_faces() -> dict[str, Path]:
+    return {path.stem: path for path in shape_distances.made_faces()}
+
+
+def face_distances(name: str) -> list[str]:
+    """A row of the table of bench/shape_distances.py."""
+    options = shape_distances.parse(list(map(str, made_faces().values())))
+    faces = made_faces()
+    return ["0" if other == name else shape_distances.distance(options, faces[name], faces[other]) for other in faces]
+
+
+def same_shape(way: str) -> list[str]:
+    """The distance of the face from itself, changed in a way that a module must not see; or from its mirror image."""
+    mesh = mesh_file("face").read_text(encoding="ascii").splitlines()
+    points = [tuple(map(float, line.split()[1:])) for line in mesh if line.startswith("v ")]
+    faces = [tuple(int(word) - 1 for word in line.split()[1:]) for line in mesh if line.startswith("f ")]
+    points, faces = CHANGES[way](points, faces)
+    with tempfile.TemporaryDirectory() as folder:
+        other = Path(folder) / "other.obj"
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
+        lines += ["f " + " ".join(str(v + 1) for v in face) for face in faces]
+        other.write_text("\n".join(lines) + "\n", encoding="ascii")
+        found = float(run(KOEBE, "compare", mesh_file("face"), other).split()[1])
+    return ["below 1e-9" if found < 1e-9 else f"{found:.1e}"]
+
+
+def renumbered(points, faces):
+    number = random.Random(1).sample(range(len(points)), len(points))
+    moved = [point for _, point in sorted(zip(number, points))]
+    return moved, [tuple(number[v] for v in face) for face in reversed(faces)]
+
+
+def turned(points, faces):
+    c, s = math.cos(1.0), math.sin(1.0)
+    return [(c * x - s * y + 3.0, s * x + c * y, z - 1.0) for x, y, z in points], faces
+
+
+def cut_in_four(points, faces):
+    points, middles, finer = list(points), {}, []
+    for face in faces:
+        halves = []
+        for a, b in zip(face, face[1:] + face[:1]):
+            key = frozenset((a, b))
+            if key not in middles:
+                middles[key] = len(points)
+                points.append(tuple((x + y) / 2 for x, y in zip(points[a], points[b])))
+            halves.append(middles[key])
+        (a, b, c), (x, y, z) = face, halves
+        finer += [(a, x, z), (x, b, y), (z, y, c), (x, y, z)]
+    return points, finer
+
+
+CHANGES = {
+    "turned and moved": turned,
+    "1e-8 times as large": lambda points, faces: ([tuple(1e-8 * x for x in p) for p in points], faces),
+    "1e8 times as large": lambda points, faces: ([tuple(1e8 * x for x in p) for p in points], faces),
+    "vertices and faces renumbered": renumbered,
+    "each face cut in four": cut_in_four,
+}
+
+
+def annulus(name: str) -> list[str]:
+    """The annulus map by a harmonic function and by the Yamabe flow: the radius of its hole and the angle error."""
+    sys.path.insert(0, str(ROOT / "build" / "python"))
+    import koebe
+    import numpy as np
+
+    lines = [line.split() for line in mesh_file(name).read_text(encoding="utf-8").splitlines()]
+    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float)
+    triangles = np.array([[word.split("/")[0] for word in line[1:]] for line in lines if line[:1] == ["f"]], int) - 1
+    radii, errors = [], []
+    for backend in ("harmonic", "yamabe"):
+        uv, radius = koebe.annulus_map(vertices, triangles, backend=backend)
+        radii.append(f"{radius:.3g}")
+        errors.append(f"{koebe.distortion(vertices, triangles, uv)['angle_error_deg']['mean']:.2f}")
+    return radii + errors
+
+
+def rates(row: str) -> list[str]:
+    title, engine = row.rsplit(", ", 1)
+    domain = next(key for key, value in convergence.DOMAINS.items() if value == title)
+    return convergence.cells(*(convergence.measure(domain, engine, method) for method in ("ck", "gk")))
+
+
+def scans() -> list[str]:
+    return sorted(path.stem for path in SCANS.glob("*.obj"))
+
+
+THREE_SCANS = ["choi_alex3", "choi_lion5", "choi_sophie1"]
+OWN = ["face", "surprised"]
+TABLES = {
+    "quality": Table(
+        ["mesh", "faces", "loops", "angle error", "polished", "roundness", "sweeps", "flipped"],
+        OWN + THREE_SCANS,
+        quality,
+        mesh_files,
+    ),
+    "exact": Table(
+        ["lift, engine", "978 faces", "4,042", "16,340", "36,675"],
+        [f"{lift}, {engine}" for engine in ("condensed", "mesh") for lift in ("polynomial", "sphere", "Enneper")],
+        domain_error,
+        lambda row: [BENCH],
+    ),
+    "repairs": Table(
+        ["mesh", "loops", "sweeps", "flipped", "below resolution", "off circle", "circles made smaller", "degrees"],
+        scans(),
+        repairs,
+        mesh_files,
+        needed_repair,
+    ),
+    "polish": Table(
+        ["mesh", "mean", "mean, polished", "largest", "largest, polished"],
+        OWN + THREE_SCANS + ["fig1_nefertiti_20k_15", "mountain_40lakes", "nefertiti_40tight"],
+        polish,
+        mesh_files,
+    ),
+    "balance": Table(
+        ["mesh", "none", "area"],
+        OWN + ["choi_sophie1", "fig12_nefertiti_74k_9"],
+        balance,
+        mesh_files,
+    ),
+    "annulus": Table(
+        ["mesh", "radius, harmonic", "radius, Yamabe", "degrees, harmonic", "degrees, Yamabe"],
+        ["choi_sophie1", "choi_amoeba1", "pmp_suzanne2", "cat_8k_2"],
+        annulus,
+        mesh_files,
+    ),
+    "rates": Table(
+        convergence.HEAD,
+        [f"{title}, {engine}" for title in convergence.DOMAINS.values() for engine in ("mesh", "condensed")],
+        rates,
+        lambda row: [convergence.RATES],
+    ),
+    "same_shape": Table(
+        ["the face", "distance from itself"],
+        list(CHANGES),
+        same_shape,
+        lambda row: [SAMPLES / "face.obj"],
+    ),
+    "faces": Table(
+        ["", "face", "face_finer", "surprised", "face_cut"],
+        ["face", "face_finer", "surprised", "face_cut"],
+        face_distances,
+        lambda row: [SAMPLES / "make_obj.py"],
+    ),
+    "distances": Table(
+        ["meshes", "distance"],
+        [
+            "face, surprised",
+            "panel_featuretype, panel_featuretype_rolled",
+            "ict_head_neutral, ict_head_neutral_sub45k",
+            "fig2_nefertiti_13k_3, fig8_nefertiti_37k_3",
+            "fig10_nefertiti_18k_5, fig11_nefertiti_40k_5",
+        ],
+        module_distance,
+        mesh_files,
+    ),
+}

@@ -1,0 +1,128 @@
+"""What README.md and docs/ say in figures is in docs/figures.json, and that is what a measurement gives."""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bench"))
+
+import doc_figures  # noqa: E402
+import reproduce  # noqa: E402
+from doc_tables import TABLES  # noqa: E402
+
+FIGURES = doc_figures.load()
+MEASURED_ELSEWHERE = {"reliability", "cancel"}  # make reliability
+CHEAP = {"quality", "polish", "balance", "same_shape", "faces", "distances"}
+LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
+NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def last_digit(text):
+    """What one unit in the last printed digit is worth."""
+    mantissa, _, exponent = text.replace(",", "").partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    return 10.0 ** (int(exponent or 0) - decimals)
+
+
+def agree(printed, measured):
+    """The same words, whole numbers equal, others within one unit of the last printed digit."""
+    if not NUMBER.fullmatch(printed) or not NUMBER.fullmatch(measured):
+        return printed == measured
+    one, other = (float(text.replace(",", "")) for text in (printed, measured))
+    whole = "." not in printed and "e" not in printed
+    return one == other if whole else abs(one - other) <= 1.01 * max(last_digit(printed), last_digit(measured))
+
+
+def test_the_comparison_itself_sees_a_difference():
+    assert agree("0.71", "0.72") and not agree("0.71", "0.73")
+    assert agree("2.1e-03", "2.2e-03") and not agree("2.1e-03", "2.3e-03") and not agree("2.1e-03", "2.1e-04")
+    assert agree("1,328", "1,328") and not agree("1,328", "1,329") and not agree("5", "6")
+    assert not agree("0.71", "below 1e-9")
+
+
+@pytest.mark.parametrize("page", doc_figures.pages(), ids=lambda page: page.name)
+def test_every_marked_place_says_what_the_figures_say(page):
+    text = page.read_text(encoding="utf-8")
+    assert doc_figures.filled(text, FIGURES) == text, "bench/doc_figures.py write"
+
+
+def test_every_mark_is_closed_and_every_table_is_used():
+    text = "\n".join(page.read_text(encoding="utf-8") for page in doc_figures.pages())
+    starts = re.findall(r"<!-- figures?: (.*?) -->", text)
+    assert len(starts) == len(doc_figures.MARK.findall(text)) == text.count("<!-- end -->")
+    assert {start.split("/")[0] for start in starts} == set(FIGURES)
+    assert set(FIGURES) == set(TABLES) | MEASURED_ELSEWHERE
+
+
+def test_a_changed_figure_is_seen():
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    changed = json.loads(json.dumps(FIGURES))
+    changed["quality"]["rows"]["face"][2] = "0.01"
+    assert doc_figures.filled(page, changed) != page
+
+
+def rows():
+    for name in sorted(CHEAP):
+        for row in FIGURES[name]["rows"]:
+            if not LARGE.search(row):
+                yield pytest.param(name, row, id=f"{name}: {row}")
+
+
+@pytest.mark.parametrize("name, row", rows())
+def test_a_measurement_gives_the_figures(name, row):
+    table = TABLES[name]
+    if not all(path.exists() for path in table.needs(row)):
+        pytest.skip("this scan is not in the repository")
+    measured = table.cells(row)
+    printed = FIGURES[name]["rows"][row]
+    assert len(measured) == len(printed) == len(FIGURES[name]["head"]) - 1
+    wrong = [pair for pair in zip(printed, measured) if not agree(*pair)]
+    assert not wrong, f"bench/doc_figures.py measure {name}"
+
+
+@pytest.mark.parametrize("row", FIGURES["exact"]["rows"])
+def test_exact_domains_give_the_figures(row):
+    if "condensed" not in row:
+        pytest.skip("the mesh engine takes long")
+    table = TABLES["exact"]
+    if not all(path.exists() for path in table.needs(row)):
+        pytest.skip("build/bench/koebe_bench is not built")
+    assert all(agree(*pair) for pair in zip(FIGURES["exact"]["rows"][row], table.cells(row)))
+
+
+# ---------------------------------------------------------------- docs/reproduction.md: samples of `make reproduce`
+
+
+def rows_of(page, start):
+    """The cells of the rows of a page's tables that start so."""
+    lines = (ROOT / "docs" / page).read_text(encoding="utf-8").splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith(f"| {start} |")]
+
+
+def bare(cell):
+    return cell.removesuffix("°")
+
+
+@pytest.mark.parametrize("figure, name, holes, faces", [s for s in reproduce.SURFACES if s[3] < 36000])
+def test_the_comparison_of_methods_holds(figure, name, holes, faces, tmp_path, monkeypatch):
+    scan = reproduce.MESHES / f"{name}.obj"
+    if not scan.exists():
+        pytest.skip("this scan is not in the repository")
+    monkeypatch.setattr(reproduce, "OUT", tmp_path)
+    printed = {row[4]: row for row in rows_of("reproduction.md", figure) if len(row) == 12}
+    for method in ("GK condensed", "CK condensed"):
+        measured = reproduce.result_cells(reproduce.measure(scan, reproduce.RUNS[method], 1))
+        assert all(agree(*map(bare, pair)) for pair in zip(printed[method][5:11], measured))
+
+
+def test_the_rates_of_the_theorems_hold():
+    if not reproduce.convergence.RATES.exists():
+        pytest.skip("build/bench/koebe_rates is not built")
+    row = "circles far apart, condensed"
+    for printed, measured in zip(FIGURES["rates"]["rows"][row], TABLES["rates"].cells(row)):
+        # Slopes fitted to errors down to round-off: one digit.
+        assert float(printed) == pytest.approx(float(measured), rel=0.15)
