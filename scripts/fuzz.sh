@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Fuzz for so many seconds in all, a third of them each target. Ends with 1 if there is a finding.
+# Usage: scripts/fuzz.sh BUILD SECONDS [SEED]      SEED 0 is another one each time.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+build=$1 total=$2 seed=${3:-0}
+targets=(uniformize arrays read)
+each=$(((total + ${#targets[@]} - 1) / ${#targets[@]}))
+found=0
+
+# Exceptions are part of the game: what the sanitizers' own handler would print of them is noise.
+export ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=0 UBSAN_OPTIONS=print_stacktrace=1
+for target in "${targets[@]}"; do
+    corpus=$build/corpus/$target findings=$build/findings/$target
+    mkdir -p "$corpus" "$findings"
+    [ -n "$(ls -A "$corpus")" ] || "$build/tests/fuzz/koebe_fuzz" seeds "$target" "$corpus"
+    kept=()
+    for folder in tests/fuzz/corpus/$target tests/fuzz/findings/$target; do
+        [ ! -d "$folder" ] || kept+=("$folder")
+    done
+    words=()
+    [ ! -f "tests/fuzz/$target.dict" ] || words=(-dict="tests/fuzz/$target.dict")
+    log=$build/$target.log
+    # A slow input is a finding from two minutes on: the sanitizers and busy machines take their share.
+    if "$build/tests/fuzz/fuzz_$target" -max_total_time="$each" -seed="$seed" -timeout=120 -rss_limit_mb=4096 \
+        -max_len=$([ "$target" = read ] && echo 600 || echo 302) -print_final_stats=1 \
+        "${words[@]}" -artifact_prefix="$findings/" "$corpus" "${kept[@]}" >"$log" 2>&1; then
+        runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+        echo "fuzz $target: ${runs:-0} inputs, no finding"
+    else
+        found=1
+        echo "fuzz $target: a finding"
+        tail -n 60 "$log"
+    fi
+done
+[ $found = 0 ] || echo "Findings are in $build/findings; replay one with $build/tests/fuzz/koebe_fuzz run TARGET FILE" >&2
+exit $found
