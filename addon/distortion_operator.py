@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import distortion, distortion_display, drawing
+from . import distortion, distortion_display, drawing, edit_mode
 from .noted import set_property
 from .targets import reason, target_objects, with_own_meshes
 from .transaction import transaction
@@ -42,10 +42,10 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
     def execute(self, context):
         with transaction() as run:
             problems, objects = [], with_own_meshes(target_objects(context))
-            for obj in objects:
-                name = obj.name
-                with run.attempt(lambda error, name=name: problems.append(reason(name, error))):
-                    self._color(run, obj)
+            with edit_mode.left_if_faster(run, context):
+                for obj in objects:
+                    with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                        self._color(run, obj)
             if len(problems) == len(objects):
                 self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
                 return {"CANCELLED"}

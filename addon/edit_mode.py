@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Enters Edit Mode with one object, and finds back to the modes and the selection of objects that were."""
+"""Enters and leaves Edit Mode, and finds back to the modes and the selection of objects that were."""
 
 import contextlib
 
@@ -41,6 +41,29 @@ def enter(run, context, obj):
     bpy.ops.object.mode_set(mode="EDIT")
     if obj.mode != "EDIT":
         raise TransferError(f"{obj.name}: Blender does not enter Edit Mode with it")
+
+
+@contextlib.contextmanager
+def left_if_faster(run, context):
+    """Object Mode inside, where Blender writes faster there, and where it is sure to find back."""
+    layer = context.view_layer
+    if context.mode != "EDIT_MESH" or compat.slow_mode_change() or not _all_come_back(context):
+        yield
+        return
+    state = _state(layer)
+    run.before_write(_restore, layer, *state)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield
+    _restore(layer, *state)
+
+
+def _all_come_back(context):
+    """Whether every object that is in Edit Mode is a mesh, seen and selected: Blender enters it with no others."""
+    edited = [obj for obj in bpy.data.objects if obj.mode == "EDIT"]
+    return all(
+        obj.type == "MESH" and obj.name in context.view_layer.objects and obj.select_get() and _visible(context, obj)
+        for obj in edited
+    )
 
 
 def _state(layer):

@@ -42,12 +42,12 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return {"CANCELLED"}
         plans = []
-        try:
-            with transaction() as run:
+        with transaction() as run:
+            try:
                 return self._fill(run, context, koebe, plans)
-        finally:
-            for plan in plans:
-                plan.free()
+            finally:
+                for plan in plans:
+                    plan.free()
 
     def _fill(self, run, context, koebe, plans):
         problems, holes, faces = [], 0, 0

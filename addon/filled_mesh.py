@@ -134,8 +134,8 @@ def _remove_untagged(obj, fillings):
     mesh = bmesh.from_edit_mesh(obj.data)
     _tag_examples(fillings, True)
     for elements in _elements(mesh):
-        for element in [element for element in elements if not element.tag]:
-            elements.remove(element)
+        for element in reversed([element for element in elements if not element.tag]):
+            elements.remove(element)  # the last one first: so the next ones get their places in the same order
     mesh.normal_update()
     bmesh.update_edit_mesh(obj.data)
 

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import checker, report, results
+from . import checker, edit_mode, report, results
 from .distortion import texel_density
 from .job import Job
 from .modal_run import ModalRun
@@ -58,7 +58,8 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
     def _finish(self, context, job):
         """Write what was computed, each object wholly or not at all, and say what became of it."""
         with transaction() as run:
-            job.write(run)
+            with edit_mode.left_if_faster(run, context):
+                job.write(run)
             results.record(run, context, job)
             select_offenders(run, context, job)
             for area in context.screen.areas if context.screen else ():

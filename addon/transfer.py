@@ -2,7 +2,6 @@
 """Blender mesh -> arrays. Reads everything and writes nothing."""
 
 import contextlib
-import hashlib
 
 import bmesh
 import numpy as np
@@ -23,7 +22,8 @@ def read_surface(obj, selected_only):
     that of the selected faces. A mirrored object keeps its face order: lengths and angles are those
     of the world, and the UVs stay counter-clockwise in the mesh's own order.
     """
-    with up_to_date(obj) as mesh:
+    bring_up_to_date(obj)
+    with arrays(obj) as mesh:
         mesh.calc_loop_triangles()
         vertex, edge = compat.corner_indices(mesh)
         size = compat.read_indices(mesh.polygons, "loop_total")
@@ -40,13 +40,10 @@ def read_surface(obj, selected_only):
         )
 
 
-@contextlib.contextmanager
-def up_to_date(obj):
-    """The object's mesh, to be read, with what was edited until now."""
+def bring_up_to_date(obj):
+    """Let the mesh's arrays hold what was edited until now."""
     if obj.mode == "EDIT":
         obj.update_from_editmode()
-    with arrays(obj) as mesh:
-        yield mesh
 
 
 @contextlib.contextmanager
@@ -74,13 +71,13 @@ def _world_positions(obj, mesh):
 
 
 def read_mark(obj):
-    """Bytes that are others as soon as the mesh's faces, their directions or its vertices' places are others."""
-    with up_to_date(obj) as mesh:
-        vertex, edge = compat.corner_indices(mesh)
-        digest = hashlib.blake2b(digest_size=16)
-        for part in (compat.read_indices(mesh.polygons, "loop_total"), vertex, edge, compat.vertex_positions(mesh)):
-            digest.update(np.ascontiguousarray(part))
-        return digest.digest()
+    """Arrays that are others as soon as the mesh's faces, their directions or its vertices' places are others.
+
+    In Edit Mode they are those of the last time the mesh's arrays were brought up to date.
+    """
+    with arrays(obj) as mesh:
+        vertex, _ = compat.corner_indices(mesh)
+        return compat.read_indices(mesh.polygons, "loop_start"), vertex, compat.vertex_positions(mesh)
 
 
 def read_uv(obj, layer_name):

@@ -82,11 +82,11 @@ def _custom(owner):
 
 
 def group(properties):
-    """A property group as plain values, and which of them are set."""
+    """A property group as plain values, but for the time that something took."""
     result = {}
     for prop in properties.bl_rna.properties:
         name = prop.identifier
-        if name == "rna_type":
+        if name in ("rna_type", "seconds"):
             continue
         value = getattr(properties, name)
         if prop.type == "COLLECTION":
