@@ -16,7 +16,7 @@ def _parts():
     """The modules with something to register. Imported late: the rest of the package needs no bpy."""
     from . import (
         circles,
-        distortion_display,
+        distortion_operator,
         fill_operator,
         operators,
         panels,
@@ -29,7 +29,7 @@ def _parts():
     )
 
     return (
-        properties, results, operators, select_operators, distortion_display, circles, fill_operator, shape_operators,
+        properties, results, operators, select_operators, distortion_operator, circles, fill_operator, shape_operators,
         presets, panels, preferences,
     )  # fmt: skip
 

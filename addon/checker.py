@@ -1,138 +1,117 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The material "Koebe Checker", and putting it on objects so that it comes off again without a trace.
+"""Putting the checker on objects so that it comes off again without a trace.
 
-An object with material slots keeps them: the checker lies over them on the object's side (slot link
-"Object"), the materials of the mesh and the faces' slot numbers stay. What was there is remembered in
-a custom property of the object. An object without slots gets one.
+An object with material slots keeps them: the checker lies over them on the object's side, the materials of the mesh
+and the faces' slot numbers stay. What was there is remembered in a custom property of the object, both sides of every
+slot, as joining objects throws one side away. A mesh without slots gets one, for all its objects.
 """
 
 import bpy
 
-from . import compat, transfer
+from . import slots
+from .checker_material import checker_materials, is_checker
+from .noted import set_property
+from .targets import check_mesh
+from .transfer import TransferError
 
-NAME = "Koebe Checker"
-LAYER_KEY = "koebe_checker_layer"  # on the material: the UV layer that it shows
-SIZE_KEY = "koebe_checker_size"  # on the material: its squares across the UV square
 MEMORY_KEY = "koebe_checker_slots"  # on the object: what its slots were
-
-PAPER = (0.80, 0.76, 0.68, 1.0)
-INK = (0.045, 0.20, 0.26, 1.0)
-# One square of the coarse pattern is this many of the fine one: it shows scale from far away.
-COARSE = 4.0
-COARSE_SHADE = (0.68, 0.68, 0.68, 1.0)
-
-
-def dress(objects, layer, size, even):
-    """Put the checker of a UV layer on objects, `size` squares across the UV square of the first one.
-
-    With `even` the squares of the others are as large in space as those of the first; else all have the same number,
-    and the squares' size shows where texels are dense. Objects must not be in Edit Mode if `even`.
-    """
-    for obj in objects:
-        if is_on(obj):
-            take_off(obj)
-    sizes = [size] * len(objects)
-    if even and len(objects) > 1:
-        density = [transfer.texel_density(obj, layer) for obj in objects]
-        sizes = [size * density[0] / one if density[0] * one > 0.0 else size for one in density]
-    materials = {}
-    for obj, own_size in zip(objects, sizes, strict=True):
-        key = f"{own_size:.3g}"  # sizes that cannot be told apart share a material
-        if key not in materials:
-            materials[key] = checker_material(layer, own_size)
-        put_on(obj, materials[key])
-
-
-def checker_material(layer, size):
-    """The checker of a UV layer, `size` squares across the UV square: one that nobody wears, or else a new one."""
-    for material in bpy.data.materials:
-        mine = material.get(LAYER_KEY) == layer and material.library is None and material.node_tree
-        if mine and (material.users == 0 or material.get(SIZE_KEY) == size):
-            break
-    else:
-        material = bpy.data.materials.new(NAME)
-        material[LAYER_KEY] = layer
-        compat.enable_nodes(material)
-        _build(material.node_tree, layer)
-    material[SIZE_KEY] = size
-    _set_size(material.node_tree, size)
-    return material
-
-
-def _build(tree, layer):
-    tree.nodes.clear()
-    uv = _node(tree, "ShaderNodeUVMap", (-800, 0), uv_map=layer)
-    fine = _node(tree, "ShaderNodeTexChecker", (-560, 120), name="Fine")
-    coarse = _node(tree, "ShaderNodeTexChecker", (-560, -120), name="Coarse")
-    shade = _node(tree, "ShaderNodeMixRGB", (-320, 0), blend_type="MULTIPLY")
-    surface = _node(tree, "ShaderNodeBsdfPrincipled", (-120, 0))
-    output = _node(tree, "ShaderNodeOutputMaterial", (180, 0))
-    fine.inputs["Color1"].default_value = PAPER
-    fine.inputs["Color2"].default_value = INK
-    coarse.inputs["Color1"].default_value = (1.0, 1.0, 1.0, 1.0)
-    coarse.inputs["Color2"].default_value = COARSE_SHADE
-    shade.inputs["Fac"].default_value = 1.0
-    surface.inputs["Roughness"].default_value = 0.55
-    link = tree.links.new
-    link(uv.outputs["UV"], fine.inputs["Vector"])
-    link(uv.outputs["UV"], coarse.inputs["Vector"])
-    link(fine.outputs["Color"], shade.inputs["Color1"])
-    link(coarse.outputs["Color"], shade.inputs["Color2"])
-    link(shade.outputs["Color"], surface.inputs["Base Color"])
-    link(surface.outputs["BSDF"], output.inputs["Surface"])
-
-
-def _node(tree, kind, location, **values):
-    node = tree.nodes.new(kind)
-    node.location = location
-    for key, value in values.items():
-        setattr(node, key, value)
-    return node
-
-
-def _set_size(tree, size):
-    for name, squares in (("Fine", size), ("Coarse", size / COARSE)):
-        node = tree.nodes.get(name)
-        if node is not None:  # the user may have edited the material
-            node.inputs["Scale"].default_value = squares
 
 
 def is_on(obj):
-    """Whether the object wears the checker."""
-    return MEMORY_KEY in obj
+    """Whether the object wears the checker, or remembers what it wore beneath."""
+    return MEMORY_KEY in obj or any(is_checker(slot.material) for slot in obj.material_slots)
 
 
-def put_on(obj, material):
-    """Cover all of the object's slots with the checker, or give it one if it has none."""
-    if is_on(obj):
-        take_off(obj)
+def check(obj):
+    """Raise TransferError unless the checker can be put on and taken off."""
+    if obj.library is not None:
+        raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
+    if obj.override_library is not None:
+        raise TransferError(f"{obj.name}: a library override would forget its own materials: make it local first")
+    if len(obj.material_slots) == 0 or any(is_checker(material) for material in obj.data.materials):
+        check_mesh(obj)
+
+
+def even_sizes(size, densities):
+    """Squares across the UV square of each object, so that all are as large in space as those of the first one.
+
+    densities  lengths in the UVs over lengths in space, 0 where there is none
+    """
+    sizes = [size * densities[0] / one if densities[0] * one > 0.0 else size for one in densities]
+    alike = {}  # sizes that cannot be told apart share a material
+    return [alike.setdefault(f"{one:.3g}", one) for one in sizes]
+
+
+def materials(run, objects, layer, sizes):
+    """The checker of a UV layer that each of the objects is to wear, with so many squares across the UV square."""
+
+    def free(material):
+        return all(obj in objects for obj in bpy.data.objects if _wears(obj, material))
+
+    return checker_materials(run, layer, sizes, free)
+
+
+def _wears(obj, material):
+    return any(slot.material == material for slot in obj.material_slots)
+
+
+def put_on(run, obj, material):
+    """Cover all of the object's slots with a checker, or give it one; call `check` first."""
+    take_off(run, obj)
+    cover(run, obj, material)
+
+
+def cover(run, obj, material):
+    """Put a checker over what the object, which has none on, wears."""
     if len(obj.material_slots) == 0:
-        obj.data.materials.append(material)
-        obj[MEMORY_KEY] = {"added": True}
+        slots.add_to_mesh(run, obj, material)
         return
     memory = {}
     for index, slot in enumerate(obj.material_slots):
-        was = {"link": slot.link}
-        slot.link = "OBJECT"
-        if slot.material is not None:
-            was["material"] = slot.material
-        slot.material = material
-        memory[str(index)] = was
-    obj[MEMORY_KEY] = memory
+        was = {"link": slot.link, "mesh": obj.data.materials[index]}
+        was["material"] = slots.set_own(run, obj, index, material)
+        memory[str(index)] = {key: value for key, value in was.items() if value is not None}
+    set_property(run, obj, MEMORY_KEY, memory)
 
 
-def take_off(obj):
-    """Give the object its slots back."""
-    memory = obj[MEMORY_KEY]
-    if "added" in memory:
-        materials = obj.data.materials
-        if len(materials) == 1 and materials[0] is not None and LAYER_KEY in materials[0]:
-            materials.clear()  # pop would leave the objects' slots
-    else:
-        for index, was in memory.items():
-            if int(index) < len(obj.material_slots):
-                slot = obj.material_slots[int(index)]
-                slot.link = "OBJECT"
-                slot.material = was.get("material")
-                slot.link = was["link"]
-    del obj[MEMORY_KEY]
+def take_off(run, obj):
+    """Give the object its slots back; call `check` first. What was put into a slot meanwhile stays there."""
+    if not is_on(obj):
+        return
+    memory = _memory(obj)
+    for index, slot in enumerate(obj.material_slots):
+        if slot.link == "OBJECT" or str(index) in memory:
+            _uncover(run, obj, index, memory.get(str(index), {}))
+    of_mesh = obj.data.materials
+    if len(of_mesh) and not memory and all(is_checker(material) for material in of_mesh):
+        slots.clear_mesh(run, obj)
+    for index, material in enumerate(of_mesh):
+        if is_checker(material):  # as where an object was joined while it had the checker on
+            slots.set_of_mesh(run, obj.data, index, _beneath(memory.get(str(index), {})))
+    if MEMORY_KEY in obj:
+        set_property(run, obj, MEMORY_KEY, None)
+
+
+def _uncover(run, obj, index, was):
+    link = obj.material_slots[index].link
+    if is_checker(slots.own_side(run, obj, index)):
+        slots.set_own(run, obj, index, was.get("material"))
+        slots.set_link(run, obj, index, was.get("link", "DATA") if link == "OBJECT" else "DATA")
+
+
+def _memory(obj):
+    return obj[MEMORY_KEY].to_dict() if MEMORY_KEY in obj else {}
+
+
+def _beneath(was):
+    """The material that a remembered slot showed, or None."""
+    return was.get("material" if was.get("link") == "OBJECT" else "mesh")
+
+
+def materials_beneath(obj):
+    """The material of each slot of the object as it is without the checker; None where there is none."""
+    memory = _memory(obj)
+    return [
+        _beneath(memory.get(str(index), {})) if is_checker(slot.material) else slot.material
+        for index, slot in enumerate(obj.material_slots)
+    ]

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from . import drawing
-from .modes import target_objects
+from .targets import target_objects
 
 RIM, HOLE = (1.0, 1.0, 1.0, 0.55), (1.0, 0.62, 0.12, 0.95)
 SEGMENTS = 96

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every difference between Blender versions that the add-on meets, found by feature, not by number."""
 
+import functools
+
 import bpy
 import numpy as np
 
@@ -34,7 +36,7 @@ def any_pin(mesh, layer):
 
 
 def slow_mode_change():
-    """Whether entering and leaving Edit Mode takes longer than to write the corners of a mesh one by one."""
+    """Whether leaving and entering Edit Mode takes longer than to write the corners of a mesh one by one."""
     return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # 3.5 on it takes half the time
 
 
@@ -63,12 +65,26 @@ def corner_indices(mesh):
 
 def seam_edges(mesh):
     """Whether each edge (E,) is a seam. The mesh must not be in Edit Mode."""
-    if ".edge_verts" not in mesh.attributes:  # before 3.6 an edge holds its flags
-        return read(mesh.edges, "use_seam", bool)
-    for name in ("uv_seam", ".uv_seam"):
-        if name in mesh.attributes:
-            return read(mesh.attributes[name].data, "value", bool)
-    return np.zeros(len(mesh.edges), dtype=bool)
+    name = _seam_attribute()
+    if name is not None and name not in mesh.attributes:
+        return np.zeros(len(mesh.edges), dtype=bool)
+    seams = None if name is None else mesh.attributes[name]
+    if seams is not None and (seams.domain, seams.data_type) == ("EDGE", "BOOLEAN"):
+        return read(seams.data, "value", bool)
+    return read(mesh.edges, "use_seam", bool)
+
+
+@functools.cache
+def _seam_attribute():
+    """Name of the attribute that holds seams, which is faster to read than the edges; None where there is none."""
+    probe = bpy.data.meshes.new("Koebe probe")
+    try:
+        probe.vertices.add(2)
+        probe.edges.add(1)
+        probe.edges[0].use_seam = True
+        return next((name for name in ("uv_seam", ".uv_seam") if name in probe.attributes), None)
+    finally:
+        bpy.data.meshes.remove(probe)
 
 
 def vertex_positions(mesh):

@@ -1,143 +1,137 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Distortion as a colour attribute of the mesh, on and off, and the legend in the 3D View."""
+"""Distortion as a colour attribute of the mesh, on and off, in Object Mode and in Edit Mode."""
 
-import bpy
+import itertools
+
+import bmesh
 import numpy as np
 
-from . import distortion, drawing, transfer
-from .modes import object_mode, target_objects
+from . import distortion
+from .noted import set_property
+from .targets import check_mesh
+from .transfer import TransferError, arrays
 
-ATTRIBUTE = "Koebe Distortion"
-MEMORY_KEY = "koebe_distortion"  # on the mesh: what is shown, and which colour attribute was active before
+NAME = "Koebe Distortion"
+MEMORY_KEY = "koebe_distortion"  # on the mesh: what is shown, in which attribute, and which one was active before
 
 
-def shown(obj):
-    """The kind of distortion that the object's colours show, or None."""
-    memory = obj.data.get(MEMORY_KEY)
-    return None if memory is None or ATTRIBUTE not in obj.data.attributes else memory["kind"]
+def shown(mesh):
+    """The kind of distortion that the mesh's colours show, or None."""
+    memory = mesh.get(MEMORY_KEY)
+    return None if memory is None or _own_name(mesh) is None else memory["kind"]
+
+
+def _own_name(mesh):
+    """Name of the colour attribute that is the add-on's own, or None."""
+    memory = mesh.get(MEMORY_KEY)
+    name = "" if memory is None else memory.get("name", NAME)
+    return name if name in mesh.color_attributes else None
 
 
 def check(obj, layer_name):
     """Raise TransferError unless `put_on` can be done."""
-    mesh = obj.data
-    if mesh.library is not None:
-        raise transfer.TransferError(f"{obj.name}: its mesh is linked from another file: make it local first")
-    if layer_name not in mesh.uv_layers:
-        raise transfer.TransferError(f"{obj.name}: it has no UV layer {layer_name!r}: map it first")
-    if shown(obj) is None and ATTRIBUTE in mesh.attributes:
-        raise transfer.TransferError(f"{obj.name}: it has an attribute {ATTRIBUTE!r} of its own: rename that")
+    check_mesh(obj)
+    if layer_name not in obj.data.uv_layers:
+        raise TransferError(f"{obj.name}: it has no UV layer {layer_name!r}: map it first")
 
 
-def put_on(obj, layer_name, kind):
-    """Colour the object's faces by the distortion of a UV layer; call `check` first. Not in Edit Mode."""
-    mesh = obj.data
-    surface = transfer.read_surface(obj, selected_only=False)
-    values = distortion.face_values(surface, transfer.read_uv(obj, layer_name), kind)
-    take_off(obj)
-    active = mesh.color_attributes.active_color
-    mesh[MEMORY_KEY] = {"kind": kind, "active": "" if active is None else active.name}
+def corner_colors(surface, uv, kind):
+    """Colours (C, 4) of the corners for the distortion of UVs (C, 2)."""
+    values = distortion.face_values(surface, uv, kind)
     colors = np.ones((len(surface.corner_vertex), 4), dtype=np.float32)
     colors[:, :3] = np.repeat(distortion.linear(distortion.colors(values, kind)), surface.face_size, axis=0)
-    attribute = mesh.color_attributes.new(ATTRIBUTE, "FLOAT_COLOR", "CORNER")
-    attribute.data.foreach_set("color", colors.ravel())
-    mesh.color_attributes.active_color = mesh.color_attributes[ATTRIBUTE]
+    return colors
+
+
+def put_on(run, obj, kind, colors):
+    """Give the mesh's corners these colours, and make them the active ones."""
+    mesh, own = obj.data, _own_name(obj.data)
+    active, render = _active(mesh)
+    if own is None:
+        run.before_write(_restore_names, mesh, list(mesh.color_attributes.keys()), (active, render))
+        own = _new_attribute(obj)
+        memory = {"kind": kind, "name": own, "active": active, "render": render}
+    else:
+        with arrays(obj) as old:
+            run.before_write(_write, obj, own, _read(old, own))
+        run.before_write(_set_active, mesh, (active, render))
+        memory = {**mesh[MEMORY_KEY].to_dict(), "kind": kind}
+    set_property(run, mesh, MEMORY_KEY, memory)
+    _write(obj, own, colors)
+    _set_active(mesh, (own, render or own))
     mesh.update()
 
 
-def take_off(obj):
-    """Remove the colours and make the attribute active that was so before."""
+def _new_attribute(obj):
+    """Make the attribute, under another name where its own is taken; that name."""
     mesh = obj.data
-    memory = mesh.get(MEMORY_KEY)
-    if memory is None:
+    names = (f"{NAME}.{number:03d}" if number else NAME for number in itertools.count())
+    # Where a vertex group has the name some versions make nothing, others two of one name.
+    free = next(n for n in names if n not in mesh.attributes and n not in mesh.uv_layers and n not in obj.vertex_groups)
+    made = mesh.color_attributes.new(free, "FLOAT_COLOR", "CORNER")
+    if made is None:
+        raise TransferError(f"{obj.name}: Blender makes no colour attribute for it")
+    return made.name
+
+
+def take_off(run, obj):
+    """Remove the colours and make the attribute active that was so before."""
+    mesh, own = obj.data, _own_name(obj.data)
+    if MEMORY_KEY not in mesh:
         return
-    if ATTRIBUTE in mesh.color_attributes:
-        mesh.color_attributes.remove(mesh.color_attributes[ATTRIBUTE])
-    before = mesh.color_attributes.get(memory["active"]) if memory["active"] else None
-    if before is not None:
-        mesh.color_attributes.active_color = before
-    del mesh[MEMORY_KEY]
+    memory, now = mesh[MEMORY_KEY].to_dict(), _active(mesh)
+    if own is not None:
+        with arrays(obj) as old:
+            run.before_write(_restore_attribute, obj, own, _read(old, own), now)
+        mesh.color_attributes.remove(mesh.color_attributes[own])
+        before = memory.get("active", ""), memory.get("render", "")
+        _set_active(mesh, [was if name == own else name for was, name in zip(before, now, strict=True)])
+    set_property(run, mesh, MEMORY_KEY, None)
     mesh.update()
 
 
-KINDS = [
-    ("none", "Off", "Take the colours off and show the materials again"),
-    (distortion.ANGLE, "Angle", "Colour the faces by how far the angles of the UVs are from those of the surface"),
-    (distortion.AREA, "Area", "Colour the faces by how many texels they get, compared with the mean"),
-]
+def _active(mesh):
+    """Names of the colour attributes that are active and for rendering; such a name may be that of none."""
+    return mesh.color_attributes.active_color_name, mesh.color_attributes.default_color_name
 
 
-class UV_OT_koebe_distortion(bpy.types.Operator):
-    """Colour the faces of the selected objects by the distortion of their UVs, or take the colours off again"""
-
-    bl_idname = "uv.koebe_distortion"
-    bl_label = "Koebe Distortion"
-    bl_options = {"REGISTER", "UNDO"}
-
-    kind: bpy.props.EnumProperty(name="Distortion", items=KINDS, default=distortion.ANGLE)
-    layer: bpy.props.StringProperty(name="UV Layer", default="Koebe", description="UV layer to judge")
-
-    @classmethod
-    def description(cls, context, properties):
-        """The tooltip of each button is its own."""
-        return next(text for kind, _, text in KINDS if kind == properties.kind)
-
-    @classmethod
-    def poll(cls, context):
-        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
-            cls.poll_message_set("Select a mesh object, in Object Mode or in Edit Mode")
-            return False
-        return True
-
-    def execute(self, context):
-        objects = target_objects(context)
-        try:
-            for obj in objects if self.kind != "none" else ():
-                check(obj, self.layer)
-            with object_mode(context):
-                for obj in objects:
-                    if self.kind == "none":
-                        take_off(obj)
-                    else:
-                        put_on(obj, self.layer, self.kind)
-        except transfer.TransferError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return {"CANCELLED"}
-        show_colors(context, self.kind != "none")
-        return {"FINISHED"}
+def _set_active(mesh, names):
+    colors = mesh.color_attributes
+    colors.active_color_name, colors.default_color_name = names
+    for name, index in zip(names, ("active_color_index", "render_color_index"), strict=True):
+        place = colors.find(name)
+        if place >= 0 and getattr(colors, index) != place:  # before 4.0 the names can only be read
+            setattr(colors, index, place)
 
 
-def show_colors(context, on):
-    """Let the 3D Views of the screen show colour attributes in Solid shading, or the materials again."""
-    for area in context.screen.areas if context.screen else ():
-        if area.type == "VIEW_3D":
-            shading = area.spaces.active.shading
-            if on:
-                shading.color_type = "VERTEX"
-            elif shading.color_type == "VERTEX":
-                shading.color_type = "MATERIAL"
-            area.tag_redraw()
+def _restore_names(mesh, names, active):
+    for name in set(mesh.color_attributes.keys()).difference(names):
+        mesh.color_attributes.remove(mesh.color_attributes[name])
+    _set_active(mesh, active)
+    mesh.update()
 
 
-def draw_legend():
-    """The legend of the active object's colours, at the upper left of the 3D View."""
-    context = bpy.context
-    obj = context.active_object
-    if obj is None or obj.type != "MESH" or not context.space_data.overlay.show_overlays:
+def _restore_attribute(obj, name, colors, active):
+    if name not in obj.data.color_attributes:
+        obj.data.color_attributes.new(name, "FLOAT_COLOR", "CORNER")
+    _write(obj, name, colors)
+    _set_active(obj.data, active)
+    obj.data.update()
+
+
+def _read(mesh, name):
+    values = np.empty(4 * len(mesh.loops), dtype=np.float32)
+    mesh.attributes[name].data.foreach_get("color", values)
+    return values.reshape(-1, 4)
+
+
+def _write(obj, name, colors):
+    if obj.mode != "EDIT":
+        obj.data.attributes[name].data.foreach_set("color", np.ascontiguousarray(colors, dtype=np.float32).ravel())
         return
-    kind = shown(obj)
-    if kind is not None:
-        title, marks = distortion.legend(kind)
-        ramp = distortion.ANGLE_RAMP if kind == distortion.ANGLE else distortion.AREA_RAMP
-        drawing.color_bar(title, ramp, marks)
-
-
-def register():
-    """Register the operator and the legend."""
-    bpy.utils.register_class(UV_OT_koebe_distortion)
-    drawing.add("VIEW_3D", "legend", draw_legend)
-
-
-def unregister():
-    """Undo `register`."""
-    drawing.remove("VIEW_3D", "legend")
-    bpy.utils.unregister_class(UV_OT_koebe_distortion)
+    edited = bmesh.from_edit_mesh(obj.data)
+    layer, values = edited.loops.layers.float_color[name], iter(colors.tolist())
+    for face in edited.faces:
+        for corner in face.loops:
+            corner[layer] = next(values)
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that fills holes."""
 
-import bmesh
 import bpy
 
 from . import hole_filling, native
-from .modes import target_objects
+from .filled_mesh import FillPlan
+from .targets import reason, target_objects, with_own_meshes
+from .transaction import transaction
 
 
 class MESH_OT_koebe_fill_holes(bpy.types.Operator):
@@ -40,56 +41,29 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
         except native.NativeError as error:
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return {"CANCELLED"}
-        objects = {obj.data: obj for obj in target_objects(context)}
-        meshes, problems = {}, []
-        for data, obj in objects.items():
-            if data.library is not None:
-                problems.append(f"{obj.name}: its mesh is linked from another file")
-                continue
-            mesh = _open(obj)
+        plans = []
+        with transaction() as run:
             try:
-                loops = hole_filling.chosen_loops(mesh, self.which)
-                meshes[obj] = mesh, [hole_filling.filling(koebe, mesh, loop) for loop in loops]
-            except hole_filling.FillError as error:
-                problems.append(f"{obj.name}: {error}")
-        for obj, (mesh, fillings) in meshes.items():
-            _select_only(mesh, hole_filling.add_faces(mesh, fillings))
-            _close(obj, mesh)
-        if not meshes:
+                return self._fill(run, context, koebe, plans)
+            finally:
+                for plan in plans:
+                    plan.free()
+
+    def _fill(self, run, context, koebe, plans):
+        problems, holes, faces = [], 0, 0
+        for obj in with_own_meshes(target_objects(context)):
+            with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                plans.append(FillPlan(koebe, obj, self.which))
+        for plan in plans:
+            with run.attempt(lambda error, name=plan.obj.name: problems.append(reason(name, error))):
+                plan.write(run, context)
+                holes, faces = holes + len(plan.fillings), faces + plan.faces
+        if not holes:
             self.report({"ERROR"}, "Koebe UV: nothing was filled. " + ". ".join(problems))
             return {"CANCELLED"}
-        holes = sum(len(fillings) for _, fillings in meshes.values())
-        faces = sum(len(one.triangles) for _, fillings in meshes.values() for one in fillings)
         text = f"Koebe UV: {holes} {'hole' if holes == 1 else 'holes'} filled with {faces} faces"
         self.report({"WARNING" if problems else "INFO"}, ". ".join([text, *problems]))
         return {"FINISHED"}
-
-
-def _open(obj):
-    if obj.mode == "EDIT":
-        return bmesh.from_edit_mesh(obj.data)
-    mesh = bmesh.new()
-    mesh.from_mesh(obj.data)
-    return mesh
-
-
-def _close(obj, mesh):
-    if obj.mode == "EDIT":
-        bmesh.update_edit_mesh(obj.data)
-    else:
-        mesh.to_mesh(obj.data)
-        mesh.free()
-        obj.data.update()
-
-
-def _select_only(mesh, faces):
-    for elements in (mesh.verts, mesh.edges, mesh.faces):
-        for element in elements:
-            element.select_set(False)
-    mesh.select_history.clear()
-    for face in faces:
-        face.select_set(True)
-    mesh.normal_update()
 
 
 def register():

@@ -1,31 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fills holes of a mesh with real faces: finds the boundary loops, adds the patches, continues the UVs."""
+"""Finds the holes of a mesh and works out what fills them; nothing is written here."""
 
 import dataclasses
 
 import numpy as np
 
+from .continued import Continued
+from .errors import KnownError
 from .offenders import flipped_triangles
 
 HOLES, SELECTED, ALL = "holes", "selected", "all"
 SAME_UV = 1e-5  # UV units: corners of a vertex nearer than this are one point of the map
 
 
-class FillError(Exception):
+class FillError(KnownError):
     """The mesh has nothing to fill, or a boundary that is no closed loop."""
 
 
 @dataclasses.dataclass
 class Filling:
-    """What fills one hole: its corners, the new vertices (k, 3), the faces (t, 3), and the UVs of each layer.
+    """What fills one hole: its corners, the new vertices (k, 3), the faces (t, 3), and what lives on them.
 
-    The faces name the n vertices of the hole, in the corners' order, and then the new ones; so do the UVs (n + k, 2).
+    The faces name the n vertices of the hole, in the corners' order, and then the new ones; so do all values
+    (n + k, ...), of which those of `uvs` are of each UV layer, by name.
     """
 
     corners: list
     vertices: np.ndarray
     triangles: np.ndarray
     uvs: dict
+    continued: Continued
 
 
 def boundary_loops(mesh):
@@ -102,8 +106,8 @@ def _parts(loops):
     return numbers
 
 
-def filling(koebe, mesh, loop):
-    """The patch for one loop; changes nothing. `koebe` is the native package."""
+def filling(koebe, mesh, loop, keys):
+    """The patch for one loop; changes nothing. `koebe` is the native package, `keys` as for `Continued`."""
     rim = [corner.vert for corner in loop]
     if len(set(rim)) != len(rim):
         raise FillError("a hole meets itself at a vertex: part its halves first")
@@ -117,13 +121,27 @@ def filling(koebe, mesh, loop):
     added = filled[len(vertices) :]
     patch = faces[label == 0]
     patch = np.where(patch < len(rim), patch, patch - len(vertices) + len(rim))
+    _check_room(mesh, rim, patch)
     positions = np.concatenate([vertices[: len(rim)], added])
     uvs = {}
     for layer in mesh.loops.layers.uv.values():
         given = _rim_uv(layer, loop)
         if given is not None:
             uvs[layer.name] = _continued_uv(koebe, positions, patch, given)
-    return Filling(loop, added, patch, uvs)
+    return Filling(loop, added, patch, uvs, Continued.of(koebe, mesh, loop, positions, patch, keys))
+
+
+def _check_room(mesh, rim, patch):
+    """Raise FillError where the patch would double a face, or give an edge more than two."""
+    for triangle in patch[(patch < len(rim)).all(axis=1)].tolist():
+        if mesh.faces.get([rim[v] for v in triangle]) is not None:
+            raise FillError("a hole is the back of a single face: there is nothing to fill")
+    sides = np.sort(np.concatenate([patch[:, [0, 1]], patch[:, [1, 2]], patch[:, [2, 0]]]), axis=1)
+    sides, uses = np.unique(sides[(sides < len(rim)).all(axis=1)], axis=0, return_counts=True)
+    for (one, two), faces in zip(sides.tolist(), uses.tolist(), strict=True):
+        edge = mesh.edges.get([rim[one], rim[two]])
+        if edge is not None and len(edge.link_faces) + faces > 2:
+            raise FillError("a hole cannot be filled without an edge of more than two faces: subdivide around it")
 
 
 def _surroundings(loop):
@@ -193,22 +211,3 @@ def _continued_uv(koebe, positions, triangles, rim_uv):
     if len(flipped_triangles(triangles, uv.astype(np.float32))):
         uv = koebe.harmonic_map(positions, triangles, fixed, rim_uv, uniform=True)
     return uv
-
-
-def add_faces(mesh, fillings):
-    """Add the patches to the bmesh; return the new faces. Material and shading are those beside them."""
-    added = []
-    for one in fillings:
-        vertices = [corner.vert for corner in one.corners]
-        vertices += [mesh.verts.new(position) for position in one.vertices]
-        model = one.corners[0].face
-        material, smooth = model.material_index, model.smooth
-        layers = [(mesh.loops.layers.uv[name], uv) for name, uv in one.uvs.items()]
-        for triangle in one.triangles.tolist():
-            face = mesh.faces.new([vertices[v] for v in triangle])
-            face.material_index, face.smooth = material, smooth
-            for layer, uv in layers:
-                for corner, v in zip(face.loops, triangle, strict=True):
-                    corner[layer].uv = uv[v]
-            added.append(face)
-    return added

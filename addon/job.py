@@ -6,25 +6,42 @@
 
 import dataclasses
 
-from . import checker, compat, distortion_display, native, transfer
-from .pipeline import Task, map_surfaces
+from . import checker, map_writing, native, transfer, uv_layers
+from .outcomes import Task
+from .pipeline import map_surfaces
+from .targets import Target, check_mesh, reason, with_own_meshes
+from .transaction import transaction
 
 
 class Job:
-    """Maps the surfaces of some mesh objects. Objects that share a mesh count once."""
+    """Maps the surfaces of some mesh objects. Objects that share a mesh count once.
 
-    def __init__(self, objects, options, selected_only=False):
-        """Read the objects. Raises NativeError, or TransferError if one could not be written later."""
+    targets   the objects that were read; tasks and outcomes are in their order
+    refused   name and reason of each object that was left out
+    """
+
+    def __init__(self, objects, options, selected_only=False, refused=None):
+        """Read the objects. Raises NativeError, or TransferError if none can be mapped.
+
+        One that could not be written later is left out; without a list `refused` for these it ends everything.
+        """
         self.koebe = native.load()
         self.options = options
-        self.objects, self.tasks = [], []
-        for obj in objects:
-            if all(obj.data is not other.data for other in self.objects):
+        self.refused = [] if refused is None else refused
+        self.targets, self.tasks = [], []
+        for obj in with_own_meshes(objects):
+            try:
                 self._add(obj, selected_only)
-        if not self.objects:
+            except Exception as error:
+                if refused is None:
+                    raise
+                refused.append((obj.name, reason(obj.name, error)))
+        if not self.targets:
+            reasons = [text for _, text in self.refused]
             raise transfer.TransferError(
-                "no faces are selected" if selected_only else "there is no mesh with faces"
-            )
+                ". ".join(reasons) if reasons
+                else "no faces are selected" if selected_only else "there is no mesh with faces"
+            )  # fmt: skip
         if options.outer == "active" and all(task.outer == "auto" for task in self.tasks):
             raise transfer.TransferError(
                 "the outer loop is to be that of the active vertex, but no vertex is active: "
@@ -34,15 +51,16 @@ class Job:
         self.outcomes = None
 
     def _add(self, obj, selected_only):
+        check_mesh(obj)
         surface = transfer.read_surface(obj, selected_only)
         if not surface.selected.any():
             return
-        transfer.check_writable(obj, surface, self.options.layer)
+        uv_layers.check_layer(obj, self.options.layer)
         outer = self.options.outer
         if outer == "active":
             vertex = transfer.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
-        self.objects.append(obj)
+        self.targets.append(Target.of(obj))
         mirrored, pinned = obj.matrix_world.determinant() < 0.0, transfer.has_pins(obj, self.options.layer)
         self.tasks.append(Task(obj.name, surface, outer, mirrored, pinned))
 
@@ -53,42 +71,63 @@ class Job:
     def read_old_uv(self):
         """Note where the islands are now, for the placement "keep": call it before anything changes."""
         self.tasks = [
-            dataclasses.replace(task, old_uv=transfer.read_uv(obj, self.options.layer))
-            for obj, task in zip(self.objects, self.tasks, strict=True)
+            dataclasses.replace(task, old_uv=transfer.read_uv(target.obj, self.options.layer))
+            for target, task in zip(self.targets, self.tasks, strict=True)
         ]
 
     @property
     def mapped_any(self):
-        """Whether there is anything to write."""
+        """Whether there is anything to write, or was written."""
         return any(outcome.mapped for outcome in self.outcomes)
 
-    def check_writable(self):
-        """Raise TransferError if one of the objects can no longer be written."""
-        for obj, task in zip(self.objects, self.tasks, strict=True):
-            transfer.check_writable(obj, task.surface, self.options.layer)
-
-    @property
-    def writable_in_edit_mode(self):
-        """Whether `write` can do it there, and faster than by a change of mode."""
-        averaged = self.options.checker and self.options.checker_even and len(self.objects) > 1
-        colored = any(distortion_display.shown(obj) is not None for obj in self.objects)
-        return compat.slow_mode_change() and not (averaged or colored)
-
-    def write(self):
+    def write(self, run=None):
         """Write the UV layer of every object with a mapped island, and put the checker on if asked.
 
-        The objects must not be in Edit Mode, unless `writable_in_edit_mode`; call `check_writable` first.
+        One object that cannot be written is left as it was, and its outcome gets the reason. Without a transaction
+        `run` it ends everything, and all are left as they were.
         """
-        for obj, outcome in zip(self.objects, self.outcomes, strict=True):
-            if not outcome.mapped:
-                continue
-            if obj.mode == "EDIT":
-                transfer.write_edited_uv(obj, self.options.layer, outcome.task.surface, *outcome.corner_uv())
+        if run is None:
+            with transaction() as run:
+                self.write(run)
+                lost = [outcome.not_written for outcome in self.outcomes if outcome.not_written]
+                if lost:
+                    raise transfer.TransferError(". ".join(lost))
+            return
+        plans = []
+        for target, outcome in zip(self.targets, self.outcomes, strict=True):
+            if outcome.mapped:
+                with self._attempt(run, outcome):
+                    plans.append((outcome, self._plan(target, outcome)))
+        materials = self._checkers(run, [plan for _, plan in plans])
+        for (outcome, plan), material in zip(plans, materials, strict=True):
+            with self._attempt(run, outcome):
+                self._write_one(run, outcome, plan, material)
+
+    @staticmethod
+    def _attempt(run, outcome):
+        def failed(error):
+            outcome.not_written = reason(outcome.name, error)
+
+        return run.attempt(failed)
+
+    def _plan(self, target, outcome):
+        return map_writing.plan(target, self.options.layer, outcome.task.surface, *outcome.corner_uv())
+
+    def _checkers(self, run, plans):
+        """The checker for each object, or None."""
+        if not self.options.checker:
+            return [None] * len(plans)
+        sizes = [self.options.checker_size] * len(plans)
+        if self.options.checker_even and len(plans) > 1:
+            sizes = checker.even_sizes(sizes[0], [plan.density for plan in plans])
+        return checker.materials(run, [plan.obj for plan in plans], self.options.layer, sizes)
+
+    def _write_one(self, run, outcome, plan, material):
+        map_writing.write(run, plan)
+        if material is not None:
+            try:
+                checker.check(plan.obj)
+            except transfer.TransferError as error:  # the map is there all the same
+                outcome.remarks.append(f"it has no checker. {error}")
             else:
-                transfer.write_uv(obj, self.options.layer, *outcome.corner_uv())
-            kind = distortion_display.shown(obj)
-            if kind is not None:
-                distortion_display.put_on(obj, self.options.layer, kind)
-        if self.options.checker:
-            mapped = [obj for obj, outcome in zip(self.objects, self.outcomes, strict=True) if outcome.mapped]
-            checker.dress(mapped, self.options.layer, self.options.checker_size, self.options.checker_even)
+                checker.put_on(run, plan.obj, material)

@@ -42,7 +42,7 @@ def fit_placement(points, targets):
     source_center, target_center = source.mean(), target.mean()
     source, target = source - source_center, target - target_center
     size = np.linalg.norm(target) / np.linalg.norm(source)
-    if size < SMALLEST_PLACE:
+    if not SMALLEST_PLACE <= size < np.inf:  # nor where the targets are not finite
         return None
     rotation = float(np.angle(np.vdot(source, target)))
     offset = target_center - size * np.exp(1j * rotation) * source_center

@@ -17,6 +17,9 @@ def offending_elements(surface, failure):
     """
     kind = getattr(failure.error, "kind", None)
     island = failure.island
+    not_finite = np.flatnonzero(~np.isfinite(island.vertices).all(axis=1))
+    if len(not_finite):
+        return VERTICES, np.unique(island.source_vertex[not_finite])
     if kind == "nonmanifold_edge":
         return EDGES, _crowded_edges(surface, island)
     if kind in SHOWN_BY_VERTICES and len(failure.error.elements):

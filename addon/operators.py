@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators. They gather, run and write; what is computed is in `job` and below."""
 
-import contextlib
-
 import bpy
 
-from . import checker, report, results
+from . import checker, edit_mode, report, results
+from .distortion import texel_density
 from .job import Job
 from .modal_run import ModalRun
-from .modes import object_mode, target_objects
 from .native import NativeError
 from .options import OptionError
 from .properties import UniformizeProperties, options_of
 from .selection import select_offenders
-from .transfer import TransferError
+from .targets import reason, target_objects
+from .transaction import transaction
+from .transfer import TransferError, read_surface, read_uv
 
 
 class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator):
@@ -46,7 +46,8 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
     def _job(self, context):
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
         try:
-            job = Job(target_objects(context), options_of(self), selected_only=context.mode == "EDIT_MESH")
+            selected_only = context.mode == "EDIT_MESH"
+            job = Job(target_objects(context), options_of(self), selected_only, refused=[])
         except (NativeError, OptionError, TransferError) as error:
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return None
@@ -55,29 +56,29 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
         return job
 
     def _finish(self, context, job):
-        """Write what was computed, all or nothing, and say what became of it."""
-        results.record(context, job)
-        for area in context.screen.areas if context.screen else ():
-            area.tag_redraw()
-        failures = [report.failure_line(outcome) for outcome in job.outcomes if outcome.failed]
+        """Write what was computed, each object wholly or not at all, and say what became of it."""
+        with transaction() as run:
+            with edit_mode.left_if_faster(run, context):
+                job.write(run)
+            results.record(run, context, job)
+            select_offenders(run, context, job)
+            for area in context.screen.areas if context.screen else ():
+                area.tag_redraw()
+            return self._say(job)
+
+    def _say(self, job):
+        failures = [report.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
+        failures += [text for _, text in job.refused]
         if not job.mapped_any:
-            select_offenders(context, job)
             self.report({"ERROR"}, "Koebe UV: nothing was mapped. " + ". ".join(failures))
-            return {"CANCELLED"}
-        try:
-            with contextlib.nullcontext() if job.writable_in_edit_mode else object_mode(context):
-                job.check_writable()
-                job.write()
-        except TransferError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
             return {"CANCELLED"}
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.converged else {"WARNING"}, report.result_line(outcome))
-            for warning in dict.fromkeys(text for one in outcome.mapped for text in report.warnings(outcome.task, one)):
+            found = [text for one in outcome.mapped for text in report.warnings(outcome.task, one)]
+            for warning in dict.fromkeys([*found, *outcome.remarks]):
                 self.report({"WARNING"}, f"{outcome.name}: {warning}")
         if failures:
-            select_offenders(context, job)
             self.report({"WARNING"}, "Koebe UV: not mapped. " + ". ".join(failures))
         return {"FINISHED"}
 
@@ -98,14 +99,33 @@ class UV_OT_koebe_checker(bpy.types.Operator):
         return UV_OT_koebe_uniformize.poll.__func__(cls, context)
 
     def execute(self, context):
-        objects = target_objects(context)
-        wearing = [obj for obj in objects if checker.is_on(obj)]
-        for obj in wearing:
-            checker.take_off(obj)
-        if not wearing:
-            with object_mode(context):
-                checker.dress(objects, self.layer, self.checker_size, self.checker_even)
-        return {"FINISHED"}
+        with transaction() as run:
+            objects, problems = target_objects(context), []
+            wearing = [obj for obj in objects if checker.is_on(obj)]
+            sizes = [self.checker_size] * len(objects)
+            if not wearing and self.checker_even and len(objects) > 1:
+                sizes = checker.even_sizes(self.checker_size, [self._density(obj) for obj in objects])
+            materials = [None] * len(objects) if wearing else checker.materials(run, objects, self.layer, sizes)
+            for obj, material in zip(wearing or objects, materials):
+                with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                    checker.check(obj)
+                    if wearing:
+                        checker.take_off(run, obj)
+                    elif not checker.is_on(obj):  # it may be by now, as another object has the same mesh
+                        checker.put_on(run, obj, material)
+            if len(problems) == len(wearing or objects):
+                self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
+                return {"CANCELLED"}
+            if problems:
+                self.report({"WARNING"}, f"Koebe UV: left out. {'. '.join(problems)}")
+            return {"FINISHED"}
+
+    def _density(self, obj):
+        """Lengths in the UVs over lengths in space; 0 where there are none, or where they cannot be read."""
+        if self.layer not in obj.data.uv_layers or (obj.data.is_editmode and obj.mode != "EDIT"):
+            return 0.0
+        surface = read_surface(obj, selected_only=False)
+        return texel_density(surface, read_uv(obj, self.layer))
 
 
 CLASSES = (UV_OT_koebe_uniformize, UV_OT_koebe_checker)

@@ -4,14 +4,14 @@
 import bpy
 
 from . import checker, distortion_display
-from .distortion_display import UV_OT_koebe_distortion
+from .distortion_operator import UV_OT_koebe_distortion
 from .fill_operator import MESH_OT_koebe_fill_holes
-from .modes import target_objects
 from .operators import UV_OT_koebe_checker, UV_OT_koebe_uniformize
 from .presets import KOEBE_PT_presets, UV_OT_koebe_reset
 from .properties import copy_options
 from .report_panel import KOEBE_UL_islands, KoebePanel, ReportPanel
 from .shape_panel import ShapesPanel
+from .targets import target_objects
 
 
 class MainPanel(KoebePanel):
@@ -63,7 +63,7 @@ def draw_judges(column, context, settings):
         row = column.row()
         row.use_property_split = False
         row.prop_enum(shading, "type", "MATERIAL", text="See It in Material Preview")
-    kind = distortion_display.shown(objects[0]) if objects else None
+    kind = distortion_display.shown(objects[0].data) if objects else None
     split = column.split(factor=0.32)
     split.label(text="Distortion")
     row = split.row(align=True)

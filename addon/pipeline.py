@@ -1,135 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From surfaces to UV coordinates of their corners: the one function behind operator and batch. No bpy."""
 
-import dataclasses
-import functools
+import contextlib
+import traceback
 
 import numpy as np
 
 from .layout import Placement, fit_placement, pack_disks
-from .rounding import rounded
-from .surface import Island, Surface, as_complex, as_points, cut_into_islands, signed_areas, whole_island
+from .outcomes import IslandOutcome, MapError, SurfaceOutcome
+from .surface import areas, cut_into_islands, signed_areas, whole_island
 from .tube import unroll
 from .upright import upright_turn
 
-
-@dataclasses.dataclass(frozen=True)
-class Task:
-    """A surface to map.
-
-    `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `old_uv` (C, 2) are
-    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
-    negative, `pinned` that UVs of the layer to write are pinned.
-    """
-
-    name: str
-    surface: Surface
-    outer: object = "auto"
-    mirrored: bool = False
-    pinned: bool = False
-    old_uv: np.ndarray = None
-
-
-@dataclasses.dataclass
-class IslandOutcome:
-    """What became of one island: a result of `koebe.uniformize`, its shape and its place, or an error.
-
-    sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
-    shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
-    turn        complex number of modulus 1 by which the shape is turned about 0
-    distortion  `koebe.distortion` of the shape, where it is not that of the result
-    """
-
-    island: Island
-    result: object = None
-    error: Exception = None
-    sheet: Island = None
-    shape: np.ndarray = None
-    turn: complex = 1.0
-    distortion: dict = None
-    placement: Placement = None
-
-    @property
-    def unrolled(self):
-        """Whether it is a rectangle: then its circles are not in the UVs."""
-        return self.sheet is not self.island
-
-    @property
-    def angle_error(self):
-        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
-        return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
-
-    def turned(self, points):
-        """Points (n, 2) of the shape after the turn."""
-        if self.turn == 1.0:
-            return points
-        return as_points(self.turn * as_complex(points))
-
-    @functools.cached_property
-    def flat(self):
-        """The sheet's vertices (n, 2) after the turn, in the unit disk."""
-        return self.turned(self.shape)
-
-    @functools.cached_property
-    def _rounded(self):
-        return rounded(self.placement.apply(self.flat), self.sheet.triangles)
-
-    @property
-    def uv(self):
-        """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
-        return self._rounded[0]
-
-    @property
-    def flipped(self):
-        """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
-        return self._rounded[1]
-
-
-@dataclasses.dataclass
-class SurfaceOutcome:
-    """What became of one surface."""
-
-    task: Task
-    islands: list
-
-    @property
-    def name(self):
-        """Name of the surface's object."""
-        return self.task.name
-
-    @property
-    def mapped(self):
-        """The islands that have a result."""
-        return [outcome for outcome in self.islands if outcome.error is None]
-
-    @property
-    def failed(self):
-        """The islands that have an error."""
-        return [outcome for outcome in self.islands if outcome.error is not None]
-
-    @property
-    def converged(self):
-        """Whether every mapped island reached the tolerance."""
-        return all(outcome.result.converged for outcome in self.mapped)
-
-    def work_out(self):
-        """Compute now, on this thread, what the results will be asked for."""
-        for outcome in self.mapped:
-            outcome.uv  # noqa: B018
-
-    def corner_uv(self):
-        """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
-        corners = [outcome.sheet.corners for outcome in self.mapped]
-        uv = [outcome.uv.take(outcome.sheet.corner_vertex, axis=0) for outcome in self.mapped]
-        return (corners[0], uv[0]) if len(uv) == 1 else (np.concatenate(corners), np.concatenate(uv))
+# Of the largest coordinate: so far beside a line the rounding of 32-bit coordinates may leave a vertex, and a bit more.
+FLAT = 2.4e-7
+FEW = 1000  # triangles that are looked at first
 
 
 def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
     """Map every island of every task's surface to its circle domain and lay the islands out.
 
-    `koebe` is the native package; `progress(fraction,
-    stage)` is called on this thread; `cancel` is a `koebe.CancelToken`, and `koebe.Cancelled` ends
-    everything. Other `koebe.KoebeError`s are kept as the outcome of their island.
+    `koebe` is the native package; `progress(fraction, stage)` is called on this thread; `cancel` is a
+    `koebe.CancelToken`, and `koebe.Cancelled` ends everything. Any other error is the outcome of its island.
     """
     sizes = [int(np.count_nonzero(task.surface.selected[task.surface.triangle_face])) for task in tasks]
     done, outcomes = 0, []
@@ -139,9 +31,11 @@ def map_surfaces(koebe, tasks, options, progress=None, cancel=None):
         _shape(koebe, outcome, options)
         outcomes.append(outcome)
         done += size
-    _lay_out(outcomes, options)
+    _lay_out(koebe, outcomes, options)
     for outcome in outcomes:
-        outcome.work_out()
+        for one in outcome.mapped:
+            if not np.isfinite(one.uv).all():  # worked out here, on this thread
+                one.error = MapError("its UVs are not finite")
     return outcomes
 
 
@@ -173,11 +67,13 @@ def _share_of(progress, done, part, total):
 
 def _map_island(koebe, island, outer, options, progress, cancel):
     arguments = options.solver_arguments()
-    try:
+    one = IslandOutcome(island)
+    with _failing_alone(koebe, [one]):
+        _check_area(island)
         if options.tube == "unroll" and len(koebe.boundary_loops(island.triangles, len(island.vertices))) == 2:
             # A concentric annulus keeps its digits however small the hole; moved off the centre it loses them.
             arguments["balance"] = "none"
-        result = koebe.uniformize(
+        one.result = koebe.uniformize(
             island.vertices,
             island.triangles,
             outer=_outer_loop(island, outer),
@@ -185,11 +81,42 @@ def _map_island(koebe, island, outer, options, progress, cancel):
             cancel=cancel,
             **arguments,
         )
+    return one
+
+
+def _check_area(island):
+    """Raise MapError where every face is collapsed; coordinates that are not finite are the solver's to judge."""
+    some = island.triangles[:: max(1, len(island.triangles) // FEW)]
+    if _are_flat(island.vertices, some) and _are_flat(island.vertices, island.triangles):
+        raise MapError("the surface is collapsed to a line: none of its faces has an area")
+
+
+def _are_flat(vertices, triangles):
+    """Whether no triangle has an area beyond what rounding can give it."""
+    a, b, c = (vertices.take(corner, axis=0) for corner in triangles.T)
+    with np.errstate(invalid="ignore"):
+        longest = np.max([np.linalg.norm(one - two, axis=1) for one, two in ((a, b), (b, c), (c, a))], axis=0)
+        return bool((areas(vertices, triangles) <= FLAT * np.abs(vertices).max() * longest).all())
+
+
+@contextlib.contextmanager
+def _failing_alone(koebe, ones):
+    """Whatever goes wrong inside is the error of these islands, and what comes after goes on."""
+    try:
+        yield
     except koebe.Cancelled:
         raise
-    except koebe.KoebeError as error:
-        return IslandOutcome(island, error=error)
-    return IslandOutcome(island, result=result)
+    except Exception as error:
+        for one in ones:
+            one.error = _foreseen(koebe, error)
+
+
+def _foreseen(koebe, error):
+    """The error, if it was meant to be read; else one that says so, and where it comes from on the console."""
+    if isinstance(error, (koebe.KoebeError, MapError)):
+        return error
+    traceback.print_exception(type(error), error, error.__traceback__)
+    return MapError(f"{type(error).__name__}, which nobody foresaw: {error}")
 
 
 def _shape(koebe, outcome, options):
@@ -197,15 +124,19 @@ def _shape(koebe, outcome, options):
     for one in outcome.mapped:
         one.sheet, one.shape = one.island, one.result.uv
     tubes = [one for one in outcome.mapped if options.tube == "unroll" and len(one.result.loops) == 2]
-    if tubes:
+    with _failing_alone(koebe, tubes):
         cases = [(one.island, one.result.uv, one.result.loops) for one in tubes]
-        for one, (sheet, shape) in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
-            one.sheet, one.shape = sheet, shape
-            one.distortion = koebe.distortion(sheet.vertices, sheet.triangles, shape)
+        for one, unrolled in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
+            if unrolled is None:
+                one.error = MapError("the tube cannot be cut open along its edges: take Tube: Annulus")
+                continue
+            one.sheet, one.shape = unrolled
+            one.distortion = koebe.distortion(one.sheet.vertices, one.sheet.triangles, one.shape)
     for one in outcome.mapped if options.upright else ():
-        turn = upright_turn(one.sheet, one.shape)
-        # A rectangle stays level.
-        one.turn = (1.0 if turn.real >= 0.0 else -1.0 + 0.0j) if one.unrolled else turn
+        with _failing_alone(koebe, [one]):
+            turn = upright_turn(one.sheet, one.shape)
+            # A rectangle stays level.
+            one.turn = (1.0 if turn.real >= 0.0 else -1.0 + 0.0j) if one.unrolled else turn
 
 
 def _outer_loop(island, outer):
@@ -216,14 +147,15 @@ def _outer_loop(island, outer):
     return int(here[0]) if len(here) else "auto"
 
 
-def _lay_out(outcomes, options):
+def _lay_out(koebe, outcomes, options):
     """Give every mapped island its placement."""
     if options.placement == "together":
-        _pack([one for outcome in outcomes for one in outcome.mapped], options.margin)
-        return
-    for outcome in outcomes:
-        if not (options.placement == "keep" and _keep_places(outcome)):
-            _pack(outcome.mapped, options.margin)
+        groups = [[one for outcome in outcomes for one in outcome.mapped]]
+    else:
+        groups = [outcome.mapped for outcome in outcomes if not (options.placement == "keep" and _keep_places(outcome))]
+    for group in groups:
+        with _failing_alone(koebe, group):
+            _pack(group, options.margin)
 
 
 def _pack(group, margin):

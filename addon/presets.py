@@ -5,7 +5,9 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
+from .noted import note_group
 from .properties import OPTION_NAMES
+from .transaction import transaction
 
 FOLDER = "koebe_uv"
 
@@ -47,9 +49,11 @@ class UV_OT_koebe_reset(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
-        for name in OPTION_NAMES:
-            context.scene.koebe_uv.property_unset(name)
-        return {"FINISHED"}
+        with transaction() as run:
+            note_group(run, context.scene.koebe_uv)
+            for name in OPTION_NAMES:
+                context.scene.koebe_uv.property_unset(name)
+            return {"FINISHED"}
 
 
 CLASSES = (KOEBE_PT_presets, KOEBE_MT_presets, UV_OT_koebe_preset_add, UV_OT_koebe_reset)

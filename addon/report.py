@@ -40,7 +40,9 @@ def result_line(outcome):
 
 
 def failure_line(outcome):
-    """One line on the islands of a surface that could not be mapped: how many and why."""
+    """One line on the islands of a surface that could not be mapped, or written: how many and why."""
+    if outcome.not_written:
+        return outcome.not_written
     failed = outcome.failed
     reasons = {}
     for one in failed:

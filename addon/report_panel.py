@@ -73,7 +73,7 @@ class ReportPanel(KoebePanel):
         if entry.mapped:
             draw_unroll(layout, context, entry)
             draw_result(layout.column(), entry)
-        else:
+        elif entry.offenders:
             layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
 
 

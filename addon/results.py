@@ -15,6 +15,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from .noted import note_group
 from .offenders import offending_elements
 from .report import explain, warnings
 from .shapes import fitted_circle
@@ -61,32 +62,44 @@ class KoebeReport(bpy.types.PropertyGroup):
     )
 
 
-def record(context, job):
+def record(run, context, job):
     """Replace the report by that of a job that has run."""
     report = context.window_manager.koebe_uv
+    note_group(run, report)
     report.islands.clear()
-    for obj, task, outcome in zip(job.objects, job.tasks, job.outcomes, strict=True):
+    for outcome in job.outcomes:
+        if outcome.not_written:
+            _record_failure(report, outcome.name, outcome.not_written)
+            continue
         for index, one in enumerate(outcome.islands):
             entry = report.islands.add()
-            entry.object_name, entry.island, entry.layer = obj.name, index, job.options.layer
+            entry.object_name, entry.island, entry.layer = outcome.name, index, job.options.layer
             if one.error is None:
-                _record_result(entry, task, one)
+                _record_result(entry, outcome, one)
             else:
                 entry.message = explain(one.error)
-                kind, elements = offending_elements(task.surface, one)
+                kind, elements = offending_elements(outcome.task.surface, one)
                 entry.offenders = json.dumps([kind, elements.tolist()])
+    for name, text in job.refused:
+        _record_failure(report, name, text)
     # What has to be looked at comes first.
     report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
 
 
-def _record_result(entry, task, one):
+def _record_failure(report, name, text):
+    """The entry of an object that was left out as a whole."""
+    entry = report.islands.add()
+    entry.object_name, entry.message = name, text.removeprefix(f"{name}: ")
+
+
+def _record_result(entry, outcome, one):
     result = one.result
     entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
     entry.angle_error = one.angle_error
     entry.roundness = float(result.roundness.max())
     entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
     entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
-    entry.message = "; ".join(warnings(task, one))
+    entry.message = "; ".join([*warnings(outcome.task, one), *outcome.remarks])
     centers = one.placement.apply(one.turned(result.centers))
     for vertices, center, radius, roundness in zip(
         result.loops, centers, result.radii, result.roundness, strict=True
@@ -99,7 +112,7 @@ def _record_result(entry, task, one):
 
 
 def record_moved(context, name, layer, island, placed):
-    """Bring the entry of an object of one island up to date with new UVs of the same loops.
+    """Bring the entry of an object of one island up to date with new UVs of the same loops; note the report before.
 
     placed  has uv (n, 2) of the island's vertices, angle_error in degrees and flipped (k,) triangles
     """

@@ -5,8 +5,11 @@ import json
 
 import bpy
 
+from . import edit_mode
 from .offenders import EDGES, FACES
-from .selection import edges_along, enter_edit_mode, select_only
+from .selection import edges_along, select_only
+from .transaction import transaction
+from .transfer import TransferError
 
 
 def active_entry(context):
@@ -24,7 +27,7 @@ def entry_object(context, entry):
 
 
 class ReportOperator:
-    """Mixed into the operators that act on the island which the report shows."""
+    """Mixed into the operators that select in Edit Mode what the report's island tells; `_chosen` says what."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -36,12 +39,18 @@ class ReportOperator:
             return False
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
-    def select(self, context, kind, indices):
-        """Show the elements in Edit Mode."""
-        obj = entry_object(context, active_entry(context))
-        enter_edit_mode(context, obj)
-        select_only(context, [(obj, kind, indices)])
-        return {"FINISHED"}
+    def execute(self, context):
+        entry = active_entry(context)
+        obj = entry_object(context, entry)
+        try:
+            edit_mode.check(context, obj)
+            with transaction() as run:
+                edit_mode.enter(run, context, obj)
+                select_only(run, context, [(obj, *self._chosen(obj, entry))])
+                return {"FINISHED"}
+        except TransferError as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return {"CANCELLED"}
 
 
 class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
@@ -50,12 +59,17 @@ class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
     bl_idname = "uv.koebe_select_offenders"
     bl_label = "Select What Is Wrong"
 
-    def execute(self, context):
-        entry = active_entry(context)
-        if not entry.offenders:
-            self.report({"INFO"}, "Koebe UV: nothing is wrong with this island")
-            return {"CANCELLED"}
-        return self.select(context, *json.loads(entry.offenders))
+    @classmethod
+    def poll(cls, context):
+        if not super().poll(context):
+            return False
+        if not active_entry(context).offenders:
+            cls.poll_message_set("None of its elements is wrong")
+            return False
+        return True
+
+    def _chosen(self, obj, entry):
+        return json.loads(entry.offenders)
 
 
 class UV_OT_koebe_select_flipped(ReportOperator, bpy.types.Operator):
@@ -65,9 +79,8 @@ class UV_OT_koebe_select_flipped(ReportOperator, bpy.types.Operator):
     bl_idname = "uv.koebe_select_flipped"
     bl_label = "Select Flipped Faces"
 
-    def execute(self, context):
-        entry = active_entry(context)
-        return self.select(context, FACES, json.loads(entry.flipped_faces or "[]"))
+    def _chosen(self, obj, entry):
+        return FACES, json.loads(entry.flipped_faces or "[]")
 
 
 class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
@@ -80,15 +93,13 @@ class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
         name="Loop", min=0, description="Number of the loop: 0 is the outer one, the rim of the disk"
     )
 
-    def execute(self, context):
-        entry = active_entry(context)
+    def _chosen(self, obj, entry):
         if self.loop >= len(entry.loops):
-            self.report({"ERROR"}, f"Koebe UV: the island has {len(entry.loops)} loops")
-            return {"CANCELLED"}
-        obj = entry_object(context, entry)
-        enter_edit_mode(context, obj)
+            raise TransferError(f"{obj.name}: the island has {len(entry.loops)} loops")
         edges = edges_along(obj, json.loads(entry.loops[self.loop].vertices))
-        return self.select(context, EDGES, edges)
+        if None in edges:
+            raise TransferError(f"{obj.name}: its mesh has changed since it was mapped: the loop is no longer there")
+        return EDGES, edges
 
 
 CLASSES = (UV_OT_koebe_select_offenders, UV_OT_koebe_select_flipped, UV_OT_koebe_select_loop)

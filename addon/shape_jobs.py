@@ -1,21 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs on Blender objects as shapes: read, compute, write. As in `job`, `compute` touches no Blender data."""
 
-from . import distortion_display, native, transfer
+from . import carried_material, map_writing, native, transfer, uv_layers
 from .carry import carry, read_source
 from .shapes import Comparison, ShapeError, compare, map_shape, module
+from .targets import Target, check_mesh, check_readable, reason, with_own_meshes
 
 
 class _ShapeJob:
     """The surfaces of some mesh objects, the first one being what the others are held against."""
 
     def __init__(self, objects):
-        """Read the objects. Raises NativeError."""
+        """Read the objects. Raises NativeError, or TransferError if the first one cannot be read."""
         self.koebe = native.load()
-        self.objects = objects
-        self.surfaces = [transfer.read_surface(obj, selected_only=False) for obj in objects]
-        self.names = [obj.name for obj in objects]
         self.cancel_token = self.koebe.CancelToken()
+        self.names, self.surfaces, self.failures = [], [], []
+        for obj in objects:
+            try:
+                check_readable(obj)
+                surface = transfer.read_surface(obj, selected_only=False)
+                self._read(obj)
+            except transfer.TransferError as error:
+                if not self.names:
+                    raise
+                self.failures.append(str(error))
+                continue
+            self.names.append(obj.name)
+            self.surfaces.append(surface)
+
+    def _read(self, obj):
+        """Read more of an object; a TransferError leaves it out."""
 
     def _map(self, index, progress):
         return map_shape(
@@ -42,7 +56,7 @@ class MeasureJob(_ShapeJob):
         """Fill `module` and `comparisons`. Raises ShapeError for the first object, and `koebe.Cancelled`."""
         first = self._map(0, progress)
         comparisons = [Comparison(first.name, 0.0, first.result.converged)]
-        for index in range(1, len(self.objects)):
+        for index in range(1, len(self.names)):
             try:
                 comparisons.append(compare(self.koebe, first, self._map(index, progress)))
             except ShapeError as error:
@@ -51,53 +65,70 @@ class MeasureJob(_ShapeJob):
 
 
 class CarryJob(_ShapeJob):
-    """Gives the other objects UVs that fit the texture of the first one."""
+    """Gives the other objects UVs that fit the texture of the first one.
+
+    carried   for each of the other objects that could be read, what it gets, or None
+    failures  why others get nothing
+    """
 
     def __init__(self, objects, layer, fit_holes):
-        """Read the objects. Raises NativeError, or TransferError if UVs are missing or could not be written."""
-        own = [obj for index, obj in enumerate(objects) if all(obj.data is not o.data for o in objects[:index])]
-        super().__init__(own)
+        """Read the objects. Raises NativeError, or TransferError if UVs are missing or no target can be written."""
+        own = with_own_meshes(objects)
         if len(own) < 2:
             raise transfer.TransferError("select a surface beside the active one to carry its texture to")
         source = own[0]
+        check_readable(source)
         if layer not in source.data.uv_layers:
             raise transfer.TransferError(f"{source.name}: it has no UV layer {layer!r}: map it first")
-        self.layer, self.fit_holes = layer, fit_holes
+        self.layer, self.fit_holes, self.targets = layer, fit_holes, []
+        super().__init__(own)
+        if not self.targets[1:]:
+            raise transfer.TransferError(". ".join(self.failures))
         self.source_uv = transfer.read_uv(source, layer)
-        self.check_writable()
-        self.carried, self.failures = None, None
+        self.material = carried_material.painted(source)
+        self.carried = None
 
-    def check_writable(self):
-        """Raise TransferError if one of the targets cannot be written, or no longer."""
-        for obj, surface in zip(self.objects[1:], self.surfaces[1:], strict=True):
-            transfer.check_writable(obj, surface, self.layer)
+    def _read(self, obj):
+        if self.targets:  # the first one is not written
+            check_mesh(obj)
+            uv_layers.check_layer(obj, self.layer)
+        self.targets.append(Target.of(obj))
 
     def compute(self, progress=None):
-        """Fill `carried`, None for a target that cannot be used, and `failures`, the reasons.
+        """Fill `carried`, and `failures`.
 
-        Raises ShapeError if it is the source that cannot, and `koebe.Cancelled`.
+        Raises ShapeError if it is the source that cannot be used, and `koebe.Cancelled`.
         """
         source = read_source(self._map(0, progress), self.source_uv)
-        carried, failures = [], []
-        for index in range(1, len(self.objects)):
+        carried = []
+        for index in range(1, len(self.names)):
+            carried.append(None)
             try:
                 target = self._map(index, progress)
-                carried.append(carry(self.koebe, source, target, self.fit_holes, None, self.cancel_token))
-            except ShapeError as error:
-                carried.append(None)
-                failures.append(str(error))
-        self.carried, self.failures = carried, failures
+                carried[-1] = carry(self.koebe, source, target, self.fit_holes, None, self.cancel_token)
+            except self.koebe.Cancelled:
+                raise
+            except Exception as error:
+                self.failures.append(reason(self.names[index], error))
+        self.carried = carried
 
-    def write(self, with_material):
-        """Write the UVs, and give targets without a material that of the source. Call `check_writable` first."""
-        source = self.objects[0]
-        for obj, one in zip(self.objects[1:], self.carried, strict=True):
-            if one is None:
-                continue
-            island = one.shape.island
-            transfer.write_uv(obj, self.layer, island.corners, one.uv[island.corner_vertex])
-            kind = distortion_display.shown(obj)
-            if kind is not None:
-                distortion_display.put_on(obj, self.layer, kind)
-            if with_material and source.active_material and not any(slot.material for slot in obj.material_slots):
-                obj.active_material = source.active_material
+    def write(self, run, with_material):
+        """Write the UVs, and give targets without a material the painted one of the source.
+
+        One that cannot be written is left as it was: it gets None in `carried`, and its reason in `failures`.
+        """
+        for index, (target, one) in enumerate(zip(self.targets[1:], self.carried, strict=True)):
+            if one is not None:
+                with run.attempt(lambda error, index=index: self._fail(index, error)):
+                    self._write_one(run, target, one, with_material)
+
+    def _fail(self, index, error):
+        self.failures.append(reason(self.names[index + 1], error))
+        self.carried[index] = None
+
+    def _write_one(self, run, target, one, with_material):
+        island = one.shape.island
+        plan = map_writing.plan(target, self.layer, one.shape.surface, island.corners, one.uv[island.corner_vertex])
+        map_writing.write(run, plan)
+        if with_material and self.material is not None:
+            carried_material.give(run, plan.obj, self.material)

@@ -6,11 +6,13 @@ from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerPr
 
 from . import results
 from .modal_run import ModalRun
-from .modes import target_objects
 from .native import NativeError
+from .noted import note_group
 from .properties import UniformizeProperties
 from .shape_jobs import CarryJob, MeasureJob
 from .shapes import ShapeError
+from .targets import target_objects
+from .transaction import transaction
 from .transfer import TransferError
 
 
@@ -96,26 +98,30 @@ class UV_OT_koebe_compare_shapes(_ShapeOperator, bpy.types.Operator):
         return MeasureJob(objects)
 
     def _finish(self, context, job):
-        shapes = context.window_manager.koebe_shapes
-        shapes.source = job.names[0]
-        shapes.module.clear()
-        for name, value in job.module:
-            number = shapes.module.add()
-            number.name, number.value = name, value
-        shapes.others.clear()
-        for one in job.comparisons[1:]:
-            entry = shapes.others.add()
-            entry.name, entry.measured = one.name, one.distance is not None
-            entry.distance = one.distance if entry.measured else 0.0
-            entry.message = one.message or ("" if one.converged else "not converged")
-        shapes.carried.clear()
-        _redraw(context)
-        for one in job.comparisons[1:]:
-            found = one.message if one.distance is None else f"distance {one.distance:.6g}"
-            self.report({"INFO"}, f"{one.name}: {found}")
-        if not job.comparisons[0].converged:
-            self.report({"WARNING"}, f"{job.names[0]}: not converged")
-        return {"FINISHED"}
+        with transaction() as run:
+            shapes = context.window_manager.koebe_shapes
+            note_group(run, shapes)
+            shapes.source = job.names[0]
+            shapes.module.clear()
+            for name, value in job.module:
+                number = shapes.module.add()
+                number.name, number.value = name, value
+            shapes.others.clear()
+            for one in job.comparisons[1:]:
+                entry = shapes.others.add()
+                entry.name, entry.measured = one.name, one.distance is not None
+                entry.distance = one.distance if entry.measured else 0.0
+                entry.message = one.message or ("" if one.converged else "not converged")
+            shapes.carried.clear()
+            _redraw(context)
+            for one in job.comparisons[1:]:
+                found = one.message if one.distance is None else f"distance {one.distance:.6g}"
+                self.report({"INFO"}, f"{one.name}: {found}")
+            if not job.comparisons[0].converged:
+                self.report({"WARNING"}, f"{job.names[0]}: not converged")
+            if job.failures:
+                self.report({"WARNING"}, "Koebe UV: left out. " + ". ".join(job.failures))
+            return {"FINISHED"}
 
 
 class UV_OT_koebe_carry_texture(_ShapeOperator, bpy.types.Operator):
@@ -146,27 +152,26 @@ class UV_OT_koebe_carry_texture(_ShapeOperator, bpy.types.Operator):
         return CarryJob(objects, self.layer, self.fit_holes)
 
     def _finish(self, context, job):
-        done = [one for one in job.carried if one is not None]
-        if not done:
-            self.report({"ERROR"}, "Koebe UV: nothing was carried. " + ". ".join(job.failures))
-            return {"CANCELLED"}
-        try:
-            job.check_writable()
-        except TransferError as error:
-            return self._refuse(error)
-        job.write(self.material)
-        carried = context.window_manager.koebe_shapes.carried
-        carried.clear()
-        for one in done:
-            results.record_moved(context, one.name, job.layer, one.shape.island, one)
-            entry = carried.add()
-            entry.name, entry.measured, entry.distance, entry.message = one.name, True, one.residual, one.message
-        _redraw(context)
-        for one in done:
-            self.report({"WARNING" if one.message or len(one.flipped) else "INFO"}, _line(one))
-        if job.failures:
-            self.report({"WARNING"}, "Koebe UV: not carried. " + ". ".join(job.failures))
-        return {"FINISHED"}
+        with transaction() as run:
+            job.write(run, self.material)
+            done = [one for one in job.carried if one is not None]
+            if not done:
+                self.report({"ERROR"}, "Koebe UV: nothing was carried. " + ". ".join(job.failures))
+                return {"CANCELLED"}
+            shapes = context.window_manager.koebe_shapes
+            note_group(run, shapes)
+            note_group(run, context.window_manager.koebe_uv)
+            shapes.carried.clear()
+            for one in done:
+                results.record_moved(context, one.name, job.layer, one.shape.island, one)
+                entry = shapes.carried.add()
+                entry.name, entry.measured, entry.distance, entry.message = one.name, True, one.residual, one.message
+            _redraw(context)
+            for one in done:
+                self.report({"WARNING" if one.message or len(one.flipped) else "INFO"}, _line(one))
+            if job.failures:
+                self.report({"WARNING"}, "Koebe UV: not carried. " + ". ".join(job.failures))
+            return {"FINISHED"}
 
 
 def _line(one):

@@ -5,11 +5,12 @@ import dataclasses
 
 import numpy as np
 
+from .errors import KnownError
 from .report import explain
 from .surface import Island, Surface, cut_into_islands
 
 
-class ShapeError(Exception):
+class ShapeError(KnownError):
     """A surface that cannot be compared with another, or carry its texture."""
 
 

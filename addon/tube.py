@@ -11,34 +11,39 @@ from .surface import as_complex, as_points, cut_into_islands
 
 
 def unroll(surface, tubes):
-    """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes.
+    """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
 
     A tube is (island, uv, loops): `uv` maps the island to the unit disk with a round hole; `loops` are its outer and
     inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: around is along u,
     from loop to loop is along v. Both are conformal, so angles stay. The cut runs along a short path of edges from
-    loop to loop, which begins at the back, where y is largest; a vertex on it comes out once for either side. The
+    loop to loop, which ends at the back, where y is largest; a vertex on it comes out once for either side. The
     rectangle is centred at 0 and lies in the unit disk.
     """
+    if not tubes:
+        return []
     following = np.arange(1, len(surface.corner_vertex) + 1)
     following[surface.face_start + surface.face_size - 1] = surface.face_start
     vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
-    seam, selected, logs = surface.seam.copy(), np.zeros_like(surface.selected), []
+    seam, selected, opened = surface.seam.copy(), np.zeros_like(surface.selected), []
     for island, uv, loops in tubes:
         log = np.log(concentric(as_complex(uv), loops[1]))
         vertex[island.corners] = island.corner_vertex
-        edges, first = np.unique(surface.corner_edge[island.corners], return_index=True)
-        corners = island.corners[first]
+        edges, first, uses = np.unique(surface.corner_edge[island.corners], return_index=True, return_counts=True)
+        inside = (uses == 2) & ~surface.seam[edges]  # to cut along a boundary cuts nothing
+        edges, corners = edges[inside], island.corners[first[inside]]
         ends = np.stack([vertex[corners], vertex[following[corners]]], axis=1)
-        start = loops[0][np.argmax(island.vertices[loops[0], 1])]
         length = _wrapped_distance(log[ends[:, 0]], log[ends[:, 1]])
-        seam[edges[_shortest_path(ends, length, start, set(loops[1].tolist()))]] = True
-        selected[island.faces] = True
-        logs.append(log)
-    # Both lists are in the order of the islands' first faces.
+        path = edges[_cut(ends, length, loops, island.vertices[:, 1])]
+        seam[path], selected[island.faces] = True, True
+        opened.append((log, len(path) > 0))
     sheets = cut_into_islands(dataclasses.replace(surface, seam=seam, selected=selected))
-    return [
-        (sheet, _rectangle(sheet, island, log)) for sheet, (island, _, _), log in zip(sheets, tubes, logs, strict=True)
-    ]
+    with_first_face = {int(sheet.faces[0]): sheet for sheet in sheets}
+    result = []
+    for (island, _, _), (log, cut) in zip(tubes, opened, strict=True):
+        sheet = with_first_face[int(island.faces[0])]
+        whole = cut and len(sheet.faces) == len(island.faces)  # else the path has cut off a piece
+        result.append((sheet, _rectangle(sheet, island, log)) if whole else None)
+    return result
 
 
 def _rectangle(sheet, island, log):
@@ -72,33 +77,45 @@ def _wrapped_distance(one, two):
     return np.hypot(step.real, np.remainder(step.imag + np.pi, 2.0 * np.pi) - np.pi)
 
 
-def _shortest_path(ends, length, start, goals):
-    """Indices of the edges of the shortest path from a vertex to one of the goals [Dijkstra 1959]."""
-    count = int(ends.max()) + 1
+def _cut(ends, length, loops, back):
+    """Indices of the edges (m, 2) of the shortest path from the inner loop to the rearmost vertex of the outer one.
+
+    It touches the loops with its ends alone: along the rim, or over a chord of it, it would cut off a piece. So it ends
+    at the rearmost vertex that can be reached like that; there is one wherever the surface hangs together.
+    """
+    outer = loops[0][np.argsort(-back[loops[0]], kind="stable")].tolist()
+    came = _shortest_paths(ends, length, loops[1].tolist(), outer, len(back))
+    vertex, path = next((v for v in outer if v in came), None), []
+    while vertex in came:
+        vertex, used = came[vertex]
+        path.append(used)
+    return path
+
+
+def _shortest_paths(ends, length, starts, dead_ends, count):
+    """Vertex and edge before each vertex on its shortest path from the nearest start [Dijkstra 1959].
+
+    No path goes on from one of the dead ends; with the first of them the search is over.
+    """
     both = np.concatenate([ends[:, 0], ends[:, 1]])
     order = np.argsort(both, kind="stable")
     first = np.searchsorted(both[order], np.arange(count + 1)).tolist()
     others = np.concatenate([ends[:, 1], ends[:, 0]])[order].tolist()
     edge = np.tile(np.arange(len(ends)), 2)[order].tolist()
-    length = length.tolist()
-    best, came = {int(start): 0.0}, {}
-    queue = [(0.0, int(start))]
+    length, came, ending = length.tolist(), {}, set(dead_ends)
+    best, queue = dict.fromkeys(starts, 0.0), [(0.0, vertex) for vertex in starts]
     while queue:
         distance, vertex = heapq.heappop(queue)
-        if vertex in goals:
+        if vertex == dead_ends[0]:
             break
-        if distance > best[vertex]:
+        if distance > best[vertex] or vertex in ending:
             continue
         for i in range(first[vertex], first[vertex + 1]):
             reached = distance + length[edge[i]]
             if reached < best.get(others[i], np.inf):
                 best[others[i]], came[others[i]] = reached, (vertex, edge[i])
                 heapq.heappush(queue, (reached, others[i]))
-    path = []
-    while vertex in came:
-        vertex, used = came[vertex]
-        path.append(used)
-    return path
+    return came
 
 
 def _branches(log, triangles):

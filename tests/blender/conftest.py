@@ -9,7 +9,7 @@ import os
 import bpy
 import pytest
 
-pytest.register_assert_rewrite("scenes")
+pytest.register_assert_rewrite("scenes", "faults", "states")
 
 
 @pytest.fixture(scope="session")

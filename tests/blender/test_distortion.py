@@ -1,6 +1,7 @@
 """Distortion as a colour attribute: what it says, and that it comes off without a trace."""
 
 import bpy
+import fingerprint
 import numpy as np
 import pytest
 import scenes
@@ -87,17 +88,41 @@ def test_a_new_map_has_new_colours():
     assert np.abs(read() - before).max() > 0.1
 
 
-def test_an_attribute_of_the_artists_is_not_taken():
-    obj = add_grid(lambda x, y: (x, y))
+def taken_by_an_attribute(obj):
     obj.data.attributes.new(NAME, "FLOAT", "FACE")
-    with pytest.raises(RuntimeError, match="of its own"):
-        bpy.ops.uv.koebe_distortion()
-    assert obj.data.attributes[NAME].data_type == "FLOAT"
 
 
-def test_one_without_the_layer_and_none_is_coloured():
+def taken_by_a_vertex_group(obj):
+    obj.vertex_groups.new(name=NAME)
+
+
+def taken_by_a_uv_layer(obj):
+    obj.data.uv_layers.new(name=NAME)
+
+
+@pytest.mark.parametrize("take", [taken_by_an_attribute, taken_by_a_vertex_group, taken_by_a_uv_layer])
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_a_name_that_is_taken_breaks_nothing(take, mode):
+    """The colours get another name, run after run, and what has the name keeps it."""
+    obj = add_grid(lambda x, y: (x, y))
+    take(obj)
+    bpy.ops.object.mode_set(mode=mode)
+    before = fingerprint.fingerprint()
+    for kind in ("angle", "area", "angle"):
+        assert bpy.ops.uv.koebe_distortion(kind=kind) == {"FINISHED"}
+        assert obj.data.color_attributes.active_color.name.startswith(NAME + ".")
+        assert len(obj.data.color_attributes) == 1
+    bpy.ops.uv.koebe_uniformize(checker=False, layer="Koebe")
+    assert bpy.ops.uv.koebe_distortion(kind="none") == {"FINISHED"}
+    after = fingerprint.fingerprint()
+    assert all("Koebe" in name or "report" in name for name in fingerprint.differences(before, after)), before
+
+
+def test_one_without_the_layer_is_left_out_and_the_other_coloured():
     good, bad = add_grid(lambda x, y: (x, y)), scenes.add_panel()
-    scenes.select(good, bad)
+    scenes.select(bad)
     with pytest.raises(RuntimeError, match="Panel: it has no UV layer"):
         bpy.ops.uv.koebe_distortion()
-    assert NAME not in good.data.attributes and not good.data.keys()
+    scenes.select(good, bad)
+    assert bpy.ops.uv.koebe_distortion() == {"FINISHED"}
+    assert NAME in good.data.attributes and len(bad.data.color_attributes) == 0 and not bad.data.keys()

@@ -39,12 +39,13 @@ def test_a_full_mesh_is_refused_and_left_alone_but_an_existing_layer_is_written(
         full.data.uv_layers.new(name=f"Layer {index}")
     before = scenes.mesh_state(full.data)
     scenes.select(free, full)
-    with pytest.raises(RuntimeError, match="Full: .*8 UV layers"):
-        bpy.ops.uv.koebe_uniformize()
-    assert scenes.mesh_state(full.data) == before
-    assert len(free.data.uv_layers) == 0, "all or nothing"
+    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert scenes.mesh_state(full.data) == before and len(full.material_slots) == 0
+    assert "Koebe" in free.data.uv_layers
+    told = {entry.object_name: entry for entry in bpy.context.window_manager.koebe_uv.islands}
+    assert told["Free"].mapped and not told["Full"].mapped and "8 UV layers" in told["Full"].message
     bpy.ops.uv.koebe_uniformize(layer="Layer 3")
-    assert len(full.data.uv_layers) == 8
+    assert len(full.data.uv_layers) == 8 and len(full.material_slots) == 1
     assert np.array_equal(scenes.corner_uv(full.data, "Layer 3"), scenes.corner_uv(free.data, "Layer 3"))
 
 

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that shows distortion, and its legend in the 3D View."""
+
+import bpy
+
+from . import distortion, distortion_display, drawing, edit_mode
+from .noted import set_property
+from .targets import reason, target_objects, with_own_meshes
+from .transaction import transaction
+from .transfer import read_surface, read_uv
+
+KINDS = [
+    ("none", "Off", "Take the colours off and show the materials again"),
+    (distortion.ANGLE, "Angle", "Colour the faces by how far the angles of the UVs are from those of the surface"),
+    (distortion.AREA, "Area", "Colour the faces by how many texels they get, compared with the mean"),
+]
+SHADING_KEY = "koebe_shading"  # on the screen: what its 3D Views coloured surfaces by before
+
+
+class UV_OT_koebe_distortion(bpy.types.Operator):
+    """Colour the faces of the selected objects by the distortion of their UVs, or take the colours off again"""
+
+    bl_idname = "uv.koebe_distortion"
+    bl_label = "Koebe Distortion"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: bpy.props.EnumProperty(name="Distortion", items=KINDS, default=distortion.ANGLE)
+    layer: bpy.props.StringProperty(name="UV Layer", default="Koebe", description="UV layer to judge")
+
+    @classmethod
+    def description(cls, context, properties):
+        """The tooltip of each button is its own."""
+        return next(text for kind, _, text in KINDS if kind == properties.kind)
+
+    @classmethod
+    def poll(cls, context):
+        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
+            cls.poll_message_set("Select a mesh object, in Object Mode or in Edit Mode")
+            return False
+        return True
+
+    def execute(self, context):
+        with transaction() as run:
+            problems, objects = [], with_own_meshes(target_objects(context))
+            with edit_mode.left_if_faster(run, context):
+                for obj in objects:
+                    with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                        self._color(run, obj)
+            if len(problems) == len(objects):
+                self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
+                return {"CANCELLED"}
+            _show_colors(run, context, self.kind != "none")
+            if problems:
+                self.report({"WARNING"}, f"Koebe UV: left out. {'. '.join(problems)}")
+            return {"FINISHED"}
+
+    def _color(self, run, obj):
+        if self.kind == "none":
+            if distortion_display.MEMORY_KEY in obj.data:
+                distortion_display.check_mesh(obj)
+            distortion_display.take_off(run, obj)
+            return
+        distortion_display.check(obj, self.layer)
+        surface = read_surface(obj, selected_only=False)
+        colors = distortion_display.corner_colors(surface, read_uv(obj, self.layer), self.kind)
+        distortion_display.put_on(run, obj, self.kind, colors)
+
+
+def _show_colors(run, context, on):
+    """Let the 3D Views of all windows show colour attributes in Solid shading, or again what they showed before."""
+    for screen in dict.fromkeys(window.screen for window in context.window_manager.windows):
+        views = [area.spaces.active for area in screen.areas if area.type == "VIEW_3D"]
+        run.before_write(_restore_shading, views, [view.shading.color_type for view in views])
+        before = screen.get(SHADING_KEY)
+        if on and before is None:
+            set_property(run, screen, SHADING_KEY, " ".join(view.shading.color_type for view in views))
+        if not on and before is not None:
+            set_property(run, screen, SHADING_KEY, None)
+        for index, view in enumerate(views):
+            if on:
+                view.shading.color_type = "VERTEX"
+            elif view.shading.color_type == "VERTEX":
+                known = (before or "").split()
+                view.shading.color_type = known[index] if len(known) == len(views) else "MATERIAL"
+        for area in screen.areas:
+            area.tag_redraw()
+
+
+def _restore_shading(views, kinds):
+    for view, kind in zip(views, kinds, strict=True):
+        view.shading.color_type = kind
+
+
+def draw_legend():
+    """The legend of the active object's colours, at the upper left of the 3D View."""
+    context = bpy.context
+    obj = context.active_object
+    if obj is None or obj.type != "MESH" or not context.space_data.overlay.show_overlays:
+        return
+    kind = distortion_display.shown(obj.data)
+    if kind is not None:
+        title, marks = distortion.legend(kind)
+        ramp = distortion.ANGLE_RAMP if kind == distortion.ANGLE else distortion.AREA_RAMP
+        drawing.color_bar(title, ramp, marks)
+
+
+def register():
+    """Register the operator and the legend."""
+    bpy.utils.register_class(UV_OT_koebe_distortion)
+    drawing.add("VIEW_3D", "legend", draw_legend)
+
+
+def unregister():
+    """Undo `register`."""
+    drawing.remove("VIEW_3D", "legend")
+    bpy.utils.unregister_class(UV_OT_koebe_distortion)

@@ -1,0 +1,111 @@
+"""Lets the add-on fail before any line that it executes inside a transaction, as memory, a key or a bug could."""
+
+import os
+import sys
+
+import bpy
+import fingerprint
+
+EVERY_STEP = "KOEBE_EVERY_STEP"  # set in the environment: fail at every step, not at a choice of them
+
+
+class Fault:
+    """Counts the lines of the add-on that are executed from a transaction's start, and raises before one of them."""
+
+    def __init__(self, folder, at=None, error=KeyboardInterrupt):
+        self.steps, self._folder, self._at, self._error, self._live = [], folder, at, error, False
+
+    @property
+    def fired(self):
+        """Whether the exception was raised."""
+        return self._at is not None and len(self.steps) >= self._at
+
+    def __enter__(self):
+        sys.settrace(self._enter)
+        return self
+
+    def __exit__(self, *error):
+        sys.settrace(None)
+
+    def _enter(self, frame, event, argument):
+        code = frame.f_code
+        if not code.co_filename.startswith(self._folder):
+            return None
+        self._live |= code.co_name == "transaction"
+        return self._step
+
+    def _step(self, frame, event, argument):
+        if event == "line" and self._live:
+            self.steps.append((frame.f_code.co_filename, frame.f_lineno))
+            if len(self.steps) == self._at:
+                raise self._error("a fault that was asked for")
+        return self._step
+
+
+def chosen(steps, most):
+    """Numbers of steps: of each line the first and the last time, at most so many, evenly; or all if asked for."""
+    if EVERY_STEP in os.environ:
+        return range(1, len(steps) + 1)
+    first, last = {}, {}
+    for number, place in enumerate(steps, 1):
+        first.setdefault(place, number)
+        last[place] = number
+    numbers = sorted({*first.values(), *last.values()})
+    return numbers[:: max(1, -(-len(numbers) // most))]
+
+
+def call(operator, fault=None, **options):
+    """Call an operator, maybe with a fault; what it answers, or the error's text."""
+    try:
+        if fault is None:
+            return operator(**options)
+        with fault:
+            return operator(**options)
+    except RuntimeError as error:
+        return str(error)
+
+
+def check_all_comes_back(folder, build, operator, options, most):
+    """Fail at the steps of an operator by a key, which ends all of it: everything is as before, and then it works."""
+    build()
+    counting = Fault(folder)
+    answer = call(operator, counting, **options)
+    expected = fingerprint.fingerprint()
+    build()
+    before, wrong = fingerprint.fingerprint(), {}
+    for number in chosen(counting.steps, most):
+        fault = Fault(folder, number)
+        call(operator, fault, **options)
+        found = fingerprint.differences(before, fingerprint.fingerprint())
+        if found:
+            wrong[_named(counting.steps[number - 1])] = found
+            build()
+    assert not wrong
+    assert len(counting.steps) > 20 and call(operator, **options) == answer
+    assert fingerprint.differences(expected, fingerprint.fingerprint()) == []
+
+
+def check_each_for_itself(folder, build, operator, options, most):
+    """Fail at the steps of an operator by an error: every object is as before, or as without the error."""
+    build()
+    before = fingerprint.fingerprint()
+    counting = Fault(folder)
+    call(operator, counting, **options)
+    after, wrong = fingerprint.fingerprint(), {}
+    for number in chosen(counting.steps, most):
+        build()
+        fault = Fault(folder, number, ValueError)
+        call(operator, fault, **options)
+        now = fingerprint.fingerprint()
+        for obj in bpy.data.objects:
+            mine = fingerprint.of_object(now, obj)
+            found = [
+                fingerprint.differences(mine, fingerprint.of_object(prints, obj)) for prints in (before, after)
+            ]
+            if all(found):
+                wrong[_named(counting.steps[number - 1]), obj.name] = found
+    assert not wrong
+
+
+def _named(place):
+    return f"{os.path.basename(place[0])}:{place[1]}"
