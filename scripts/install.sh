@@ -4,11 +4,11 @@
 set -euo pipefail
 
 declare -A groups=(
-    # compilers, libraries, and Python with NumPy and pytest
+    # compilers, libraries, and Python with NumPy, pytest and Hypothesis
     [build]="build-essential cmake ninja-build ccache
         libopenmesh-dev libeigen3-dev libsuitesparse-dev libopenblas-pthread-dev libcgal-dev liblemon-dev
         nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev
-        python3-dev python3-venv python3-numpy python3-pytest ca-certificates"
+        python3-dev python3-venv python3-numpy python3-pytest python3-hypothesis ca-certificates"
     # clang with libFuzzer and its sanitizers; llvm has the symbolizer, by which findings name lines
     [fuzz]="clang libclang-rt-dev llvm"
     # Blender, what the bpy wheels link, and a screen with software OpenGL for windows and renders

@@ -134,7 +134,8 @@ PYBIND11_MODULE(_koebe, m)
     });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
         return detached(
-            [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; });
+            [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; },
+            triangles.rows() < small_mesh);
     });
     m.def("fill_holes", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const std::optional<std::vector<Index>>& loops, bool fair) {
@@ -147,12 +148,14 @@ PYBIND11_MODULE(_koebe, m)
     m.def("harmonic_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                              const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values,
                              bool uniform) {
-        return detached([positions = Vertices(vertices), faces = Triangles(triangles), fixed, given = complex(values),
-                         uniform] {
-            const SerialDenseKernels serial;
-            const EdgeLengths lengths = uniform ? EdgeLengths::Ones(faces.rows(), 3) : edge_lengths(positions, faces);
-            return planar(harmonic_map(faces, lengths, static_cast<Index>(positions.rows()), fixed, given));
-        });
+        return detached(
+            [positions = Vertices(vertices), faces = Triangles(triangles), fixed, given = complex(values), uniform] {
+                const SerialDenseKernels serial;
+                const EdgeLengths lengths =
+                    uniform ? EdgeLengths::Ones(faces.rows(), 3) : edge_lengths(positions, faces);
+                return planar(harmonic_map(faces, lengths, static_cast<Index>(positions.rows()), fixed, given));
+            },
+            triangles.rows() < small_mesh);
     });
     m.def("disk_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles)] {
@@ -172,12 +175,15 @@ PYBIND11_MODULE(_koebe, m)
     });
     m.def("distortion", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const Eigen::Ref<const PlanarPoints>& uv) {
-        return detached([positions = Vertices(vertices), faces = Triangles(triangles), points = PlanarPoints(uv)] {
-            return to_json(measure_distortion(positions, faces, points)).dump();
-        });
+        return detached(
+            [positions = Vertices(vertices), faces = Triangles(triangles), points = PlanarPoints(uv)] {
+                return to_json(measure_distortion(positions, faces, points)).dump();
+            },
+            triangles.rows() < small_mesh);
     });
     m.def("conformal_module", [](const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& order) {
-        return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); });
+        return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); },
+                        true);
     });
     m.def("module_names", &module_names);
     m.def("require_own_circles", [](const UniformizeResult& result) { require_own_circles(result.loops); });

@@ -48,12 +48,16 @@ auto without_gil(const pybind11::object& progress, const CancelToken& token, Com
     return compute(context);
 }
 
-/// Runs any computation without the GIL on a thread of its own; what it reads must be its own.
+/// Faces of a mesh that takes a few milliseconds to go through: not worth a thread, which a busy machine lets wait.
+constexpr Index small_mesh = 5000;
+
+/// Runs any computation without the GIL, on a thread of its own unless it is short; what it reads must be its own.
 template <class Compute>
-auto detached(Compute compute)
+auto detached(Compute compute, bool is_short = false)
 {
     using Result = std::invoke_result_t<Compute>;
-    return without_gil(pybind11::none(), {}, [&compute](ExecutionContext& context) {
+    return without_gil(pybind11::none(), {}, [&compute, is_short](ExecutionContext& context) {
+        if (is_short) return compute();
         return run_detachable<Result>(context, [compute = std::move(compute)](ExecutionContext&) { return compute(); });
     });
 }
