@@ -87,6 +87,11 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
     return domain;
 }
 
+bool is_polygon(const Domain& domain)
+{
+    return domain.loops.size() == 1 && domain.surface.vertex_count == static_cast<Index>(domain.loops[0].size());
+}
+
 Domain core_domain(const Domain& whole, FlapCut& cut)
 {
     Domain core;

@@ -23,6 +23,9 @@ struct Domain {
     int outer_rank = 0;                // of the outer loop among the input's, which go by their lowest vertices
 };
 
+/// Whether the surface is a disk without inner vertices.
+bool is_polygon(const Domain& domain);
+
 /// @throws InputError, TopologyError
 Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
 

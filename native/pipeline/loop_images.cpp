@@ -35,8 +35,6 @@ KoebeOutcome polygon_outcome(const Domain& domain)
 KoebeOutcome run_engine(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
                         ExecutionContext& context)
 {
-    if (domain.loops.size() == 1 && domain.surface.vertex_count == static_cast<Index>(domain.loops[0].size()))
-        return polygon_outcome(domain);
     if (options.engine == Engine::mesh)
         return koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context).outcome;
     if (!assembled.condensed) return {};
@@ -96,6 +94,7 @@ bool circles_apart(const std::vector<Circle>& circles)
 KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
                          ExecutionContext& context)
 {
+    if (is_polygon(domain)) return polygon_outcome(domain);
     const auto attempt = [&](const auto& run) {
         try {
             return run();

@@ -119,7 +119,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     require_memory(bytes_per_face * static_cast<double>(triangles.rows()), "a mesh of so many faces");
     context.begin_stage("topology", 0.0, 0.05);
     const Domain whole = prepare_domain(vertices, triangles, options);
-    FlapCut cut = cut_flaps(whole.vertices, whole.surface, whole.loops);
+    // A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
+    FlapCut cut = is_polygon(whole) ? FlapCut{} : cut_flaps(whole.vertices, whole.surface, whole.loops);
     std::optional<Domain> core;
     if (!cut.flaps.empty()) core = core_domain(whole, cut);
     const Domain& domain = core ? *core : whole;
