@@ -10,6 +10,12 @@ extern "C" char* openblas_get_corename();
 
 namespace koebe::cli {
 
+void restart(char** arguments)
+{
+    char program[PATH_MAX] = {};  // by its own name, which is what the process is then called
+    if (readlink("/proc/self/exe", program, sizeof program - 1) > 0) execv(program, arguments);
+}
+
 void restart_with_fast_kernels(char** arguments)
 {
 #if defined(__x86_64__)
@@ -19,9 +25,7 @@ void restart_with_fast_kernels(char** arguments)
     const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     setenv(choice, wide ? "SKYLAKEX" : "HASWELL", 1);
-    char program[PATH_MAX] = {};  // by its own name, which is what the process is then called
-    if (readlink("/proc/self/exe", program, sizeof program - 1) > 0) execv(program, arguments);
-    // Still here only where there is no /proc: the slow kernels do it then.
+    restart(arguments);  // the slow kernels do it where it cannot be
 #else
     (void)arguments;
 #endif

@@ -10,4 +10,7 @@ namespace koebe::cli {
 /// @param arguments as main() has them
 void restart_with_fast_kernels(char** arguments);
 
+/// Starts this program again with the environment as it is now; returns only where that cannot be.
+void restart(char** arguments);
+
 }  // namespace koebe::cli

@@ -2,6 +2,7 @@
 #include "cli/error_line.h"
 #include "cli/exit_code.h"
 #include "cli/fast_kernels.h"
+#include "cli/scarce_memory.h"
 #include "cli/standard_streams.h"
 #include "cli/subcommand.h"
 #include "cli/wrong_usage.h"
@@ -92,5 +93,13 @@ int main(int argc, char** argv)
 {
     keep_standard_streams();
     restart_with_fast_kernels(argv);
-    return run_guarded([&] { return run_command(argc, argv); });
+    restart_without_dense_threads(argv);
+    try {
+        return run_guarded([&] {
+            prepare_for_scarce_memory();
+            return run_command(argc, argv);
+        });
+    } catch (...) {  // not even the error's line could be put together
+        return fail_for_memory();
+    }
 }

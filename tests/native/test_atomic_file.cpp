@@ -2,11 +2,14 @@
 #include "io/atomic_file.h"
 
 #include "io/file_error.h"
+#include "io/temporary_name.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -88,6 +91,45 @@ TEST(AtomicFile, NamesMayBeAsLongAsTheSystemAllows)
     AtomicFile file(folder.path() / std::string(255, 'n'));
     file.commit();
     EXPECT_TRUE(fs::exists(folder.path() / std::string(255, 'n')));
+}
+
+TEST(AtomicFile, WhatAKilledProcessLeftIsPassedOver)
+{
+    const TemporaryFolder folder;
+    std::vector<fs::path> left;
+    for (int i = 0; i < 3; ++i) {  // the names that come next, as a process of the same number would have had
+        const std::string name = io::temporary_name(folder.path()).filename().string();
+        const std::size_t number = name.rfind('-') + 1;
+        left.push_back(folder.write(name.substr(0, number) + std::to_string(std::stoi(name.substr(number)) + 3) + ".tmp",
+                                    "left"));
+    }
+    AtomicFile file(folder.path() / "out");
+    file.write("new");
+    file.commit();
+    EXPECT_EQ(bytes_of(folder.path() / "out"), "new");
+    for (const fs::path& path : left) EXPECT_EQ(bytes_of(path), "left");
+    EXPECT_EQ(folder.file_count(), 4u);
+}
+
+TEST(AtomicFile, AFileThatIsNotWritableIsNotReplaced)
+{
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("file", "old");
+    fs::permissions(file, fs::perms::owner_read);
+    if (::access(file.c_str(), W_OK) == 0) GTEST_SKIP() << "root may write everything";
+    EXPECT_THROW(require_writable(file), FileError);
+}
+
+TEST(AtomicFile, LinksThatLeadNowhereGetTheirTarget)
+{
+    const TemporaryFolder folder;
+    fs::create_symlink("target", folder.path() / "link");
+    EXPECT_NO_THROW(require_writable(folder.path() / "link"));
+    AtomicFile file(folder.path() / "link");
+    file.write("new");
+    file.commit();
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+    EXPECT_EQ(bytes_of(folder.path() / "target"), "new");
 }
 
 // With a pipe of its own: were the law broken, root would lose /dev/null here.

@@ -60,6 +60,38 @@ TEST(LoopMatching, finds_the_loops_of_a_shape_that_has_changed_a_little)
     }
 }
 
+TEST(LoopMatching, finds_five_hundred_loops_of_a_shape_that_has_changed_a_little)
+{
+    const std::vector<Circle> circles = random_domain(500, 13);
+    const std::vector<int> order = shuffle(circles.size(), 4);
+    const LoopMatch match = match_loops(circles, image(some_maps[2], reordered(disturbed(circles, 1e-4), order)));
+    int wrong = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) wrong += match.order_a[i] != order[match.order_b[i]];
+    EXPECT_EQ(wrong, 0);
+    EXPECT_LT(match.distance, 0.1);
+    EXPECT_FALSE(match.exhaustive);
+}
+
+TEST(LoopMatching, finds_another_outer_loop_among_many)
+{
+    const std::vector<Circle> circles = random_domain(60, 8);
+    std::vector<int> order = shuffle(circles.size(), 3);
+    std::swap(order[0], order[44]);
+    const std::vector<Circle> other = normalized_circles(circles, order);
+    EXPECT_LT(match_loops(circles, other, true).distance, 1e-8);
+}
+
+TEST(LoopMatching, can_be_cancelled)
+{
+    CancelToken token;
+    token.cancel();
+    for (const int holes : {3, 20}) {
+        const std::vector<Circle> circles = random_domain(holes, 1);
+        EXPECT_THROW(match_loops(circles, circles, false, ExecutionContext({}, token)), Cancelled) << holes;
+        EXPECT_THROW(match_loops(circles, circles, true, ExecutionContext({}, token)), Cancelled) << holes;
+    }
+}
+
 TEST(LoopMatching, distance_is_symmetric_and_that_of_the_modules_in_its_orders)
 {
     for (const int holes : {3, 5, 9}) {

@@ -3,35 +3,20 @@
 
 #include "core/errors.h"
 #include "io/mesh_reader.h"
+#include "random_polygons.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <random>
 #include <sstream>
 
 namespace koebe {
 namespace {
 
 using test::bytes_of;
+using test::random_polygons;
 using test::TemporaryFolder;
-
-/// Polygons over random vertices of all magnitudes.
-PolygonMesh random_mesh(Index vertex_count, Index face_count)
-{
-    std::mt19937_64 random(3);
-    PolygonMesh mesh;
-    mesh.vertices.resize(vertex_count, 3);
-    for (double& x : mesh.vertices.reshaped())
-        x = std::uniform_real_distribution<double>(-1.0, 1.0)(random) * std::pow(10.0, static_cast<int>(random() % 600) - 300);
-    for (Index f = 0; f < face_count; ++f) {
-        for (Index corner = 0; corner < 3 + f % 4; ++corner)
-            mesh.corners.push_back(static_cast<Index>(random() % vertex_count));
-        mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
-    }
-    return mesh;
-}
 
 std::string written_with_uvs(const TemporaryFolder& folder, const PolygonMesh& mesh, const PlanarPoints& points)
 {
@@ -44,7 +29,7 @@ std::string written_with_uvs(const TemporaryFolder& folder, const PolygonMesh& m
 TEST(ObjWriter, ReadsBackToTheLastBitInTheSameOrder)
 {
     const TemporaryFolder folder;
-    PolygonMesh mesh = random_mesh(5000, 3000);  // several buffers full
+    PolygonMesh mesh = random_polygons(5000, 3000);  // several buffers full
     mesh.vertices.row(0) << -0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max();
     written_with_uvs(folder, mesh, PlanarPoints::Zero(5000, 2));
     const PolygonMesh read = read_mesh(folder.path() / "out.obj");
@@ -58,7 +43,7 @@ TEST(ObjWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquare)
     const TemporaryFolder folder;
     PlanarPoints points = PlanarPoints::Random(400, 2) * 0.7;
     points.topRows(3) << 1.0 + 1e-12, 0.0, 0.0, -1.0 - 1e-12, 1.0 / 3.0, -1.0 / 7.0;
-    std::istringstream lines(written_with_uvs(folder, random_mesh(400, 2), points));
+    std::istringstream lines(written_with_uvs(folder, random_polygons(400, 2), points));
     Index v = 0;
     for (std::string line; std::getline(lines, line);) {
         if (!line.starts_with("vt ")) continue;
@@ -74,7 +59,7 @@ TEST(ObjWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquare)
 TEST(ObjWriter, FacesNameTheTextureCoordinateOfTheirVertex)
 {
     const TemporaryFolder folder;
-    PolygonMesh mesh = random_mesh(4, 0);
+    PolygonMesh mesh = random_polygons(4, 0);
     mesh.corners = {3, 0, 1, 0, 1, 2, 3};
     mesh.face_begin = {0, 3, 7};
     const std::string text = written_with_uvs(folder, mesh, PlanarPoints::Zero(4, 2));
@@ -84,7 +69,7 @@ TEST(ObjWriter, FacesNameTheTextureCoordinateOfTheirVertex)
 TEST(ObjWriter, GroupsAreNamedWhereTheyChange)
 {
     const TemporaryFolder folder;
-    PolygonMesh mesh = random_mesh(3, 0);
+    PolygonMesh mesh = random_polygons(3, 0);
     mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
     mesh.face_begin = {0, 3, 6, 9};
     AtomicFile file(folder.path() / "out.obj");
@@ -99,7 +84,7 @@ TEST(ObjWriter, NeedsAPointForEachVertex)
 {
     const TemporaryFolder folder;
     AtomicFile file(folder.path() / "out.obj");
-    EXPECT_THROW(write_obj_with_uvs(file, random_mesh(4, 1), PlanarPoints::Zero(3, 2)), InputError);
+    EXPECT_THROW(write_obj_with_uvs(file, random_polygons(4, 1), PlanarPoints::Zero(3, 2)), InputError);
 }
 
 }  // namespace

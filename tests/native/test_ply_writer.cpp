@@ -1,0 +1,153 @@
+// Laws of the PLY writer: what is written reads back to the last bit, with its texture coordinates and patches.
+#include "io/ply_writer.h"
+
+#include "core/errors.h"
+#include "io/mesh_reader.h"
+#include "io/mesh_writer.h"
+#include "random_polygons.h"
+#include "temporary_folder.h"
+
+#include <CGAL/IO/PLY.h>
+#include <CGAL/Simple_cartesian.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace koebe {
+namespace {
+
+using test::bytes_of;
+using test::random_polygons;
+using test::TemporaryFolder;
+
+template <typename Write>
+std::string written(const TemporaryFolder& folder, Write write)
+{
+    AtomicFile file(folder.path() / "out.ply");
+    write(file);
+    file.commit();
+    return bytes_of(folder.path() / "out.ply");
+}
+
+/// The words of the line that the header is followed by, and of those after it.
+std::vector<std::vector<double>> rows(const std::string& text)
+{
+    std::istringstream lines(text.substr(text.find("end_header\n") + 11));
+    std::vector<std::vector<double>> result;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        result.emplace_back();
+        for (std::string word; words >> word;) result.back().push_back(std::strtod(word.c_str(), nullptr));
+    }
+    return result;
+}
+
+TEST(PlyWriter, ReadsBackToTheLastBitInTheSameOrder)
+{
+    const TemporaryFolder folder;
+    PolygonMesh mesh = random_polygons(5000, 3000);  // several buffers full
+    mesh.vertices.row(0) << -0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max();
+    written(folder, [&](AtomicFile& file) { write_ply_with_uvs(file, mesh, PlanarPoints::Zero(5000, 2)); });
+    const PolygonMesh read = read_mesh(folder.path() / "out.ply");
+    EXPECT_TRUE(read.vertices == mesh.vertices);
+    EXPECT_EQ(read.corners, mesh.corners);
+    EXPECT_EQ(read.face_begin, mesh.face_begin);
+}
+
+TEST(PlyWriter, CgalReadsTheSame)
+{
+    using Point = CGAL::Simple_cartesian<double>::Point_3;
+    const TemporaryFolder folder;
+    const PolygonMesh mesh = random_polygons(50, 30);
+    written(folder, [&](AtomicFile& file) { write_ply_with_patches(file, mesh, std::vector<Index>(30, -1)); });
+    std::vector<Point> points;
+    std::vector<std::vector<std::size_t>> polygons;
+    std::ifstream stream(folder.path() / "out.ply");
+    ASSERT_TRUE(CGAL::IO::read_PLY(stream, points, polygons));
+    ASSERT_EQ(points.size(), 50u);
+    for (Index v = 0; v < 50; ++v)
+        EXPECT_EQ(points[v], Point(mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2)));
+    ASSERT_EQ(polygons.size(), 30u);
+    for (Index f = 0; f < 30; ++f)
+        EXPECT_TRUE(std::ranges::equal(polygons[f], mesh.face(f), [](auto a, Index b) { return Index(a) == b; }));
+}
+
+TEST(PlyWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquareUnderBothNames)
+{
+    const TemporaryFolder folder;
+    PlanarPoints points = PlanarPoints::Random(400, 2) * 0.7;
+    points.topRows(3) << 1.0 + 1e-12, 0.0, 0.0, -1.0 - 1e-12, 1.0 / 3.0, -1.0 / 7.0;
+    const std::string text = written(folder, [&](AtomicFile& file) {
+        write_ply_with_uvs(file, random_polygons(400, 2), points);
+    });
+    EXPECT_NE(text.find("property double z\nproperty double s\nproperty double t\nproperty double texture_u\n"
+                        "property double texture_v\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"),
+              std::string::npos)
+        << text.substr(0, 400);
+    const auto values = rows(text);
+    for (std::size_t v = 0; v < 400; ++v) {
+        const double u = std::min(1.0, (1.0 + points(v, 0)) / 2.0), w = std::max(0.0, (1.0 + points(v, 1)) / 2.0);
+        EXPECT_EQ(std::vector(values[v].begin() + 3, values[v].end()), (std::vector{u, w, u, w}));
+    }
+}
+
+TEST(PlyWriter, PatchesAreAPropertyOfTheFaces)
+{
+    const TemporaryFolder folder;
+    PolygonMesh mesh = random_polygons(4, 0);
+    mesh.corners = {0, 1, 2, 3, 1, 2, 0};
+    mesh.face_begin = {0, 4, 7};
+    const std::string text =
+        written(folder, [&](AtomicFile& file) { write_ply_with_patches(file, mesh, {-1, 2}); });
+    EXPECT_NE(text.find("vertex_indices\nproperty int patch\nend_header\n"), std::string::npos) << text;
+    EXPECT_TRUE(text.ends_with("\n4 0 1 2 3 -1\n3 1 2 0 2\n")) << text;
+}
+
+TEST(PlyWriter, PolygonsOfManyCornersHaveAWiderCount)
+{
+    const TemporaryFolder folder;
+    for (const Index corners : {255, 256, 65535}) {
+        PolygonMesh mesh = random_polygons(corners, 0);
+        for (Index v = 0; v < corners; ++v) mesh.corners.push_back(v);
+        mesh.face_begin = {0, corners};
+        const std::string text =
+            written(folder, [&](AtomicFile& file) { write_ply_with_uvs(file, mesh, PlanarPoints::Zero(corners, 2)); });
+        EXPECT_NE(text.find(corners < 256 ? "list uchar int" : "list ushort int"), std::string::npos);
+        EXPECT_EQ(read_mesh(folder.path() / "out.ply").corners, mesh.corners) << corners;
+    }
+}
+
+TEST(PlyWriter, NeedsAPointForEachVertex)
+{
+    const TemporaryFolder folder;
+    AtomicFile file(folder.path() / "out.ply");
+    EXPECT_THROW(write_ply_with_uvs(file, random_polygons(4, 1), PlanarPoints::Zero(3, 2)), InputError);
+}
+
+TEST(MeshWriter, TheExtensionNamesTheFormat)
+{
+    const TemporaryFolder folder;
+    EXPECT_EQ(written_format(folder.path() / "a.obj"), WrittenFormat::obj);
+    EXPECT_EQ(written_format("A.Ply"), WrittenFormat::ply);
+    EXPECT_EQ(written_format("/dev/null"), WrittenFormat::obj);
+    for (const char* other : {"a.off", "a.stl", "a.glb", "a.gltf", "a", ".obj", "a.obj.", "a.obj ", "a.plyx", ""})
+        EXPECT_FALSE(written_format(folder.path() / other)) << other;
+}
+
+TEST(MeshWriter, ObjPatchesAreGroupsByNumber)
+{
+    const TemporaryFolder folder;
+    PolygonMesh mesh = random_polygons(3, 0);
+    mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
+    mesh.face_begin = {0, 3, 6, 9};
+    const std::string text = written(folder, [&](AtomicFile& file) {
+        write_with_patches(file, WrittenFormat::obj, mesh, {-1, 1, 1});
+    });
+    EXPECT_TRUE(text.ends_with("\ng surface\nf 1 2 3\ng patch_1\nf 2 3 1\nf 3 1 2\n")) << text;
+}
+
+}  // namespace
+}  // namespace koebe
