@@ -152,7 +152,10 @@ def map_objects(request):
             job.read_old_uv()
         compute(job)
         if exit_code(job) != batch_exit.UNMAPPABLE:
-            job.write()
+            try:
+                job.write()
+            except transfer.TransferError as error:
+                raise Stop(batch_exit.UNMAPPABLE, error, "TransferError") from error
     SIGNALS.obey()
     return job
 

@@ -46,9 +46,11 @@ def loop(host, script, count, noise, folder):
     source = SAMPLES / "perforated_panel.blend"
     out, report = folder / "out.blend", folder / "out.json"
     words = command(host, script, [source], "--output", out, "--report", report)
-    began = time.monotonic()
-    subprocess.run(words, check=True, capture_output=True)
-    whole = time.monotonic() - began
+    for _ in range(2):  # the first may have to unpack the native module
+        began = time.monotonic()
+        first = subprocess.run(words, capture_output=True, text=True)
+        assert first.returncode == 0, first.stdout + first.stderr
+        whole = time.monotonic() - began
     kept, tally = [], {"killed": 0, "finished": 0, "old": 0, "new": 0, "new without report": 0, "left over": 0}
     for number in range(count):
         older = b"older " + os.urandom(100)

@@ -192,6 +192,18 @@ def test_a_fault_is_1_and_no_memory_is_3(batch, tmp_path):
     assert code == 3 and "memory" in err and "Traceback" not in err and outputs(tmp_path) == ["out.json"]
 
 
+def test_what_cannot_be_written_after_all_is_3_with_a_report(batch, tmp_path):
+    scenes.add_panel(**SMALL)
+    patch = """
+def write(job):
+    raise batch.transfer.TransferError("Panel: it has gone")
+batch.koebe_job.Job.write = write
+"""
+    code, out, err = batch("--output", "out.blend", "--report", "out.json", patch=patch)
+    assert code == 3 and "Panel: it has gone" in err and "Traceback" not in err and outputs(tmp_path) == ["out.json"]
+    assert read_report(tmp_path)[0]["error"] == {"name": "TransferError", "reason": "Panel: it has gone"}
+
+
 def test_no_native_module_is_1_with_a_report(batch, tmp_path):
     scenes.add_panel(**SMALL)
     patch = """
@@ -213,8 +225,10 @@ MOMENTS = {
 }
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP], ids=lambda number: number.name)
-@pytest.mark.parametrize("moment", MOMENTS)
+@pytest.mark.parametrize(
+    ("moment", "number"),
+    [*((moment, signal.SIGINT) for moment in MOMENTS), ("saved", signal.SIGTERM), ("saved", signal.SIGHUP)],
+)
 def test_a_signal_at_any_moment_is_130_and_nothing_is_written(batch, tmp_path, moment, number):
     scenes.add_panel(**SMALL)
     (tmp_path / "out.blend").write_text("older")
