@@ -19,7 +19,7 @@ constexpr int most_passes = 6;
 constexpr double worthwhile = 2e-3;       // relative fall of the angle error that another pass is made for
 constexpr double least_distortion = 0.1;  // |mu| at which a weight is taken, over the mean
 constexpr double flat = 1e-3;             // (1 - |mu|^2) / (1 + |mu|^2) of a face that keeps its vertices
-constexpr int most_restorations = 4;      // of vertices around faces that a pass has flipped
+constexpr int most_restorations = 16;     // of vertices around faces that a pass has flipped
 
 /// (1 - |mu|^2) / (1 + |mu|^2) for each face.
 VectorXd conformality(const FoldoverProblem& problem)
