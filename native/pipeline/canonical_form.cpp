@@ -182,9 +182,9 @@ private:
         points = positions_(form_.original_vertices, Eigen::all);
         points.rowwise() -= points.colwise().mean().eval();
         const Eigen::Vector3d reach = points.row(farthest([&](Eigen::Index v) { return points.row(v).norm(); }));
-        const double extent = reach.norm();
+        const double extent = points.rowwise().norm().maxCoeff();
         if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
-        const Eigen::Vector3d first = reach / extent;
+        const Eigen::Vector3d first = reach / reach.norm();
         const auto aside = [&](Eigen::Index v) -> Eigen::Vector3d {
             const Eigen::Vector3d p = points.row(v);
             return p - p.dot(first) * first;
