@@ -63,6 +63,6 @@ def test_without_a_wheel_that_fits_the_error_names_both_sides(addon, monkeypatch
     (tmp_path / "wheels" / "koebe-0.1.0-cp27-cp27-plan9_vax.whl").touch()
     monkeypatch.setattr(native, "HERE", tmp_path)
     with pytest.raises(native.NativeError) as caught:
-        native._unpacked_wheel()
+        native._fitting_wheel()
     assert addon("wheel_tags").interpreter_tag() in str(caught.value)
     assert "cp27-cp27-plan9_vax" in str(caught.value)
