@@ -33,14 +33,19 @@ bool is_room_for(std::size_t bytes)
     return true;
 }
 
-/// Called before the libraries start, as the buffer's loop, and a thread that OpenBLAS cannot make, end the process in
-/// their own ways.
-void require_room_to_start(int, char**, char**)
+[[noreturn]] void end_start()
 {
-    if (is_room_for(to_start)) return;
-    constexpr std::string_view line = "OutOfMemory: 160 MB of address space are needed to start\n";
+    constexpr std::string_view line = "OutOfMemory: about 250 MB of address space are needed to start\n";
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
     ::_exit(cannot_be_mapped);
+}
+
+/// Called before the libraries start: without memory OpenBLAS would wait for ever or raise a signal, and exceptions of
+/// what is made before main() would end the process in their own way.
+void require_room_to_start(int, char**, char**)
+{
+    if (!is_room_for(to_start)) end_start();
+    std::set_new_handler(end_start);
 }
 
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
@@ -72,6 +77,7 @@ void restart_without_dense_threads(char** arguments)
 
 void prepare_for_scarce_memory()
 {
+    std::set_new_handler(nullptr);  // from here on there is somebody to catch exceptions
     if (is_limited(RLIMIT_AS)) ::mallopt(M_ARENA_MAX, 1);
     if (!is_room_for(buffer)) throw std::bad_alloc();
     const int n = 1;

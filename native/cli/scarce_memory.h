@@ -1,4 +1,4 @@
-// Where memory is scarce: an error, and no waiting for ever.
+// Where memory is scarce: an error, and no waiting for ever. What ends the process before main() is in the source.
 #pragma once
 
 namespace koebe::cli {
