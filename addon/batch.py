@@ -7,8 +7,8 @@
 
 Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage, 3 the file cannot be read or an
 object cannot be mapped (no OUT), 4 not converged (OUT is written), 130 interrupted (nothing is written).
-OUT and the report are written to temporary files and renamed: each is whole or absent. There is a report whenever the
-exit code is 0, 3 or 4, and with 1 if it can be written.
+OUT and the report are written to temporary files and renamed: each is whole or absent. There is a report with 0, 3 and
+4, and where the native module is missing.
 """
 
 import concurrent.futures
@@ -120,7 +120,7 @@ def targets(request, source):
 
 def open_source(source):
     """Open the file, unless Blender has. What a newer Blender has saved this one reads with losses, or crashes."""
-    if bpy.data.filepath != source:
+    if not bpy.data.filepath:
         try:
             bpy.ops.wm.open_mainfile(filepath=source)
         except RuntimeError as error:
