@@ -1,4 +1,4 @@
-// A one-to-one map of any surface of genus 0 with boundary: convex combinations (Tutte 1963), made safe in floating point.
+// A one-to-one map of any surface of genus 0 with boundary: convex combinations (Tutte 1963), safe in floating point.
 #pragma once
 
 #include "core/topology.h"

@@ -17,7 +17,10 @@ class Embedding {
 public:
     Embedding(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
               const std::vector<Flap>& flaps, const VectorXcd& rim)
-        : loops_(loops), map_(vertices, surface, loops, flaps, rim), off_(loops.size(), 0), roundness_(loops.size(), 0.0),
+        : loops_(loops),
+          map_(vertices, surface, loops, flaps, rim),
+          off_(loops.size(), 0),
+          roundness_(loops.size(), 0.0),
           most_drawings_(std::max<int>(1, drawn_faces / static_cast<int>(surface.triangles.rows())))
     {
     }

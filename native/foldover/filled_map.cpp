@@ -17,7 +17,7 @@ namespace koebe {
 namespace {
 
 constexpr double rounding = 3e-7;    // twice the area a face can lose by rounding, over its longest edge, disk units
-constexpr double near_circle = 5e-7; // disk units: half of what counts as on the circle
+constexpr double near_circle = 5e-7;  // disk units: half of what counts as on the circle
 constexpr double roomy = 1e-4;       // of the mean area: a face as large has room
 constexpr int most_cautions = 4;
 
@@ -56,7 +56,8 @@ void FilledMap::start(const VectorXcd& rim)
     PlanarPoints best;
     Eigen::Index fewest = filled_.triangles.rows() + 1;
     for (const double share : {0.0, 0.3, 1.0}) {
-        now_.points = convex_embedding(filled_, loops_[0], share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share) : rim);
+        const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share) : rim;
+        now_.points = convex_embedding(filled_, loops_[0], wider);
         const double least = roomy * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
         Eigen::Index poor = 0;
         for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) poor += !right(f) || !(area(f) > least);

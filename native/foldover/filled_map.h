@@ -19,18 +19,19 @@ class FilledMap {
 public:
     /// Dimensionless.
     struct Pull {
-        double rim = 0.0;      ///< of loop vertices to their circles
-        double centre = 0.0;   ///< of fans' centres to the circles' centres
-        double regular = 1e-3; ///< weight of the fans, which would be regular polygons, against the surface's faces
+        double rim = 0.0;       ///< of loop vertices to their circles
+        double centre = 0.0;    ///< of fans' centres to the circles' centres
+        double regular = 1e-3;  ///< weight of the fans, which would be regular polygons, against the surface's faces
     };
 
-    /// Starts from convex_embedding, on a rim with more room where it has too little (roomy_rim.h). @param flaps their rims are not pulled to the circles of inner loops
+    /// Starts from convex_embedding, on a rim with more room where it has too little (roomy_rim.h).
+    /// @param flaps their rims are not pulled to the circles of inner loops
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
               const std::vector<Flap>& flaps, const VectorXcd& rim);
 
     /// Lowers the angle error of the surface's faces, and the pulls, by some Newton steps (foldover_free.h, strict).
     void relax(Pull pull, int iterations, const ExecutionContext& context);
-    /// Puts pulled vertices onto their circles, where they slide from then on, but for those whose faces would turn over.
+    /// Puts pulled vertices onto their circles, where they slide from then on; not those whose faces would turn over.
     /// @return how many are off
     int snap();
     /// Lets the vertices of an inner loop leave its circle.

@@ -203,7 +203,8 @@ private:
                 for (int b = 0; b < 3; ++b) {
                     const Index w = problem_.triangles(f, b), column = first_unknown_[w];
                     if (column < 0) continue;
-                    const Eigen::MatrixXd block = rows * h.block<2, 2>(2 * a, 2 * b) * directions(w).transpose();
+                    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2> block =
+                        rows * h.block<2, 2>(2 * a, 2 * b) * directions(w).transpose();
                     for (Index i = 0; i < block.rows(); ++i)
                         for (Index j = 0; j < block.cols(); ++j)
                             entries_.emplace_back(row + i, column + j, block(i, j));

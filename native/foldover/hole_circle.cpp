@@ -57,8 +57,10 @@ bool fit_hole_circles(const std::vector<VectorXcd>& images, const std::vector<Co
     }
     for (std::size_t k = 1; k < circles.size(); ++k) {
         if (!(std::abs(circles[k].center) + circles[k].radius < 1.0)) return false;
-        for (std::size_t j = 1; j < k; ++j)
-            if (!(std::abs(circles[k].center - circles[j].center) > circles[k].radius + circles[j].radius)) return false;
+        for (std::size_t j = 1; j < k; ++j) {
+            const double distance = std::abs(circles[k].center - circles[j].center);
+            if (!(distance > circles[k].radius + circles[j].radius)) return false;
+        }
     }
     return true;
 }

@@ -12,8 +12,8 @@ enum class HoleCircle {
     inside    ///< the hole, round its middle
 };
 
-/// A circle for each of some loops, apart from the others' and inside the unit circle; at the least the one that touches
-/// the loop from inside, which meets nothing.
+/// A circle for each of some loops, apart from the others' and inside the unit circle; at the least the one that
+/// touches the loop from inside, which meets nothing.
 /// @param images of the loops, the unit circle's first; the holes lie on their right
 /// @param fan_centres (loops) points from which all of each hole is seen; the first is not read
 /// @param refit (loops) 1 where a circle is wanted; the others stay @param circles (loops), changed in place

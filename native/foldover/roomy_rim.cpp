@@ -12,7 +12,7 @@ namespace {
 constexpr Index most_vertices = 5000;  // arcs inside arcs take the square of their number
 constexpr double longest_arc = 2.5;    // radians
 
-/// What an edge between two outer vertices cuts off: the arc of the loop from one to the other, and the faces behind it.
+/// What an edge between two outer vertices cuts off: an arc of the loop, and the faces behind it.
 struct Arc {
     Index first, steps;
     double faces;
@@ -82,8 +82,8 @@ VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const Vec
     VectorXd steps = VectorXd::Constant(n, 2.0 * std::numbers::pi / n);
     if (n <= most_vertices)
         for (const Arc& arc : arcs_of(filled, outer)) {
-            const double needed = std::min(
-                std::cbrt(12.0 * std::numbers::pi * arc.faces / static_cast<double>(filled.triangles.rows())), longest_arc);
+            const double share_of_faces = arc.faces / static_cast<double>(filled.triangles.rows());
+            const double needed = std::min(std::cbrt(12.0 * std::numbers::pi * share_of_faces), longest_arc);
             double now = 0.0;
             for (Index i = 0; i < arc.steps; ++i) now += steps[(arc.first + i) % n];
             if (now < needed)

@@ -23,7 +23,8 @@ FaceList with_holes(FaceList faces, Index outer, std::size_t count, std::mt19937
     std::set<Index> taken;
     for (Index v = 0; v < outer; ++v) taken.insert(v);
     std::erase_if(faces, [&](const auto& face) {
-        if (count == 0 || std::any_of(face.begin(), face.end(), [&](Index v) { return taken.contains(v); })) return false;
+        if (count == 0) return false;
+        if (std::any_of(face.begin(), face.end(), [&](Index v) { return taken.contains(v); })) return false;
         taken.insert(face.begin(), face.end());
         --count;
         return true;
@@ -81,7 +82,9 @@ TEST(EmbeddedMap, is_one_to_one_and_round_on_its_own_circles)
     std::mt19937 random(1);
     std::size_t off = 0, on = 0;
     for (int i = 0; i < 12; ++i) {
-        const FaceList disk = i % 3 == 0 ? stacked_disk(150, 0, random) : i % 3 == 1 ? limb(30, 6) : stacked_disk(60, 2, random);
+        const FaceList disk = i % 3 == 0   ? stacked_disk(150, 0, random)
+                              : i % 3 == 1 ? limb(30, 6)
+                                           : stacked_disk(60, 2, random);
         const FaceList faces =
             with_holes(flipped_at_random(disk, 500, random), i % 3 == 1 ? 6 : 3, 1 + i / 2, random);
         const EmbeddedMap map = expect_one_to_one(faces, random_positions(200, random), {});
