@@ -255,7 +255,8 @@ def comb(rng):
 def strip(rng):
     n = int(rng.integers(1, 30))
     i = np.arange(n + 2)
-    points = np.column_stack([0.5 * i, i % 2, rng.normal(size=n + 2) * rng.choice([0, 1])])
+    along = np.cumsum(rng.uniform(0.3, 0.7, n + 2))  # uneven, or it would look the same from both ends
+    points = np.column_stack([along, i % 2, rng.normal(size=n + 2) * rng.choice([0, 1])])
     faces = [[k, k + 1, k + 2] if k % 2 else [k, k + 2, k + 1] for k in range(n)]
     return points * rng.choice([1, 50], 3), np.array(faces)
 
