@@ -115,4 +115,15 @@ double inversive_distance(const Circle& a, const Circle& b)
            (2.0 * a.radius * b.radius);
 }
 
+bool circles_apart(const std::vector<Circle>& circles)
+{
+    for (std::size_t k = 1; k < circles.size(); ++k) {
+        const Circle& circle = circles[k];
+        if (!(circle.radius > 0.0) || !(std::abs(circle.center) + circle.radius < 1.0)) return false;
+        for (std::size_t j = 1; j < k; ++j)
+            if (!(std::abs(circle.center - circles[j].center) > circle.radius + circles[j].radius)) return false;
+    }
+    return true;
+}
+
 }  // namespace koebe

@@ -33,4 +33,7 @@ double roundness(const VectorXcd& points, const Circle& circle);
 /// Intersection of two circles, free of Moebius maps: |r_a^2 + r_b^2 - |c_a - c_b|^2| / (2 r_a r_b).
 double inversive_distance(const Circle& a, const Circle& b);
 
+/// Whether circles are finite, of positive radius, inside the unit disk and apart; the first is the unit circle.
+bool circles_apart(const std::vector<Circle>& circles);
+
 }  // namespace koebe

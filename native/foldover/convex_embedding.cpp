@@ -31,10 +31,11 @@ public:
             given_.row(outer[i]) << rim[static_cast<Eigen::Index>(i)].real(), rim[static_cast<Eigen::Index>(i)].imag();
     }
 
-    PlanarPoints run()
+    PlanarPoints run(const ExecutionContext& context)
     {
         int rings = 0;
         for (int round = 0; round < most_rounds; ++round) {
+            context.checkpoint();
             solve();
             const std::vector<Index> bad = bad_faces();
             if (bad.empty() || !thin_out(bad, rings++)) break;
@@ -47,6 +48,7 @@ public:
             const Index v = complex_.put_back();
             place(v);
             if (++present >= next_sweep) {
+                context.checkpoint();
                 sweep_all(1);
                 next_sweep = present * 5 / 4 + 1;
             }
@@ -192,9 +194,10 @@ FilledDisk fill_with_fans(const Surface& surface, const std::vector<VertexLoop>&
     return filled;
 }
 
-PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim)
+PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim,
+                              const ExecutionContext& context)
 {
-    return ConvexEmbedding(filled, outer, rim).run();
+    return ConvexEmbedding(filled, outer, rim).run(context);
 }
 
 }  // namespace koebe

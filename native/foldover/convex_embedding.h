@@ -1,6 +1,7 @@
 // A one-to-one map of any surface of genus 0 with boundary: convex combinations (Tutte 1963), safe in floating point.
 #pragma once
 
+#include "core/execution.h"
 #include "core/topology.h"
 
 #include <vector>
@@ -29,6 +30,7 @@ FilledDisk fill_with_fans(const Surface& surface, const std::vector<VertexLoop>&
 /// exponentially small then, but about as large as the others.
 /// @param rim (n) points of the outer loop on the unit circle, in order, all different
 /// @return (filled.vertex_count, 2)
-PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim);
+PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim,
+                              const ExecutionContext& context);
 
 }  // namespace koebe

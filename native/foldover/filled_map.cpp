@@ -24,7 +24,8 @@ constexpr int most_cautions = 4;
 }  // namespace
 
 FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-                     const std::vector<Flap>& flaps, const VectorXcd& rim)
+                     const std::vector<Flap>& flaps, const VectorXcd& rim,
+                     const ExecutionContext& context)
     : vertices_(vertices),
       surface_(surface),
       loops_(loops),
@@ -48,16 +49,16 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
     for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
         for (const Index v : filled_.triangles.row(f)) around_[v].push_back(static_cast<Index>(f));
     std::iota(faces_.begin(), faces_.end(), 0);
-    start(rim);
+    start(rim, context);
 }
 
-void FilledMap::start(const VectorXcd& rim)
+void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)
 {
     PlanarPoints best;
     Eigen::Index fewest = filled_.triangles.rows() + 1;
     for (const double share : {0.0, 0.3, 1.0}) {
         const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share) : rim;
-        now_.points = convex_embedding(filled_, loops_[0], wider);
+        now_.points = convex_embedding(filled_, loops_[0], wider, context);
         const double least = roomy * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
         Eigen::Index poor = 0;
         for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) poor += !right(f) || !(area(f) > least);

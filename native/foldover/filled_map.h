@@ -27,7 +27,7 @@ public:
     /// Starts from convex_embedding, on a rim with more room where it has too little (roomy_rim.h).
     /// @param flaps their rims are not pulled to the circles of inner loops
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-              const std::vector<Flap>& flaps, const VectorXcd& rim);
+              const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context);
 
     /// Lowers the angle error of the surface's faces, and the pulls, by some Newton steps (foldover_free.h, strict).
     void relax(Pull pull, int iterations, const ExecutionContext& context);
@@ -62,7 +62,7 @@ public:
 private:
     using Mobility = FoldoverProblem::Mobility;
 
-    void start(const VectorXcd& rim);
+    void start(const VectorXcd& rim, const ExecutionContext& context);
     double area(Eigen::Index f) const;
     double longest_edge(Eigen::Index f) const;
     bool right(Eigen::Index f) const;

@@ -55,14 +55,7 @@ bool fit_hole_circles(const std::vector<VectorXcd>& images, const std::vector<Co
         if (before[k].radius > share_of_room * room)
             circles[k].radius = std::max(std::min(inside[k], share_of_room * room), 1e-12);
     }
-    for (std::size_t k = 1; k < circles.size(); ++k) {
-        if (!(std::abs(circles[k].center) + circles[k].radius < 1.0)) return false;
-        for (std::size_t j = 1; j < k; ++j) {
-            const double distance = std::abs(circles[k].center - circles[j].center);
-            if (!(distance > circles[k].radius + circles[j].radius)) return false;
-        }
-    }
-    return true;
+    return circles_apart(circles);
 }
 
 }  // namespace koebe

@@ -80,17 +80,6 @@ void AssembledDomain::factorize(const Domain& domain)
     condensed.emplace(laplacian, boundary_of(domain), Ordering::amd, best_grounded(domain.loops));
 }
 
-bool circles_apart(const std::vector<Circle>& circles)
-{
-    for (std::size_t k = 1; k < circles.size(); ++k) {
-        const Circle& circle = circles[k];
-        if (!(circle.radius > 0.0) || !(std::abs(circle.center) + circle.radius < 1.0)) return false;
-        for (std::size_t j = 1; j < k; ++j)
-            if (!(std::abs(circle.center - circles[j].center) > circle.radius + circles[j].radius)) return false;
-    }
-    return true;
-}
-
 KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
                          ExecutionContext& context)
 {

@@ -23,9 +23,6 @@ struct AssembledDomain {
     void factorize(const Domain& domain);
 };
 
-/// Whether circles are finite, of positive radius, inside the unit disk and apart; the first is the unit circle.
-bool circles_apart(const std::vector<Circle>& circles);
-
 /// Runs the engine that the options name. Where the loops' images cannot be right (a circle that leaves the disk or
 /// meets another, a boundary vertex without flux, more boundary vertices than inner ones) it runs again on a refined
 /// domain (refined_domain), up to three times, as long as that has at most 20,000 faces.

@@ -1,6 +1,7 @@
 #include "pipeline/uniformize.h"
 
 #include "conformal/boundary_angles.h"
+#include "conformal/circle_fit.h"
 #include "conformal/distortion.h"
 #include "conformal/circle_projection.h"
 #include "core/detachable_run.h"
@@ -63,9 +64,12 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
         warnings.push_back("vertices of no face, put at the centre: " + std::to_string(domain.surface.unused.size()) +
                            "; the first is " + std::to_string(domain.surface.unused.front()));
     if (!domain.surface.reoriented.empty())
-        warnings.push_back(plural(domain.surface.reoriented.size(), "face") +
-                           " turned to the orientation of the others; the first is " +
-                           std::to_string(domain.surface.reoriented.front()));
+        warnings.push_back(
+            plural(domain.surface.reoriented.size(), "face") + " turned to the orientation of the others; the first is " +
+            std::to_string(domain.surface.reoriented.front()) +
+            (2 * domain.surface.reoriented.size() == static_cast<std::size_t>(domain.surface.triangles.rows())
+                 ? "; they are as many as the others: which side is the front follows from the numbers of the faces alone"
+                 : ""));
     if (outcome.raised_angles > 0)
         warnings.push_back(plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
                            " without flux, kept apart by a least distance");
@@ -97,12 +101,20 @@ UntangledMap embed(const Domain& whole, const FlapCut& cut, const UntangledMap* 
     EmbeddedMap map = embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
                                    failed && circles_apart(circles) ? circles : std::vector<Circle>{}, rim, context);
     circles = map.circles;
+    std::vector<std::size_t> others;
     for (std::size_t k = 0; k < circles.size(); ++k) {
         const Circle before = result.loops[k].circle;
-        result.loops[k].shrunk |= before.center != circles[k].center || before.radius != circles[k].radius;
+        if (before.center != circles[k].center || before.radius != circles[k].radius) {
+            others.push_back(k);
+            result.loops[k].shrunk = true;
+        }
         result.loops[k].circle = circles[k];
         if (!failed) result.loops[k].roundness = map.roundness[k];
     }
+    if (failed && !others.empty())
+        result.warnings.push_back("loops on other circles than the iteration's, where on those faces would turn over: " +
+                                  std::to_string(others.size()) + "; the first is loop " +
+                                  std::to_string(others.front()));
     return {std::move(map.uv), std::move(map.off_circle), {}};
 }
 

@@ -22,7 +22,7 @@ PlanarPoints expect_embedded(const FaceList& faces)
     const double step = 2.0 * std::numbers::pi / static_cast<double>(outer.size());
     VectorXcd rim(outer.size());
     for (std::size_t i = 0; i < outer.size(); ++i) rim[i] = std::polar(1.0, step * static_cast<double>(i));
-    const PlanarPoints points = convex_embedding(filled, outer, rim);
+    const PlanarPoints points = convex_embedding(filled, outer, rim, {});
 
     Eigen::Index folded = 0, lost = 0;
     double least = 1.0;

@@ -1,7 +1,7 @@
+#include "conformal/circle_fit.h"
 #include "conformal/stored_uv.h"
 #include "foldover/embedded_map.h"
 #include "geometry/boundary_crossings.h"
-#include "pipeline/loop_images.h"
 #include "random_disks.h"
 
 #include <gtest/gtest.h>

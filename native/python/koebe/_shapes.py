@@ -17,7 +17,7 @@ from .errors import InputError, OptionError
 
 
 def _require_own_circles(domain: Any) -> None:
-    """Refuse a result whose circles were made smaller: it has no module."""
+    """Refuse a result with circles other than the iteration's: it has no module."""
     if isinstance(domain, UniformizeResult):
         _koebe.require_own_circles(domain._native)
 
@@ -38,7 +38,8 @@ def conformal_module(result: Any, order: Sequence[int] | str | None = None) -> n
              'canonical': by canonical_order
     The second loop is moved to the middle of the unit disk and the third's centre onto the positive y axis. Returns
     3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, none without: lengths in the unit disk. Equal if and only
-    if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError, also where circles were made smaller because the mesh between them is too coarse.
+    if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError, also where
+    circles are not those of the iteration, as the mesh is too coarse for them.
     """
     _require_own_circles(result)
     centers, radii = as_circles(result)
