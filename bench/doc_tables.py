@@ -18,6 +18,8 @@ from functools import cache
 from pathlib import Path
 
 import convergence
+import exact_surfaces
+import promises
 import shape_distances
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -203,12 +205,18 @@ CHANGES = {
 }
 
 
-def annulus(name: str) -> list[str]:
-    """The annulus map by a harmonic function and by the Yamabe flow: the radius of its hole and the angle error."""
+def python_package():
     sys.path.insert(0, str(ROOT / "build" / "python"))
     import koebe
+
+    return koebe
+
+
+def annulus(name: str) -> list[str]:
+    """The annulus map by a harmonic function and by the Yamabe flow: the radius of its hole and the angle error."""
     import numpy as np
 
+    koebe = python_package()
     lines = [line.split() for line in mesh_file(name).read_text(encoding="utf-8").splitlines()]
     vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float)
     triangles = np.array([[word.split("/")[0] for word in line[1:]] for line in lines if line[:1] == ["f"]], int) - 1
@@ -218,6 +226,43 @@ def annulus(name: str) -> list[str]:
         radii.append(f"{radius:.3g}")
         errors.append(f"{koebe.distortion(vertices, triangles, uv)['angle_error_deg']['mean']:.2f}")
     return radii + errors
+
+
+LIMITS = {
+    "a limb 5 radii deep, a hole at its end": lambda: exact_surfaces.limb(5, 24),
+    "a limb 10 radii deep": lambda: exact_surfaces.limb(10, 24),
+    "a limb 15 radii deep": lambda: exact_surfaces.limb(15, 24),
+    "a limb 30 radii deep": lambda: exact_surfaces.limb(30, 24),
+    "a limb 60 radii deep": lambda: exact_surfaces.limb(60, 24),
+    "a hole of radius 1e-3 in a flat disk": lambda: exact_surfaces.ring(1e-3, 24),
+    "a hole of radius 1e-6": lambda: exact_surfaces.ring(1e-6, 24),
+    "a hole of radius 1e-9": lambda: exact_surfaces.ring(1e-9, 24),
+    "a hole of radius 1e-12": lambda: exact_surfaces.ring(1e-12, 24),
+    "loops 0.1 apart, one face between": lambda: exact_surfaces.ring(0.9, 54, 1),
+    "loops 0.1 apart, two faces between": lambda: exact_surfaces.ring(0.9, 108, 2),
+    "loops 0.01 apart, one face between": lambda: exact_surfaces.ring(0.99, 544, 1),
+    "loops 0.01 apart, two faces between": lambda: exact_surfaces.ring(0.99, 1088, 2),
+    "loops 0.01 apart, faces as long as ten such gaps": lambda: exact_surfaces.ring(0.99, 63, 1),
+}
+
+
+def limits(row: str) -> list[str]:
+    """A surface whose circle is known: what is found, and what is said."""
+    koebe = python_package()
+    vertices, triangles, exact = LIMITS[row]()
+    result = koebe.uniformize(vertices, triangles)
+    if promises.broken(triangles, result):
+        sys.exit(f"{row}: {promises.broken(triangles, result)}")
+    lost = any(warning.startswith("circles of no meaning") for warning in result.warnings)
+    radius = result.radii[1]
+    # What a short gap leaves is told from 1, what a small hole leaves from 0.
+    error = abs((1.0 - radius) / (1.0 - exact) - 1.0) if exact > 0.5 else abs(radius / exact - 1.0)
+    return [
+        count(len(triangles)),
+        f"{exact:.3g}",
+        "lost, and said so" if lost else f"{error:.0e}",
+        count(result.below_resolution),
+    ]
 
 
 def rates(row: str) -> list[str]:
@@ -275,6 +320,12 @@ TABLES = {
         [f"{title}, {engine}" for title in convergence.DOMAINS.values() for engine in ("mesh", "condensed")],
         rates,
         lambda row: [convergence.RATES],
+    ),
+    "limits": Table(
+        ["surface", "faces", "exact radius", "relative error", "faces below resolution"],
+        list(LIMITS),
+        limits,
+        lambda row: [],
     ),
     "same_shape": Table(
         ["the face", "distance from itself"],

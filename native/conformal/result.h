@@ -48,7 +48,7 @@ struct LoopReport {
     double roundness = 0.0;           ///< e(gamma_k) before the projection onto the circle
     double roundness_projected = 0.0; ///< and after it
     std::vector<Index> off_circle;    ///< vertices that are not on the circle
-    bool shrunk = false;              ///< whether the circle is another than the iteration's: then there is no module
+    bool shrunk = false;              ///< whether the circle is not the surface's: another than the iteration's, or lost in rounding
 };
 
 struct AngleError {  ///< degrees, |angle in UV - angle on the surface| over all corners

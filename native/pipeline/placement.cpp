@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -50,6 +51,16 @@ std::vector<std::size_t> set_apart(std::vector<Circle>& circles)
     return changed;
 }
 
+/// Whether the image of a loop is so small, or so far from round, that its circle tells nothing of the surface: what
+/// rounding leaves at the end of a limb, or the image of a loop without faces enough around it.
+bool is_lost(const Circle& circle, const VectorXcd& image)
+{
+    constexpr double least_radius = 1e-18, least_share = 4.0 * std::numeric_limits<double>::epsilon();
+    constexpr double no_circle = 0.5;  // roundness
+    return !(circle.radius > std::max(least_radius, least_share * std::abs(circle.center))) ||
+           !(roundness(image, circle) < no_circle);
+}
+
 /// The images of the loops in normal position, each put on its circle: (m, 2), loop after loop; empty if the circles
 /// leave the disk or meet. Fills the loop reports.
 MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeOutcome& outcome,
@@ -58,6 +69,9 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     std::vector<Circle> circles{Circle{}};
     for (std::size_t k = 1; k < outcome.loops.size(); ++k)
         circles.push_back(fit_circle_least_squares(outcome.loops[k]));
+    std::vector<std::size_t> lost;
+    for (std::size_t k = 1; k < circles.size(); ++k)
+        if (is_lost(circles[k], outcome.loops[k])) lost.push_back(k);
     const Moebius moebius = normal_position(circles);
     if (!std::isfinite(std::abs(moebius.a))) return {};
     for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = moebius(circles[k]);
@@ -67,6 +81,10 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
                                   std::to_string(changed.size()) + "; the first is that of loop " +
                                   std::to_string(changed.front()));
     if (!circles_apart(circles)) return {};
+    if (!lost.empty())
+        result.warnings.push_back("circles of no meaning, the loop too deep inside for rounding or the mesh around it too "
+                                  "coarse: " + std::to_string(lost.size()) + "; the first is that of loop " +
+                                  std::to_string(lost.front()));
 
     std::size_t boundary_count = 0;
     for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
@@ -75,7 +93,8 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
         LoopReport report;
         report.circle = circles[k];
-        report.shrunk = std::find(changed.begin(), changed.end(), k) != changed.end();
+        report.shrunk = std::find(changed.begin(), changed.end(), k) != changed.end() ||
+                        std::find(lost.begin(), lost.end(), k) != lost.end();
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
         const VectorXcd projected =

@@ -191,8 +191,8 @@ void require_own_circles(const std::vector<LoopReport>& loops)
         if (loops[k].shrunk) shrunk.push_back(static_cast<Index>(k));
     if (!shrunk.empty())
         throw InputError("the circles of " + std::to_string(shrunk.size()) +
-                             " loops are not those of the iteration, as the mesh is too coarse for them: there is no "
-                             "conformal module (loops listed, the outer one is 0)",
+                             " loops are not those of the surface, as the mesh is too coarse for them or they are lost in "
+                             "rounding: there is no conformal module (loops listed, the outer one is 0)",
                          shrunk);
 }
 

@@ -16,7 +16,7 @@ from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
 MEASURED_ELSEWHERE = {"reliability", "cancel"}  # make reliability
-CHEAP = {"quality", "polish", "balance", "same_shape", "faces", "distances"}
+CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "distances"}
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
 NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")
 

@@ -1,6 +1,7 @@
 """Shapes by their conformal modules: invariances, comparison, alignment; in Python and by the command."""
 
 import json
+import sys
 from pathlib import Path
 
 import koebe
@@ -8,6 +9,9 @@ import numpy as np
 import pytest
 from test_cli import CANNOT_BE_MAPPED, NOT_CONVERGED, USAGE, obj_text, perforated, triangles_of
 from test_cli import koebe as command
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+import exact_surfaces  # noqa: E402
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "good"
 HOLES = ((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))
@@ -65,6 +69,16 @@ def test_one_hole_gives_the_radius_of_the_annulus():
     assert koebe.conformal_module(result) == pytest.approx([result.radii[1]], abs=1e-12)
     x = 1.0 + 0.2**2 - 0.3**2 - 0.2**2
     assert koebe.conformal_module(domain)[0] == pytest.approx((x - np.sqrt(x * x - 4 * 0.04)) / 0.4, abs=1e-12)
+
+
+def test_the_end_of_a_limb_is_found_until_rounding_takes_it():
+    vertices, triangles, radius = exact_surfaces.limb(20, 24)
+    assert koebe.conformal_module(koebe.uniformize(vertices, triangles)) == pytest.approx([radius], rel=0.1)
+    lost = koebe.uniformize(*exact_surfaces.limb(60, 24)[:2])
+    assert any("circles of no meaning" in warning for warning in lost.warnings)
+    with pytest.raises(koebe.InputError) as refused:
+        koebe.conformal_module(lost)
+    assert list(refused.value.elements) == [1]
 
 
 @pytest.mark.parametrize("scale", [1e-8, 1e8])
