@@ -71,7 +71,7 @@ public:
         for (Eigen::Index f = 0; f < ratio.size(); ++f)
             if (ratio[f] < flat)
                 for (const Index v : problem_.triangles.row(f)) problem_.mobility[v] = Mobility::held;
-        for (std::size_t k = 0; k < loops.size(); ++k) ordered_.push_back(in_order(k));
+        for (std::size_t k = 0; k < loops.size(); ++k) ordered_.push_back(out_of_order(k).empty());
     }
 
     bool run(ExecutionContext& context)
@@ -103,28 +103,38 @@ public:
 private:
     double angle_error() const { return measure_distortion(vertices_, triangles_, uv_).angle_error_deg.mean; }
 
-    /// Whether the vertices of a loop that are on its circle run round it once.
-    bool in_order(std::size_t k) const
+    /// The ends of a loop's edges that run backwards, if its vertices that are on its circle do not run round it once.
+    std::vector<Index> out_of_order(std::size_t k) const
     {
-        std::vector<Complex> arms;
+        std::vector<Index> on, back;
         for (const Index v : loops_[k])
-            if (!off_circle_[v]) arms.push_back(Complex(uv_(v, 0), uv_(v, 1)) - circles_[k].center);
+            if (!off_circle_[v]) on.push_back(v);
+        const auto arm = [&](Index v) { return Complex(uv_(v, 0), uv_(v, 1)) - circles_[k].center; };
         double sum = 0.0;
-        for (std::size_t i = 0; i < arms.size(); ++i) {
-            const double step = (k == 0 ? 1.0 : -1.0) * std::arg(arms[(i + 1) % arms.size()] / arms[i]);
+        for (std::size_t i = 0; i < on.size(); ++i) {
+            const Index a = on[i], b = on[(i + 1) % on.size()];
+            const double step = (k == 0 ? 1.0 : -1.0) * std::arg(arm(b) / arm(a));
             sum += step > 0.0 ? step : step + 2.0 * std::numbers::pi;
+            if (!(step > 0.0)) back.insert(back.end(), {a, b});
         }
-        return sum < 3.0 * std::numbers::pi;
+        if (sum < 3.0 * std::numbers::pi) back.clear();
+        return back;
     }
 
-    /// Puts the vertices of faces that are flipped now, and loops out of order, back where they were.
+    /// Puts the vertices of faces that are flipped now, and of loops where they run backwards, back where they were;
+    /// at last all of such a loop.
     /// @param allowed flipped faces that there may be @return whether no more are left, and all loops are in order
     bool restore_flipped(const PlanarPoints& before, std::size_t allowed)
     {
         for (int i = 0; i <= most_restorations; ++i) {
             std::vector<Index> wrong;
-            for (std::size_t k = 0; k < loops_.size(); ++k)
-                if (ordered_[k] && !in_order(k)) wrong.insert(wrong.end(), loops_[k].begin(), loops_[k].end());
+            for (std::size_t k = 0; k < loops_.size(); ++k) {
+                if (!ordered_[k]) continue;
+                const std::vector<Index> back = out_of_order(k);
+                if (back.empty()) continue;
+                const std::vector<Index>& part = 2 * i < most_restorations ? back : loops_[k];
+                wrong.insert(wrong.end(), part.begin(), part.end());
+            }
             const std::vector<Index> tangled = map_.tangled();
             if (wrong.empty() && tangled.size() <= allowed) return true;
             for (const Index f : tangled) wrong.insert(wrong.end(), triangles_.row(f).begin(), triangles_.row(f).end());
