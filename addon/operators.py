@@ -75,7 +75,7 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.converged else {"WARNING"}, report.result_line(outcome))
-            found = [text for one in outcome.mapped for text in report.warnings(outcome.task, one)]
+            found = [one["text"] for mapped in outcome.mapped for one in report.warnings(outcome.task, mapped)]
             for warning in dict.fromkeys([*found, *outcome.remarks]):
                 self.report({"WARNING"}, f"{outcome.name}: {warning}")
         if failures:

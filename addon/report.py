@@ -14,7 +14,7 @@ REASONS = {
 PINNED = "its pins are not kept: a map to a circle domain leaves nothing that a pin could hold"
 MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
 # What the solver says of its disk in 32 bits, which does not hold for the rectangle made of it.
-OF_THE_DISK = "below the resolution of 32-bit UVs"
+OF_THE_DISK = "below_resolution"
 # UV units: an edge below this is a dozen steps of a 32-bit number near 1 at most. As in the native report.
 RESOLUTION = 1e-6
 
@@ -68,9 +68,22 @@ def explain(error):
 
 
 def warnings(task, one):
-    """What to watch out for in a mapped island."""
-    native = [text for text in one.result.warnings if not (one.unrolled and OF_THE_DISK in text)]
-    return [*native, *([MIRRORED] if task.mirrored else []), *([PINNED] if task.pinned else [])]
+    """What to watch out for in a mapped island: kind, elements in the mesh's numbers (those of loops aside), text."""
+    native = [
+        {"kind": warning.kind, "elements": _in_mesh(one.island, warning), "text": warning.text}
+        for warning in one.result.warnings
+        if not (one.unrolled and warning.kind == OF_THE_DISK)
+    ]
+    own = [("mirrored", MIRRORED)] * task.mirrored + [("pinned", PINNED)] * task.pinned
+    return [*native, *({"kind": kind, "elements": [], "text": text} for kind, text in own)]
+
+
+def _in_mesh(island, warning):
+    """A warning's elements as the mesh numbers them."""
+    number = {"vertices": island.source_vertex, "faces": island.triangle_face}.get(warning.of)
+    if number is None:
+        return warning.elements
+    return np.unique(number[np.asarray(warning.elements, dtype=np.int64)]).tolist()
 
 
 def entries(outcome):

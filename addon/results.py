@@ -99,7 +99,7 @@ def _record_result(entry, outcome, one):
     entry.roundness = float(result.roundness.max())
     entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
     entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
-    entry.message = "; ".join([*warnings(outcome.task, one), *outcome.remarks])
+    entry.message = "; ".join([*(warning["text"] for warning in warnings(outcome.task, one)), *outcome.remarks])
     centers = one.placement.apply(one.turned(result.centers))
     for vertices, center, radius, roundness in zip(
         result.loops, centers, result.radii, result.roundness, strict=True

@@ -8,7 +8,6 @@ nothing but this repository; the others scans that are not in it, in ../shared/m
 import json
 import math
 import random
-import re
 import subprocess
 import sys
 import tempfile
@@ -82,8 +81,7 @@ def worst_roundness(found: dict) -> float:
 
 def made_smaller(found: dict) -> int:
     """Circles that had to be made smaller, as the warning counts them."""
-    told = [re.search(r"made smaller[^:]*: (\d+)", warning) for warning in found["warnings"]]
-    return sum(int(match[1]) for match in told if match)
+    return sum(len(warning["elements"]) for warning in found["warnings"] if warning["kind"] == "shrunk_circles")
 
 
 # ---------------------------------------------------------------- the tables
@@ -253,7 +251,7 @@ def limits(row: str) -> list[str]:
     result = koebe.uniformize(vertices, triangles)
     if promises.broken(triangles, result):
         sys.exit(f"{row}: {promises.broken(triangles, result)}")
-    lost = any(warning.startswith("circles of no meaning") for warning in result.warnings)
+    lost = any(warning.kind == "lost_circles" for warning in result.warnings)
     radius = result.radii[1]
     # What a short gap leaves is told from 1, what a small hole leaves from 0.
     error = abs((1.0 - radius) / (1.0 - exact) - 1.0) if exact > 0.5 else abs(radius / exact - 1.0)

@@ -120,19 +120,23 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
             : hang_back(named, cut, std::move(core_uv), context);
     report_map(named, map, result);
 
-    if (!result.converged) result.warnings.push_back("not converged: " + flow.reason);
+    if (!result.converged) result.warnings.push_back({WarningKind::not_converged, "not converged: " + flow.reason});
     if (flow.packing_change > worth_a_warning)
         result.warnings.push_back(
-            with_number("the circle packing changes edge lengths by up to %.2g of themselves", flow.packing_change));
+            {WarningKind::packing,
+             with_number("the circle packing changes edge lengths by up to %.2g of themselves", flow.packing_change)});
     if (flow.closing_gap > on_circle)
-        result.warnings.push_back(with_number("holes close up to %.2g of their length", flow.closing_gap));
-    if (own_flips > 0) result.warnings.push_back("faces flipped by the flow's own map: " + std::to_string(own_flips));
-    for (std::string& sentence : flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion))
-        result.warnings.push_back(std::move(sentence));
+        result.warnings.push_back(
+            {WarningKind::closing_gap, with_number("holes close up to %.2g of their length", flow.closing_gap)});
+    if (own_flips > 0)
+        result.warnings.push_back(
+            {WarningKind::flow_flips, "faces flipped by the flow's own map: " + std::to_string(own_flips)});
+    for (Warning& warning : flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion))
+        result.warnings.push_back(std::move(warning));
     if (const MapFaults faults = find_faults(whole.surface.triangles, whole.loops, map.uv, reported_circles(result.loops));
         faults.any()) {
         result.converged = false;
-        result.warnings.push_back("not one to one: " + faults.text(whole.original, whole.original_faces));
+        result.warnings.push_back(faults.warning("not one to one: ", whole.original, whole.original_faces));
     }
     result.seconds.finish = seconds_since(stage);
     result.seconds.total = seconds_since(begin);

@@ -93,8 +93,8 @@ std::string result_line(const Request& request, const MeshInput& input, const Pa
     const std::set<Index> patches(filled.patch.begin(), filled.patch.end());
     const std::size_t loops = patches.size() - patches.count(-1);
     const Index added = filled.mesh.face_count() - input.polygons.face_count();
-    std::vector<std::string> warnings = input.warnings;
-    if (loops == 0) warnings.push_back("there is no hole: no boundary but the outer one");
+    std::vector<Warning> warnings = input.warnings;
+    if (loops == 0) warnings.push_back({WarningKind::no_hole, "there is no hole: no boundary but the outer one"});
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
     return one_line(request.output) + ": " + counted(loops, "loop") + " filled, " +

@@ -79,7 +79,8 @@ std::string result_line(const MapRequest& request, const UniformizeResult& resul
 void show_warnings(const UniformizeResult& result)
 {
     if (::isatty(STDERR_FILENO) != 1) return;
-    for (const std::string& warning : result.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    for (const Warning& warning : result.warnings)
+        std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
 }
 
 }  // namespace
@@ -133,7 +134,7 @@ int run_map(const MapRequest& request, const MapFunction& compute)
             return compute(input.polygons.vertices, input.triangulation.triangles, context);
         });
         result.seconds.read = input.seconds;
-        result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
+        add_input_warnings(input, result.warnings);
         write_files(request, input, result, begin, context);
     }
     if (!request.quiet) {

@@ -19,9 +19,10 @@ MeshInput read_and_triangulate(const std::filesystem::path& path)
     input.triangulation = triangulate(input.polygons);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())
-        input.warnings.push_back("faces of fewer than three different vertices, passed over: " +
-                                 std::to_string(collapsed.size()) + "; the first is " +
-                                 std::to_string(collapsed.front()));
+        input.warnings.push_back({WarningKind::collapsed_faces,
+                                  "faces of fewer than three different vertices, passed over: " +
+                                      std::to_string(collapsed.size()),
+                                  collapsed});
     if (input.triangulation.triangles.rows() == 0)
         throw InputError("no face has three different vertices", collapsed);
     input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -34,6 +35,14 @@ MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& 
 {
     ExecutionContext context({}, token);
     return run_detachable<MeshInput>(context, [path](ExecutionContext&) { return read_and_triangulate(path); });
+}
+
+void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)
+{
+    for (Warning& warning : warnings)
+        if (elements_of(warning.kind) == ElementKind::faces)
+            warning.elements = filed_faces(input.triangulation, warning.elements);
+    warnings.insert(warnings.begin(), input.warnings.begin(), input.warnings.end());
 }
 
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles)

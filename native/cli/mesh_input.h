@@ -3,6 +3,7 @@
 
 #include "core/errors.h"
 #include "core/execution.h"
+#include "core/warning.h"
 #include "io/polygon_mesh.h"
 #include "io/polygon_triangulation.h"
 
@@ -15,7 +16,7 @@ namespace koebe::cli {
 struct MeshInput {
     PolygonMesh polygons;
     Triangulation triangulation;
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
     double seconds = 0.0;  ///< to read and triangulate
 };
 
@@ -24,6 +25,9 @@ MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& 
 
 /// Faces of the triangulation to faces of the file, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
+
+/// Makes the warnings' faces those of the file, and puts what was noticed on reading it before them.
+void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings);
 
 /// Calls compute(), and makes an error's faces those of the file.
 template <typename Compute>

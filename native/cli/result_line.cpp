@@ -32,10 +32,10 @@ std::string one_line(std::string text)
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
-std::string warning_count(const std::vector<std::string>& warnings)
+std::string warning_count(const std::vector<Warning>& warnings)
 {
     if (warnings.empty()) return {};
-    return ", " + counted(warnings.size(), "warning") + ": " + shortened(one_line(warnings.front()));
+    return ", " + counted(warnings.size(), "warning") + ": " + shortened(one_line(warnings.front().text()));
 }
 
 }  // namespace koebe::cli

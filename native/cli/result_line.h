@@ -1,6 +1,8 @@
 // The one line on standard output.
 #pragma once
 
+#include "core/warning.h"
+
 #include <string>
 #include <vector>
 
@@ -13,6 +15,6 @@ std::string counted(std::size_t number, const std::string& noun);
 std::string one_line(std::string text);
 
 /// The end of a result line: how many warnings there are, and the start of the first. Empty if there is none.
-std::string warning_count(const std::vector<std::string>& warnings);
+std::string warning_count(const std::vector<Warning>& warnings);
 
 }  // namespace koebe::cli

@@ -4,6 +4,7 @@
 #include "cli/progress_line.h"
 #include "core/topology.h"
 #include "pipeline/uniformize.h"
+#include "report/json.h"
 #include "shape/conformal_module.h"
 
 #include <algorithm>
@@ -17,12 +18,13 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
     const Triangles& triangles = input.triangulation.triangles;
-    const UniformizeResult result =
+    UniformizeResult result =
         with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
 
     require_own_circles(result.loops);
-    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged, input.warnings};
-    shape.warnings.insert(shape.warnings.end(), result.warnings.begin(), result.warnings.end());
+    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged, {}};
+    add_input_warnings(input, result.warnings);
+    shape.warnings = std::move(result.warnings);
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
     for (const LoopReport& loop : result.loops) {
         shape.circles.push_back(loop.circle);
@@ -45,7 +47,7 @@ nlohmann::ordered_json module_json(const ShapeInput& shape, const std::vector<in
             {"loops", ranks},
             {"names", module_names(order.size())},
             {"module", std::vector<double>(module.begin(), module.end())},
-            {"warnings", shape.warnings}};
+            {"warnings", to_json(shape.warnings)}};
 }
 
 }  // namespace koebe::cli

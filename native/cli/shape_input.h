@@ -17,7 +17,7 @@ struct ShapeInput {
     std::vector<Circle> circles;  ///< the outer one first, then by length
     std::vector<Index> ranks;     ///< of each circle's loop, by lowest vertex as in `koebe fill`
     bool converged = false;
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
 };
 
 /// @throws FileError, InputError, TopologyError, SolverError, Cancelled

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/types.h"
+#include "core/warning.h"
 
 #include <optional>
 #include <string>
@@ -106,7 +107,7 @@ struct UniformizeResult {
     std::optional<AngleError> unpolished_angle_error_deg;  ///< before the polish, if one was asked for
     StageSeconds seconds;
     double peak_memory_mb = 0.0;
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
 };
 
 }  // namespace koebe

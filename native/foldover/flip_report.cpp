@@ -31,31 +31,34 @@ std::string figure(double value)
     return text;
 }
 
-std::string flap_warning(const MappedSurface& map, const std::vector<Flap>& flaps)
+/// Some faces in the input's numbering, rising.
+std::vector<Index> input_faces(const MappedSurface& map, const std::vector<Index>& faces)
 {
-    std::size_t faces = 0, rim = 0, inner = 0;
+    std::vector<Index> result;
+    for (const Index f : faces) result.push_back(map.original_faces[f]);
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+Warning flap_warning(const MappedSurface& map, const std::vector<Flap>& flaps)
+{
+    std::vector<Index> faces;
+    std::size_t rim = 0, inner = 0;
     const Flap* first = nullptr;
     for (const Flap& flap : flaps) {
-        faces += flap.faces.size();
+        faces.insert(faces.end(), flap.faces.begin(), flap.faces.end());
         if (flap.loop == 0) continue;
         rim += flap.rim.size();
         ++inner;
         if (!first) first = &flap;
     }
-    std::string text = plural(flaps.size(), "part") + " of " + plural(faces, "face") +
+    std::string text = plural(flaps.size(), "part") + " of " + plural(faces.size(), "face") +
                        " in all, the first behind the edge " + std::to_string(map.original[flaps[0].first]) + "-" +
                        std::to_string(map.original[flaps[0].last]) + ", hang on their loop by that edge alone: ";
-    if (inner == 0) return text + "drawn along the unit circle";
-    return text + plural(inner, "part") + " drawn inside their hole, with " + plural(rim, "vertex") +
-           " off the circle, the first " + std::to_string(map.original[first->rim[0]]);
-}
-
-/// The lowest of some faces in the input's numbering.
-Index first_face(const MappedSurface& map, const std::vector<Index>& faces)
-{
-    Index least = map.original_faces[faces.front()];
-    for (const Index f : faces) least = std::min(least, map.original_faces[f]);
-    return least;
+    text += inner == 0 ? "drawn along the unit circle"
+                       : plural(inner, "part") + " drawn inside their hole, with " + plural(rim, "vertex") +
+                             " off the circle, the first " + std::to_string(map.original[first->rim[0]]);
+    return {WarningKind::flaps, text, input_faces(map, faces)};
 }
 
 /// Connected faces that are too small to be stored, with a flipped one among them.
@@ -124,36 +127,39 @@ std::vector<LostRegion> lost_regions(const MappedSurface& map)
 
 }  // namespace
 
-std::vector<std::string> flip_warnings(const NamedSurface& whole, const PlanarPoints& uv,
-                                       const std::vector<Flap>& flaps, const UntangleReport& untangled,
-                                       const Distortion& distortion)
+std::vector<Warning> flip_warnings(const NamedSurface& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
+                                   const UntangleReport& untangled, const Distortion& distortion)
 {
     const MappedSurface map{whole, uv};
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
     std::size_t rim = 0;
     for (const VertexLoop& loop : map.loops) rim += loop.size();
     const std::size_t inside = map.original.size() - rim;
     if (map.loops.size() > 1 && static_cast<double>(inside) < coarse * static_cast<double>(rim))
-        warnings.push_back(
-            "too coarse: " + plural(inside, "vertex") + " between the loops' " + std::to_string(rim) +
-            ", so that faces reach from loop to loop and the map is far from conformal (mean angle error " +
-            figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh");
+        warnings.push_back({WarningKind::coarse_mesh,
+                            "too coarse: " + plural(inside, "vertex") + " between the loops' " + std::to_string(rim) +
+                                ", so that faces reach from loop to loop and the map is far from conformal (mean angle "
+                                "error " + figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh"});
     if (!flaps.empty()) warnings.push_back(flap_warning(map, flaps));
-    if (!untangled.freed.empty())
-        warnings.push_back(plural(untangled.freed.size(), "vertex") +
-                           " taken off the circle, where straight triangles cannot follow it; the first is " +
-                           std::to_string(map.original[untangled.freed.front()]));
+    if (!untangled.freed.empty()) {
+        Warning freed{WarningKind::off_circle, plural(untangled.freed.size(), "vertex") +
+                                                   " taken off the circle, where straight triangles cannot follow it"};
+        for (const Index v : untangled.freed) freed.elements.push_back(map.original[v]);
+        std::sort(freed.elements.begin(), freed.elements.end());
+        warnings.push_back(std::move(freed));
+    }
     for (const LostRegion& region : lost_regions(map))
         warnings.push_back(
-            plural(region.faces.size(), "face") + " around vertex " + std::to_string(map.original[region.tip]) +
-            ", nearest to loop " + std::to_string(region.loop) +
-            ", shrank below the resolution of 32-bit UVs (edges from " + figure(region.shortest) + " to " +
-            figure(region.extent) + "), " + plural(region.flipped, "face") + " of them to no area; the first is " +
-            std::to_string(first_face(map, region.faces)) +
-            (region.faces.size() < limb ? "" : ". A long limb does this: a seam or a hole near its end helps"));
+            {WarningKind::below_resolution,
+             plural(region.faces.size(), "face") + " around vertex " + std::to_string(map.original[region.tip]) +
+                 ", nearest to loop " + std::to_string(region.loop) +
+                 ", shrank below the resolution of 32-bit UVs (edges from " + figure(region.shortest) + " to " +
+                 figure(region.extent) + "), " + plural(region.flipped, "face") + " of them to no area",
+             input_faces(map, region.faces),
+             region.faces.size() < limb ? "" : "A long limb does this: a seam or a hole near its end helps"});
     if (!untangled.tangled.empty())
-        warnings.push_back(plural(untangled.tangled.size(), "face") + " flipped; the first is " +
-                           std::to_string(first_face(map, untangled.tangled)));
+        warnings.push_back({WarningKind::flipped, plural(untangled.tangled.size(), "face") + " flipped",
+                            input_faces(map, untangled.tangled)});
     return warnings;
 }
 

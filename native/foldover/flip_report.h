@@ -11,8 +11,7 @@ namespace koebe {
 
 /// One sentence for each thing that is out of the ordinary, with its number, the input's first element and, for what
 /// shrank below the resolution of 32-bit UVs, each region's place: its tip, the nearest loop and its size.
-std::vector<std::string> flip_warnings(const NamedSurface& whole, const PlanarPoints& uv,
-                                       const std::vector<Flap>& flaps, const UntangleReport& untangled,
-                                       const Distortion& distortion);
+std::vector<Warning> flip_warnings(const NamedSurface& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
+                                   const UntangleReport& untangled, const Distortion& distortion);
 
 }  // namespace koebe

@@ -33,11 +33,11 @@ Moebius normal_position(const std::vector<Circle>& circles)
 /// Makes circles smaller that meet another or leave the disk, as those of loops of a few vertices do where less than an
 /// edge is between them: r_k <= d_kj r_k / (r_k + r_j) for all j leaves every pair apart.
 /// @return the loops of the circles it changed
-std::vector<std::size_t> set_apart(std::vector<Circle>& circles)
+std::vector<Index> set_apart(std::vector<Circle>& circles)
 {
     constexpr double share = 0.9;  // of the room between two centres
     const std::vector<Circle> before = circles;
-    std::vector<std::size_t> changed;
+    std::vector<Index> changed;
     for (std::size_t k = 1; k < circles.size(); ++k) {
         double room = 1.0 - std::abs(before[k].center);
         for (std::size_t j = 1; j < circles.size(); ++j)
@@ -46,7 +46,7 @@ std::vector<std::size_t> set_apart(std::vector<Circle>& circles)
                                           (before[k].radius + before[j].radius));
         if (before[k].radius <= room) continue;
         circles[k].radius = share * room;
-        changed.push_back(k);
+        changed.push_back(static_cast<Index>(k));
     }
     return changed;
 }
@@ -69,22 +69,24 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     std::vector<Circle> circles{Circle{}};
     for (std::size_t k = 1; k < outcome.loops.size(); ++k)
         circles.push_back(fit_circle_least_squares(outcome.loops[k]));
-    std::vector<std::size_t> lost;
+    std::vector<Index> lost;
     for (std::size_t k = 1; k < circles.size(); ++k)
-        if (is_lost(circles[k], outcome.loops[k])) lost.push_back(k);
+        if (is_lost(circles[k], outcome.loops[k])) lost.push_back(static_cast<Index>(k));
     const Moebius moebius = normal_position(circles);
     if (!std::isfinite(std::abs(moebius.a))) return {};
     for (std::size_t k = 1; k < circles.size(); ++k) circles[k] = moebius(circles[k]);
-    const std::vector<std::size_t> changed = set_apart(circles);
+    const std::vector<Index> changed = set_apart(circles);
     if (!changed.empty())
-        result.warnings.push_back("circles that met another made smaller, the mesh between them is too coarse: " +
-                                  std::to_string(changed.size()) + "; the first is that of loop " +
-                                  std::to_string(changed.front()));
+        result.warnings.push_back({WarningKind::shrunk_circles,
+                                   "circles that met another made smaller, the mesh between them is too coarse: " +
+                                       std::to_string(changed.size()),
+                                   changed});
     if (!circles_apart(circles)) return {};
     if (!lost.empty())
-        result.warnings.push_back("circles of no meaning, the loop too deep inside for rounding or the mesh around it too "
-                                  "coarse: " + std::to_string(lost.size()) + "; the first is that of loop " +
-                                  std::to_string(lost.front()));
+        result.warnings.push_back({WarningKind::lost_circles,
+                                   "circles of no meaning, the loop too deep inside for rounding or the mesh around it "
+                                   "too coarse: " + std::to_string(lost.size()),
+                                   lost});
 
     std::size_t boundary_count = 0;
     for (const VectorXcd& loop : outcome.loops) boundary_count += loop.size();
@@ -93,8 +95,8 @@ MatrixXd place_on_circles(const Domain& domain, const FlapCut& cut, const KoebeO
     for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
         LoopReport report;
         report.circle = circles[k];
-        report.shrunk = std::find(changed.begin(), changed.end(), k) != changed.end() ||
-                        std::find(lost.begin(), lost.end(), k) != lost.end();
+        report.shrunk = std::ranges::count(changed, static_cast<Index>(k)) > 0 ||
+                        std::ranges::count(lost, static_cast<Index>(k)) > 0;
         const VectorXcd image = moebius(outcome.loops[k]);
         report.roundness = roundness(image, report.circle);
         const VectorXcd projected =

@@ -3,6 +3,7 @@
 #include "conformal/stored_uv.h"
 #include "geometry/boundary_crossings.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace koebe {
@@ -25,21 +26,27 @@ std::vector<int> bad_circles(const std::vector<Circle>& circles)
 
 }  // namespace
 
-std::string MapFaults::text(const std::vector<Index>& original, const std::vector<Index>& original_faces) const
+Warning MapFaults::warning(const std::string& beginning, const std::vector<Index>& original,
+                           const std::vector<Index>& original_faces) const
 {
-    std::string result;
+    Warning warning{WarningKind::not_one_to_one, beginning};
+    std::string& result = warning.sentence;
     const auto add = [&](std::size_t count, const std::string& what, Index first) {
         if (count == 0) return;
-        if (!result.empty()) result += "; ";
+        if (result.size() > beginning.size()) result += "; ";
         result += std::to_string(count) + " " + what + ", the first is " + std::to_string(first);
     };
     add(not_finite.size(), "vertices without a place", not_finite.empty() ? 0 : original[not_finite.front()]);
     add(outside.size(), "vertices outside the disk", outside.empty() ? 0 : original[outside.front()]);
-    add(flipped.size(), "faces flipped", flipped.empty() ? 0 : original_faces[flipped.front()]);
     add(bad_circles.size(), "circles that meet another or leave the disk", bad_circles.empty() ? 0 : bad_circles.front());
     add(crossings.size(), "crossings of loops, at vertices",
         crossings.empty() ? 0 : original[crossings.front().first]);
-    return result;
+    if (flipped.empty()) return warning;
+    for (const Index f : flipped) warning.elements.push_back(original_faces[f]);
+    std::sort(warning.elements.begin(), warning.elements.end());
+    if (result.size() > beginning.size()) result += "; ";
+    result += std::to_string(flipped.size()) + " faces flipped";
+    return warning;
 }
 
 MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>& loops, const PlanarPoints& uv,

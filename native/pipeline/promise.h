@@ -22,8 +22,9 @@ struct MapFaults {
         return !not_finite.empty() || !outside.empty() || !flipped.empty() || !bad_circles.empty() ||
                !crossings.empty();
     }
-    /// One sentence that names the first elements.
-    std::string text(const std::vector<Index>& original, const std::vector<Index>& original_faces) const;
+    /// A sentence that begins so and names the first elements, in the input's numbering.
+    Warning warning(const std::string& beginning, const std::vector<Index>& original,
+                    const std::vector<Index>& original_faces) const;
 };
 
 /// @param uv (V, 2) @param circles of the loops, the outer one first

@@ -60,24 +60,27 @@ void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeR
     const auto plural = [](std::size_t n, const std::string& noun) {
         return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
     };
-    if (!domain.surface.unused.empty())
-        warnings.push_back("vertices of no face, put at the centre: " + std::to_string(domain.surface.unused.size()) +
-                           "; the first is " + std::to_string(domain.surface.unused.front()));
-    if (!domain.surface.reoriented.empty())
+    if (const auto& unused = domain.surface.unused; !unused.empty())
+        warnings.push_back({WarningKind::unused_vertices,
+                            "vertices of no face, put at the centre: " + std::to_string(unused.size()), unused});
+    if (const auto& turned = domain.surface.reoriented; !turned.empty())
         warnings.push_back(
-            plural(domain.surface.reoriented.size(), "face") + " turned to the orientation of the others; the first is " +
-            std::to_string(domain.surface.reoriented.front()) +
-            (2 * domain.surface.reoriented.size() == static_cast<std::size_t>(domain.surface.triangles.rows())
-                 ? "; they are as many as the others: which side is the front follows from the numbers of the faces alone"
-                 : ""));
+            {WarningKind::reoriented_faces, plural(turned.size(), "face") + " turned to the orientation of the others",
+             turned,
+             2 * turned.size() == static_cast<std::size_t>(domain.surface.triangles.rows())
+                 ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
+                 : ""});
     if (outcome.raised_angles > 0)
-        warnings.push_back(plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
-                           " without flux, kept apart by a least distance");
+        warnings.push_back({WarningKind::no_flux,
+                            plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
+                                " without flux, kept apart by a least distance"});
     if (domain.thinnest < delicate)
-        warnings.push_back("faces so thin that the last digits of their coordinates show in the map: turned or scaled, the "
-                           "surface may get another one");
+        warnings.push_back({WarningKind::thin_faces,
+                            "faces so thin that the last digits of their coordinates show in the map: turned or scaled, "
+                            "the surface may get another one"});
     if (!outcome.converged)
-        warnings.push_back("not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep"));
+        warnings.push_back({WarningKind::not_converged,
+                            "not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep")});
 }
 
 /// The map that is one to one from the start (embedded_map), on the circles of the iteration if it has found any.
@@ -94,27 +97,30 @@ UntangledMap embed(const Domain& whole, const FlapCut& cut, const UntangledMap* 
     } else {
         circles.clear();
         result.converged = false;
-        result.warnings.push_back("the iteration led to no circles: these are such as fit a map of low angle error");
+        result.warnings.push_back({WarningKind::no_circles,
+                                   "the iteration led to no circles: these are such as fit a map of low angle error"});
     }
     if (!rim.allFinite()) rim = unit_circle_points(arc_length_angles(whole.edges[0]));
     rim = project_onto_circle(Circle{}, rim, 1, least_steps(whole.edges[0].size()));
     EmbeddedMap map = embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
                                    failed && circles_apart(circles) ? circles : std::vector<Circle>{}, rim, context);
     circles = map.circles;
-    std::vector<std::size_t> others;
+    std::vector<Index> others;
     for (std::size_t k = 0; k < circles.size(); ++k) {
         const Circle before = result.loops[k].circle;
         if (before.center != circles[k].center || before.radius != circles[k].radius) {
-            others.push_back(k);
+            others.push_back(static_cast<Index>(k));
             result.loops[k].shrunk = true;
         }
         result.loops[k].circle = circles[k];
         if (!failed) result.loops[k].roundness = map.roundness[k];
     }
     if (failed && !others.empty())
-        result.warnings.push_back("loops on other circles than the iteration's, where on those faces would turn over: " +
-                                  std::to_string(others.size()) + "; the first is loop " +
-                                  std::to_string(others.front()));
+        result.warnings.push_back(
+            {WarningKind::replaced_circles,
+             "loops on other circles than the iteration's, where on those faces would turn over: " +
+                 std::to_string(others.size()),
+             others});
     return {std::move(map.uv), std::move(map.off_circle), {}};
 }
 
@@ -201,12 +207,13 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     }
     report_map(named, map, result);
     add_warnings(whole, outcome, result);
-    const auto flip_sentences = flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion);
-    result.warnings.insert(result.warnings.end(), flip_sentences.begin(), flip_sentences.end());
+    const auto of_flips = flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion);
+    result.warnings.insert(result.warnings.end(), of_flips.begin(), of_flips.end());
     if (options.polish) faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
     if (faults.any()) {
         result.converged = false;
-        result.warnings.push_back("no one-to-one map was found: " + faults.text(whole.original, whole.original_faces));
+        result.warnings.push_back(
+            faults.warning("no one-to-one map was found: ", whole.original, whole.original_faces));
     }
     result.seconds.finish = stage.lap();
     result.seconds.total = total.lap();

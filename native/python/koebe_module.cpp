@@ -135,6 +135,10 @@ PYBIND11_MODULE(_koebe, m)
         .def_readwrite("threads", &UniformizeOptions::threads)
         .def_readwrite("polish", &UniformizeOptions::polish);
 
+    py::dict warning_elements;
+    for (int k = 0; k <= static_cast<int>(WarningKind::no_hole); ++k)
+        warning_elements[to_string(static_cast<WarningKind>(k))] = to_string(elements_of(static_cast<WarningKind>(k)));
+    m.attr("warning_elements") = warning_elements;
     py::class_<UniformizeResult>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
         .def("to_json", [](const UniformizeResult& r) { return to_json(r).dump(); });

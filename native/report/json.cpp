@@ -62,6 +62,13 @@ Json to_json(const Distortion& distortion)
             {"below_resolution", distortion.below_resolution.size()}};
 }
 
+Json to_json(const std::vector<Warning>& warnings)
+{
+    return array_json(warnings, [](const Warning& warning) {
+        return Json{{"kind", to_string(warning.kind)}, {"elements", warning.elements}, {"text", warning.text()}};
+    });
+}
+
 Json to_json(const UniformizeResult& result)
 {
     Json report{{"version", KOEBE_VERSION},
@@ -82,7 +89,7 @@ Json to_json(const UniformizeResult& result)
         report["angle_error_deg"]["before_polish"] = result.unpolished_angle_error_deg->mean;
     report.update({{"seconds", seconds_json(result.seconds)},
                    {"peak_memory_mb", result.peak_memory_mb},
-                   {"warnings", result.warnings}});
+                   {"warnings", to_json(result.warnings)}});
     return report;
 }
 

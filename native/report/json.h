@@ -20,6 +20,9 @@ nlohmann::ordered_json to_json(const UniformizeResult& result);
 /// below_resolution (the last two as counts).
 nlohmann::ordered_json to_json(const Distortion& distortion);
 
+/// An array of {"kind", "elements", "text"}.
+nlohmann::ordered_json to_json(const std::vector<Warning>& warnings);
+
 /// A report as the text of a file: indented, and UTF-8 whatever bytes its strings have (file names may have any; what
 /// is no character becomes U+FFFD).
 std::string json_text(const nlohmann::ordered_json& report);

@@ -55,7 +55,7 @@ TEST(FlapMap, an_ear_hangs_into_its_hole_in_its_own_shape)
     const Complex wanted = (domain.points[tip] - domain.points[a]) / (domain.points[b] - domain.points[a]);
     EXPECT_LT(std::abs(shape - wanted), 1e-9);
     ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_NE(result.warnings[0].find("the first " + std::to_string(tip)), std::string::npos) << result.warnings[0];
+    EXPECT_NE(result.warnings[0].text().find("the first " + std::to_string(tip)), std::string::npos) << result.warnings[0].text();
 }
 
 TEST(FlapMap, ears_that_would_meet_across_the_hole_are_made_flatter)

@@ -11,8 +11,8 @@ namespace {
 
 bool says(const UniformizeResult& result, const std::string& text)
 {
-    for (const std::string& warning : result.warnings)
-        if (warning.find(text) != std::string::npos) return true;
+    for (const Warning& warning : result.warnings)
+        if (warning.text().find(text) != std::string::npos) return true;
     return false;
 }
 
@@ -24,9 +24,9 @@ TEST(FlipReport, a_limb_below_resolution_is_named_with_its_place)
     EXPECT_FALSE(result.distortion.below_resolution.empty());
     EXPECT_EQ(result.distortion.flipped, result.distortion.below_resolution);
     ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_TRUE(says(result, "nearest to loop 1, shrank below the resolution of 32-bit UVs")) << result.warnings[0];
+    EXPECT_TRUE(says(result, "nearest to loop 1, shrank below the resolution of 32-bit UVs")) << result.warnings[0].text();
     EXPECT_TRUE(says(result, std::to_string(result.distortion.below_resolution.size()) + " faces of them"))
-        << result.warnings[0];
+        << result.warnings[0].text();
 }
 
 TEST(FlipReport, a_mesh_without_inner_vertices_is_called_too_coarse)

@@ -36,7 +36,7 @@ UniformizeResult sample_result()
     result.distortion.below_resolution = {2};
     result.distortion.conformal_energy = 1.0 / 3.0;
     result.seconds.total = 1.5;
-    result.warnings = {"one"};
+    result.warnings = {{WarningKind::flipped, "2 faces flipped", {3, 5}}};
     return result;
 }
 
@@ -78,7 +78,9 @@ TEST(Json, SaysWhatTheResultHolds)
     EXPECT_EQ(report["flipped"], 2);
     EXPECT_EQ(report["below_resolution"], 1);
     EXPECT_EQ(report["conformal_energy"].get<double>(), 1.0 / 3.0);  // to the last bit
-    EXPECT_EQ(report["warnings"], nlohmann::json({"one"}));
+    EXPECT_EQ(report["warnings"][0]["kind"], "flipped");
+    EXPECT_EQ(report["warnings"][0]["elements"], nlohmann::json({3, 5}));
+    EXPECT_EQ(report["warnings"][0]["text"], "2 faces flipped; the first face is 3");
 }
 
 TEST(Json, AnEmptyResultHasArraysAndWhatIsNotFiniteIsNull)

@@ -193,4 +193,4 @@ def test_circles_of_a_mesh_too_coarse_between_them_do_not_meet(columns, rows, ho
         uv = result.uv[result.loops[i]] @ [1.0, 1.0j]
         assert np.allclose(np.abs(uv - center[i]), result.radii[i], atol=1e-12)
     assert result.flipped == 0
-    assert any("circles that met" in warning for warning in result.warnings)
+    assert any(warning.kind == "shrunk_circles" for warning in result.warnings)

@@ -14,7 +14,7 @@ from ._api import (
     uniformize,
 )
 from ._koebe import CancelToken, __version__
-from ._result import UniformizeResult
+from ._result import WARNING_ELEMENTS, UniformizeResult, Warning
 from ._shapes import (
     DomainAlignment,
     align_domains,
@@ -36,6 +36,8 @@ __all__ = [
     "SolverError",
     "TopologyError",
     "UniformizeResult",
+    "WARNING_ELEMENTS",
+    "Warning",
     "__version__",
     "align_domains",
     "annulus_map",

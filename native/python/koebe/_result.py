@@ -9,6 +9,33 @@ from ._arrays import as_loops
 from ._native import _koebe
 
 
+# What the elements of a warning are, by its kind: "vertices", "faces", "loops" or "none".
+WARNING_ELEMENTS: dict[str, str] = dict(_koebe.warning_elements)
+
+
+class Warning(dict):
+    """What to watch out for: a dict of kind, elements and text, which are attributes too.
+
+    kind       what it is about, one of the keys of koebe.WARNING_ELEMENTS
+    elements   numbers of the input's vertices or faces, or of the result's loops, as WARNING_ELEMENTS says; rising
+    text       a sentence for people
+    """
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"Warning has no attribute '{name}'") from None
+
+    @property
+    def of(self) -> str:
+        """What its elements are."""
+        return WARNING_ELEMENTS[self["kind"]]
+
+    def __str__(self) -> str:
+        return self["text"]
+
+
 class UniformizeResult:
     """A circle domain and its report.
 
@@ -19,6 +46,7 @@ class UniformizeResult:
     off_circle       int32 arrays: vertices of each loop that are not on its circle
     history          one entry a step: step, pair, change, mean_roundness
     flipped, below_resolution    counts of faces, as in the command's JSON
+    warnings         list of Warning: kind, elements, text
     """
 
     def __init__(self, native: "_koebe.UniformizeResult") -> None:
@@ -30,6 +58,7 @@ class UniformizeResult:
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
+        self.warnings = [Warning(warning) for warning in self._report["warnings"]]
         self._native = native
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
 
