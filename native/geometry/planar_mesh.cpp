@@ -227,7 +227,8 @@ PlanarMesh planar_mesh(const std::vector<VectorXcd>& polygons, const PlanarMeshO
     // go on for ever.
     const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
     const auto scaled = [](const VectorXcd& points, int by) -> VectorXcd {
-        return points.unaryExpr([by](Complex z) { return Complex(std::ldexp(z.real(), by), std::ldexp(z.imag(), by)); });
+        return points.unaryExpr(
+            [by](Complex z) { return Complex(std::ldexp(z.real(), by), std::ldexp(z.imag(), by)); });
     };
     std::vector<VectorXcd> unit;
     for (const VectorXcd& polygon : polygons) unit.push_back(scaled(polygon, -exponent));

@@ -121,7 +121,8 @@ int main(int argc, char** argv)
         return EXIT_SUCCESS;
     }
     if (target && words[0] == "storm" && words.size() >= 5)
-        return storm(target, std::stoul(words[2]), std::stoul(words[3]), words[4], read_corpus(std::span(words).subspan(5)));
+        return storm(target, std::stoul(words[2]), std::stoul(words[3]), words[4],
+                     read_corpus(std::span(words).subspan(5)));
     std::fputs(usage, stderr);
     return 2;
 }
