@@ -54,8 +54,8 @@ $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) scripts/p
 # ---------------------------------------------------------------- tests
 
 # Every runner runs, whatever became of the others, and each ends with its own closing line.
-test: build ## everything: native, Python, and the installed zip in Debian's Blender and in bpy $(BPY)
-	@$(MAKE) --no-print-directory --keep-going test-native test-python test-blender $(BPY:%=test-bpy-%)
+test: build ## everything: native, Python, fuzzing, and the installed zip in Debian's Blender and in bpy $(BPY)
+	@$(MAKE) --no-print-directory --keep-going test-native test-python test-fuzz test-blender $(BPY:%=test-bpy-%)
 
 test-native: native ## ctest
 	ctest --preset release
@@ -85,7 +85,7 @@ test-tsan: $(VENV)/.done ## calls at once, progress and cancel under the thread 
 	TSAN_OPTIONS="suppressions=$(CURDIR)/tests/native/tsan.supp:second_deadlock_stack=1" \
 	    build-tsan/tests/native/koebe_thread_tests
 
-# The same inputs each time, so that what fails is the change and not the luck of the day; `make fuzz` looks further.
+# The same inputs in the same order each time, as far as a minute goes; `make fuzz` takes others each time.
 test-fuzz: build-fuzz ## the fuzz targets for a minute
 	scripts/fuzz.sh build-fuzz 60 1
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Fuzz for so many seconds in all, a third of them each target. Ends with 1 if there is a finding.
-# Usage: scripts/fuzz.sh BUILD SECONDS [SEED]      SEED 0 is another one each time.
+# Usage: scripts/fuzz.sh BUILD SECONDS [SEED]
+# Without a seed, each run has another one and adds to the corpus in BUILD; with one, it starts from the kept inputs alone.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -8,13 +9,14 @@ build=$1 total=$2 seed=${3:-0}
 targets=(uniformize arrays read)
 each=$(((total + ${#targets[@]} - 1) / ${#targets[@]}))
 found=0
+fresh=$(mktemp -d)
+trap 'rm -rf "$fresh"' EXIT
 
-# Exceptions are part of the game: what the sanitizers' own handler would print of them is noise.
 export ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=0 UBSAN_OPTIONS=print_stacktrace=1
 for target in "${targets[@]}"; do
     corpus=$build/corpus/$target findings=$build/findings/$target
+    [ "$seed" = 0 ] || corpus=$fresh/$target
     mkdir -p "$corpus" "$findings"
-    [ -n "$(ls -A "$corpus")" ] || "$build/tests/fuzz/koebe_fuzz" seeds "$target" "$corpus"
     kept=()
     for folder in tests/fuzz/corpus/$target tests/fuzz/findings/$target; do
         [ ! -d "$folder" ] || kept+=("$folder")
@@ -22,9 +24,9 @@ for target in "${targets[@]}"; do
     words=()
     [ ! -f "tests/fuzz/$target.dict" ] || words=(-dict="tests/fuzz/$target.dict")
     log=$build/$target.log
-    # A slow input is a finding from two minutes on: the sanitizers and busy machines take their share.
-    if "$build/tests/fuzz/fuzz_$target" -max_total_time="$each" -seed="$seed" -timeout=120 -rss_limit_mb=4096 \
-        -max_len=$([ "$target" = read ] && echo 600 || echo 302) -print_final_stats=1 \
+    # An input is too slow from five minutes on: the sanitizers and busy machines take their share.
+    if "$build/tests/fuzz/fuzz_$target" -max_total_time="$each" -seed="$seed" -timeout=300 -report_slow_units=300 \
+        -rss_limit_mb=4096 -max_len=$([ "$target" = read ] && echo 600 || echo 302) -print_final_stats=1 \
         "${words[@]}" -artifact_prefix="$findings/" "$corpus" "${kept[@]}" >"$log" 2>&1; then
         runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
         echo "fuzz $target: ${runs:-0} inputs, no finding"

@@ -26,12 +26,6 @@ int fail(const std::string& line, int code)
     return code;
 }
 
-int fail_for_memory()
-{
-    std::fputs("OutOfMemory: the mesh needs more memory than there is\n", stderr);  // nothing here allocates
-    std::_Exit(cannot_be_mapped);  // at an ordinary exit OpenBLAS joins threads that wait for memory for ever
-}
-
 int run_guarded(const std::function<int()>& run)
 {
     try {
@@ -40,15 +34,16 @@ int run_guarded(const std::function<int()>& run)
         fail(error_line(error), interrupted);
         std::_Exit(interrupted);  // an ordinary exit waits for the computation's next checkpoint
     } catch (const koebe::KoebeError& error) {
+        if (memory_ran_out()) end_for_memory();
         return fail(error_line(error), cannot_be_mapped);
     } catch (const WrongUsage& error) {
         return fail(error_line("WrongUsage", error.what()), wrong_usage);
     } catch (const std::bad_alloc&) {
-        return fail_for_memory();
+        end_for_memory();
     } catch (const std::length_error&) {  // more than any memory
-        return fail_for_memory();
+        end_for_memory();
     } catch (const std::system_error& error) {
-        if (error.code() == std::errc::resource_unavailable_try_again) return fail_for_memory();  // for a thread
+        if (error.code() == std::errc::resource_unavailable_try_again) end_for_memory();  // for a thread
         return fail(error_line("InternalError", error.what()), cannot_be_mapped);
     } catch (const std::exception& error) {
         return fail(error_line("InternalError", error.what()), cannot_be_mapped);
@@ -100,6 +95,6 @@ int main(int argc, char** argv)
             return run_command(argc, argv);
         });
     } catch (...) {  // not even the error's line could be put together
-        return fail_for_memory();
+        end_for_memory();
     }
 }

@@ -2,8 +2,12 @@
 
 #include "cli/exit_code.h"
 #include "cli/fast_kernels.h"
+#include "io/atomic_file.h"
 
+#include <atomic>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <new>
 #include <string_view>
 
@@ -51,6 +55,21 @@ void require_room_to_start(int, char**, char**)
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
                                                                              char**) = require_room_to_start;
 
+std::atomic<bool> ran_out{false};
+
+[[noreturn]] void note_and_throw()
+{
+    ran_out = true;
+    throw std::bad_alloc();
+}
+
+[[noreturn]] void end_of_exceptions()
+{
+    if (!ran_out) std::abort();
+    AtomicFile::remove_temporary_files();
+    end_for_memory();
+}
+
 bool is_limited(int resource)
 {
     rlimit limit{};
@@ -75,9 +94,18 @@ void restart_without_dense_threads(char** arguments)
     restart(arguments);
 }
 
+void end_for_memory()
+{
+    std::fputs("OutOfMemory: the mesh needs more memory than there is\n", stderr);
+    std::_Exit(cannot_be_mapped);  // at an ordinary exit OpenBLAS joins threads that wait for memory for ever
+}
+
+bool memory_ran_out() noexcept { return ran_out; }
+
 void prepare_for_scarce_memory()
 {
-    std::set_new_handler(nullptr);  // from here on there is somebody to catch exceptions
+    std::set_new_handler(note_and_throw);  // from here on there is somebody to catch exceptions
+    std::set_terminate(end_of_exceptions);
     if (is_limited(RLIMIT_AS)) ::mallopt(M_ARENA_MAX, 1);
     if (!is_room_for(buffer)) throw std::bad_alloc();
     const int n = 1;

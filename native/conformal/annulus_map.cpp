@@ -1,5 +1,6 @@
 #include "conformal/annulus_map.h"
 
+#include "conformal/closed_disk.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "flow/flat_layout.h"
@@ -203,9 +204,11 @@ AnnulusMap map_by_one_form(const Triangles& triangles, const EdgeLengths& length
 AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                        const VertexLoop& outer, const VertexLoop& inner, const AnnulusMapOptions& options)
 {
-    return options.backend == AnnulusBackend::yamabe
-               ? map_by_cylinder(triangles, lengths, vertex_count, outer, inner, options.flips)
-               : map_by_one_form(triangles, lengths, vertex_count, outer, inner);
+    AnnulusMap map = options.backend == AnnulusBackend::yamabe
+                         ? map_by_cylinder(triangles, lengths, vertex_count, outer, inner, options.flips)
+                         : map_by_one_form(triangles, lengths, vertex_count, outer, inner);
+    if (options.inside && map.converged) require_in_closed_disk(map.positions);
+    return map;
 }
 
 }  // namespace koebe

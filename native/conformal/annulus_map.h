@@ -13,7 +13,8 @@ enum class AnnulusBackend { harmonic, yamabe };  ///< a holomorphic 1-form, or t
 
 struct AnnulusMapOptions {
     AnnulusBackend backend = AnnulusBackend::harmonic;
-    bool flips = true;  ///< of the Yamabe flow's edges (flow/yamabe_flow.h)
+    bool flips = true;   ///< of the Yamabe flow's edges (flow/yamabe_flow.h)
+    bool inside = true;  ///< a vertex outside the closed disk is an error; false: the caller takes the loops alone
 };
 
 /// The map, and every step of its construction.
@@ -51,7 +52,7 @@ struct AnnulusMap {
 /// @param outer, inner the boundary loops, surface on the left
 /// @return orientation kept: the outer loop runs counter-clockwise. At 1 is the first vertex of the cut, or of the
 ///         outer loop with the Yamabe backend, which reports it if it does not converge
-/// @throws TopologyError the loops are not connected; SolverError
+/// @throws TopologyError the loops are not connected; SolverError, also for a map that leaves the closed disk
 AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                        const VertexLoop& outer, const VertexLoop& inner, const AnnulusMapOptions& options = {});
 

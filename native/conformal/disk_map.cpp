@@ -2,6 +2,7 @@
 
 #include "conformal/annulus_map.h"
 #include "conformal/circle_fit.h"
+#include "conformal/closed_disk.h"
 #include "conformal/moebius.h"
 #include "core/errors.h"
 #include "geometry/harmonic_map.h"
@@ -162,7 +163,7 @@ DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index v
     }
     const Punctured punctured = remove_shrunk_star(surface, p, options.halvings);
     const AnnulusMap annulus = annulus_map(punctured.rest.triangles, punctured.rest.lengths,
-                                           punctured.rest.vertex_count, loop, punctured.hole);
+                                           punctured.rest.vertex_count, loop, punctured.hole, {.inside = false});
     map.hole_radius = annulus.inner_radius;
     const VectorXcd filled = harmonic_map(surface.triangles, surface.lengths, surface.vertex_count, loop,
                                           gather_loop(annulus.positions, loop));
@@ -173,6 +174,7 @@ DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index v
     for (Eigen::Index i = 0; i < triangles.size(); ++i) used[triangles.data()[i]] = 1;
     for (Index v = 0; v < vertex_count; ++v)
         if (!used[v]) map.positions[v] = 0.0;
+    if (options.inside) require_in_closed_disk(map.positions);
     return map;
 }
 

@@ -11,6 +11,8 @@ struct DiskMapOptions {
     Index center = -1;
     /// The removed disk D_n is the star of p shrunk by 2^-n.
     int halvings = 3;
+    /// A vertex outside the closed disk is an error; false: the caller takes the loop alone.
+    bool inside = true;
 };
 
 struct DiskMap {
@@ -30,7 +32,7 @@ struct DiskMap {
 /// @param triangles (F, 3) oriented, one boundary loop
 /// @param lengths (F, 3) edge lengths
 /// @param loop the boundary, surface on the left
-/// @throws InputError the centre is no inner vertex; SolverError
+/// @throws InputError the centre is no inner vertex; SolverError, also for a map that leaves the closed disk
 DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count, const VertexLoop& loop,
                  const DiskMapOptions& options = {});
 

@@ -57,7 +57,8 @@ public:
     void open_pair(int i, int j)
     {
         const FilledMesh mesh = assemble({i, j});
-        const AnnulusMap map = annulus_map(mesh.triangles, mesh.lengths, mesh.vertex_count, loops_[i], loops_[j]);
+        const AnnulusMap map =
+            annulus_map(mesh.triangles, mesh.lengths, mesh.vertex_count, loops_[i], loops_[j], {.inside = false});
         if (metric_ == KoebeMeshOptions::Metric::present) take_planar_metric(mesh, map.positions);
         // D_i lies outside the unit circle: tau(z) = 1 / conj(z) brings it in, and conjugation turns it back to the
         // orientation of the surface. So both rims are conj(z / |z|) on a circle run through clockwise.
@@ -72,7 +73,8 @@ public:
     /// With one loop: no disk is left to fill.
     void open_disk()
     {
-        set_angles(0, gather_loop(disk_map(triangles_, lengths_, vertex_count_, loops_[0]).positions, loops_[0]));
+        const DiskMap map = disk_map(triangles_, lengths_, vertex_count_, loops_[0], {.inside = false});
+        set_angles(0, gather_loop(map.positions, loops_[0]));
     }
 
     /// The map of S and D_1, ..., D_n to the unit disk, on the surface's vertices.

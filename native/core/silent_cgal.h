@@ -3,14 +3,25 @@
 
 #include <CGAL/assertions_behaviour.h>
 
+#include <mutex>
+
 namespace koebe {
 
-/// CGAL reports failed checks by printing, and then throws: while one of these lives it only throws.
+/// CGAL reports failed checks by printing, and then throws: while one of these lives it only throws. Its handlers are
+/// those of all threads: the first one of these takes them, and the last one gives them back.
 class SilentCgal {
 public:
-    SilentCgal() : error_(CGAL::set_error_handler(ignore)), warning_(CGAL::set_warning_handler(ignore)) {}
+    SilentCgal()
+    {
+        const std::scoped_lock lock(mutex_);
+        if (alive_++ > 0) return;
+        error_ = CGAL::set_error_handler(ignore);
+        warning_ = CGAL::set_warning_handler(ignore);
+    }
     ~SilentCgal()
     {
+        const std::scoped_lock lock(mutex_);
+        if (--alive_ > 0) return;
         CGAL::set_error_handler(error_);
         CGAL::set_warning_handler(warning_);
     }
@@ -19,7 +30,9 @@ public:
 
 private:
     static void ignore(const char*, const char*, const char*, int, const char*) {}
-    CGAL::Failure_function error_, warning_;
+    static inline std::mutex mutex_;
+    static inline int alive_ = 0;
+    static inline CGAL::Failure_function error_ = nullptr, warning_ = nullptr;
 };
 
 }  // namespace koebe

@@ -35,7 +35,8 @@ bool fit_hole_circles(const std::vector<VectorXcd>& images, const std::vector<Co
         circles[k] = fit_circle_least_squares(images[k]);
         inside[k] = free_radius(images[k], circles[k].center);
         if (kind == HoleCircle::through && inside[k] > 0.0) continue;
-        const std::vector<Complex> hole(images[k].reverse().begin(), images[k].reverse().end());
+        std::vector<Complex> hole(images[k].begin(), images[k].end());
+        std::ranges::reverse(hole);
         const Complex middle = star_centre(hole, std::vector<double>(hole.size(), 1.0), fan_centres[k])
                                    .value_or(fan_centres[k]);
         inside[k] = free_radius(images[k], middle);

@@ -100,9 +100,4 @@ inline cholmod_dense view(const MatrixXd& matrix)
     return result;
 }
 
-inline MatrixXd to_eigen(const cholmod_dense& dense)
-{
-    return Eigen::Map<const MatrixXd>(static_cast<const double*>(dense.x), dense.nrow, dense.ncol);
-}
-
 }  // namespace koebe::detail

@@ -3,8 +3,8 @@
 #include "core/errors.h"
 #include "core/silent_cgal.h"
 #include "core/topology.h"
+#include "geometry/aged_cells.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -21,7 +21,7 @@
 namespace koebe {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Kernel = KernelOfAgedCells;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// The cubic method as a last resort takes a second at this many corners.
@@ -141,6 +141,16 @@ std::vector<Index> meeting_vertices(const Mesh& mesh, const VertexLoop& loop)
     return pair == order.end() ? std::vector<Index>{} : std::vector<Index>{pair[0], pair[1]};
 }
 
+/// What a singular system is solved by is not finite, and the exact arithmetic that looks at it next would end the
+/// process.
+bool are_finite(const Mesh& mesh, const std::vector<Mesh::Vertex_index>& vertices)
+{
+    return std::ranges::all_of(vertices, [&](Mesh::Vertex_index v) {
+        const Kernel::Point_3& p = mesh.point(v);
+        return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+    });
+}
+
 /// Adds one patch to the mesh.
 void fill(Mesh& mesh, const VertexLoop& loop)
 {
@@ -156,11 +166,13 @@ void fill(Mesh& mesh, const VertexLoop& loop)
     try {
         fair = std::get<0>(pmp::triangulate_refine_and_fair_hole(
             mesh, hole, ignore, std::back_inserter(added),
-            CGAL::parameters::do_not_use_cubic_algorithm(loop.size() >= cubic_corners)
+            CGAL::parameters::geom_traits(Kernel())
+                .do_not_use_cubic_algorithm(loop.size() >= cubic_corners)
                 .density_control_factor(factor)
                 .fairing_continuity(continuity)));
+        fair = fair && are_finite(mesh, added);
         for (unsigned int i = 1; i < solutions && fair; ++i)
-            fair = pmp::fair(mesh, added, CGAL::parameters::fairing_continuity(continuity));
+            fair = pmp::fair(mesh, added, CGAL::parameters::fairing_continuity(continuity)) && are_finite(mesh, added);
     } catch (const CGAL::Failure_exception&) {
         throw InputError("a boundary loop cannot be filled (vertices listed)", loop);
     }

@@ -194,16 +194,10 @@ void split_chords(PlanarMesh& mesh, Index boundary_count)
     mesh.triangles = Eigen::Map<const Triangles>(done.data()->data(), static_cast<Eigen::Index>(done.size()), 3);
 }
 
-}  // namespace
-
-PlanarMesh planar_mesh(const std::vector<VectorXcd>& polygons, const PlanarMeshOptions& options)
+/// The mesh of polygons whose largest coordinate is about 1.
+PlanarMesh mesh_of_unit_size(const std::vector<VectorXcd>& polygons, Index boundary_count,
+                             const PlanarMeshOptions& options)
 {
-    Index boundary_count = 0;
-    for (const VectorXcd& polygon : polygons) {
-        if (polygon.size() < 3) throw InputError("a polygon needs at least three points");
-        if (!polygon.allFinite()) throw InputError("a polygon's point is NaN or infinite");
-        boundary_count += static_cast<Index>(polygon.size());
-    }
     const SizeField size(polygons, options.longest, options.gradation);
     std::vector<Complex> interior;
     {
@@ -214,6 +208,39 @@ PlanarMesh planar_mesh(const std::vector<VectorXcd>& polygons, const PlanarMeshO
         smooth(to_arrays(PlanarRegion(polygons, interior), polygons, interior), size, interior);
     PlanarMesh mesh = to_arrays(PlanarRegion(polygons, interior), polygons, interior);
     split_chords(mesh, boundary_count);
+    return mesh;
+}
+
+}  // namespace
+
+PlanarMesh planar_mesh(const std::vector<VectorXcd>& polygons, const PlanarMeshOptions& options)
+{
+    Index boundary_count = 0;
+    double largest = 0.0;
+    for (const VectorXcd& polygon : polygons) {
+        if (polygon.size() < 3) throw InputError("a polygon needs at least three points");
+        if (!polygon.allFinite()) throw InputError("a polygon's point is NaN or infinite");
+        boundary_count += static_cast<Index>(polygon.size());
+        largest = std::max({largest, polygon.real().cwiseAbs().maxCoeff(), polygon.imag().cwiseAbs().maxCoeff()});
+    }
+    // By a power of two nothing is rounded, and no square over- or underflows: distances of 0 would let the refinement
+    // go on for ever.
+    const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+    const auto scaled = [](const VectorXcd& points, int by) -> VectorXcd {
+        return points.unaryExpr(
+            [by](Complex z) { return Complex(std::ldexp(z.real(), by), std::ldexp(z.imag(), by)); });
+    };
+    std::vector<VectorXcd> unit;
+    for (const VectorXcd& polygon : polygons) unit.push_back(scaled(polygon, -exponent));
+    PlanarMeshOptions unit_options = options;
+    unit_options.longest = std::ldexp(options.longest, -exponent);
+    PlanarMesh mesh = mesh_of_unit_size(unit, boundary_count, unit_options);
+    mesh.points = scaled(mesh.points, exponent);
+    Index begin = 0;
+    for (const VectorXcd& polygon : polygons) {
+        mesh.points.segment(begin, polygon.size()) = polygon;
+        begin += static_cast<Index>(polygon.size());
+    }
     return mesh;
 }
 

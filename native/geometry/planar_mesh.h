@@ -19,7 +19,7 @@ struct PlanarMeshOptions {
 
 struct PlanarMesh {
     VectorXcd points;     ///< the polygons' points first, in their order, then the interior ones
-    Triangles triangles;  ///< counter-clockwise
+    Triangles triangles;  ///< counter-clockwise; beside the middle of a chord, up to the rounding of the middle
 };
 
 /// Constrained Delaunay triangulation of the region inside the first polygon and outside the others, with interior

@@ -29,11 +29,19 @@ MatrixXd SupernodalFactor::trailing_block(Index count) const
 
 MatrixXd SupernodalFactor::solve(int system, const MatrixXd& right_hand_side)
 {
-    cholmod_dense b = view(right_hand_side);
+    MatrixXd result(right_hand_side.rows(), right_hand_side.cols());
+    if (result.size() == 0) return result;
+    // CHOLMOD looks at its status after the last of three arrays alone: without memory for an earlier one it would
+    // follow a null pointer. So those are ours.
+    MatrixXd permuted(result.rows(), result.cols());
+    cholmod_dense b = view(right_hand_side), x = view(result), y = view(permuted);
+    cholmod_dense *x_at = &x, *y_at = &y, *e_at = nullptr;
     const SerialRegions serial;
-    const Dense x = own(cholmod_solve(system, factor.get(), &b, common.get()), common);
-    common.require(x != nullptr, "back-substitution");
-    return to_eigen(*x);
+    const bool solved =
+        cholmod_solve2(system, factor.get(), &b, nullptr, &x_at, nullptr, &y_at, &e_at, common.get()) != 0;
+    const Dense workspace = own(e_at, common);
+    common.require(solved, "back-substitution");
+    return result;
 }
 
 }  // namespace koebe::detail

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using io::folder_of;
+
+std::mutex list_mutex;
+AtomicFile* first_in_list = nullptr;
 
 [[noreturn]] void fail_writing(const fs::path& path, int error_number)
 {
@@ -58,18 +62,36 @@ AtomicFile::AtomicFile(const fs::path& target)
         fail();
     }
     if (const auto [exists, mode] = permissions_of(target_); exists) ::fchmod(descriptor_, mode);
+    enlist();
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
       descriptor_(std::exchange(other.descriptor_, -1))
 {
+    enlist();
 }
 
 AtomicFile::~AtomicFile()
 {
     close_descriptor();
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    const std::scoped_lock lock(list_mutex);
+    AtomicFile** link = &first_in_list;
+    while (*link != nullptr && *link != this) link = &(*link)->next_;
+    if (*link == this) *link = next_;
+}
+
+void AtomicFile::enlist()
+{
+    const std::scoped_lock lock(list_mutex);
+    next_ = std::exchange(first_in_list, this);
+}
+
+void AtomicFile::remove_temporary_files() noexcept
+{
+    for (const AtomicFile* file = first_in_list; file != nullptr; file = file->next_)
+        if (!file->temporary_.empty()) ::unlink(file->temporary_.c_str());
 }
 
 void AtomicFile::write(std::string_view bytes)

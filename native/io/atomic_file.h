@@ -24,12 +24,18 @@ public:
     /// @throws FileError the target cannot be replaced
     void commit();
 
+    /// Removes all that was not committed, for an end of the process that runs no destructors. It asks for no memory;
+    /// nobody may be at work on such files.
+    static void remove_temporary_files() noexcept;
+
 private:
     void close_descriptor();
+    void enlist();
     [[noreturn]] void fail() const;
 
     std::filesystem::path target_, temporary_;
     int descriptor_ = -1;
+    AtomicFile* next_ = nullptr;  ///< in the list of all there are
 };
 
 /// What AtomicFile needs, asked before a long computation.

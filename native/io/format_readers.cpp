@@ -126,6 +126,23 @@ PolygonMesh read_obj(std::string bytes)
 
 // ---------------------------------------------------------------- OFF
 
+/// The next line that says something: a number of corners, as many vertices from `first` on, and perhaps a colour.
+/// CGAL's scanner makes a number without a sign of any that it finds there.
+static bool read_off_face(std::istream& file, std::vector<Index>& polygon, Index first, std::size_t vertex_count)
+{
+    std::string line;
+    do {
+        if (!std::getline(file, line)) return false;
+        line.erase(std::min(line.find('#'), line.size()));
+    } while (line.find_first_not_of(" \t\r") == std::string::npos);
+    std::istringstream words(line);
+    Index corners = 0;
+    words >> corners;
+    for (Index vertex; std::ssize(polygon) < corners && words >> vertex; polygon.push_back(vertex - first))
+        if (vertex < first || static_cast<std::size_t>(vertex - first) >= vertex_count) return false;
+    return !words.fail() && std::ssize(polygon) == corners;
+}
+
 /// Not by read_OFF, which makes room for as many corners as a face says, and reads outside its arrays if a colour has
 /// two numbers; nor can it say which element is wrong.
 PolygonMesh read_off(std::string bytes)
@@ -146,15 +163,9 @@ PolygonMesh read_off(std::string bytes)
         if (file.fail()) fail("vertex", v, "is missing or is not three finite numbers");
     }
     for (std::size_t f = 0; f < scanner.size_of_facets(); ++f) {
-        std::size_t corners = 0;
-        scanner.scan_facet(corners, f);
-        std::vector<Index>& polygon = soup.polygons.emplace_back();
-        for (std::size_t corner = 1; corner <= corners && !file.fail(); ++corner) {
-            std::size_t vertex = 0;
-            scanner.scan_facet_vertex_index(vertex, corner, f);
-            polygon.push_back(static_cast<Index>(vertex));
-        }
-        if (file.fail()) fail("face", f, "is missing, is cut short or names a vertex that is not there");
+        const Index first = static_cast<Index>(scanner.index_offset());
+        if (!read_off_face(file, soup.polygons.emplace_back(), first, scanner.size_of_vertices()))
+            fail("face", f, "is missing, is cut short or names a vertex that is not there");
     }
     return to_mesh(soup);
 }

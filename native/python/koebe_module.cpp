@@ -49,19 +49,6 @@ PlanarPoints planar(const VectorXcd& positions)
     return points;
 }
 
-/// Negative weights of obtuse faces can carry vertices out of the disk.
-PlanarPoints inside_disk(PlanarPoints points)
-{
-    std::vector<Index> outside;
-    for (Eigen::Index v = 0; v < points.rows(); ++v)
-        if (points.row(v).norm() > 1.0 + 1e-9) outside.push_back(static_cast<Index>(v));
-    if (!outside.empty())
-        throw SolverError("the map takes " + std::to_string(outside.size()) +
-                              " vertices out of the unit disk: faces round them are too obtuse (vertices listed)",
-                          outside);
-    return points;
-}
-
 VectorXcd complex(const Eigen::Ref<const PlanarPoints>& points)
 {
     return points.col(0) + Complex(0.0, 1.0) * points.col(1);
@@ -94,7 +81,7 @@ std::pair<PlanarPoints, double> annulus_by(AnnulusBackend backend, const Vertice
         throw SolverError("the discrete Yamabe flow left a curvature of " + std::to_string(map.curvature_error) +
                           " and " + std::to_string(map.collapsed) + " collapsed faces after " +
                           std::to_string(map.steps) + " steps");
-    return {inside_disk(planar(map.positions)), map.inner_radius};
+    return {planar(map.positions), map.inner_radius};
 }
 
 }  // namespace
@@ -178,9 +165,9 @@ PYBIND11_MODULE(_koebe, m)
         return detached([positions = Vertices(vertices), faces = Triangles(triangles)] {
             const SerialDenseKernels serial;
             const Surface surface = surface_with_loops(positions, faces, 1);
-            return inside_disk(planar(disk_map(surface.triangles, edge_lengths(positions, surface.triangles),
-                                               surface.vertex_count, surface.loops[0])
-                                          .positions));
+            return planar(disk_map(surface.triangles, edge_lengths(positions, surface.triangles), surface.vertex_count,
+                                   surface.loops[0])
+                              .positions);
         });
     });
     m.def("annulus_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,

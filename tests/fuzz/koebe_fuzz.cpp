@@ -3,12 +3,14 @@
 #include "mutator.h"
 #include "seeds.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string>
 
 using namespace koebe::fuzz;
@@ -18,7 +20,8 @@ namespace {
 
 constexpr const char* usage = "koebe_fuzz run TARGET FILE ...\n"
                               "koebe_fuzz seeds TARGET FOLDER\n"
-                              "koebe_fuzz storm TARGET COUNT SEED FOLDER   findings go to FOLDER\n";
+                              "koebe_fuzz storm TARGET COUNT SEED FOLDER [CORPUS ...]\n"
+                              "    COUNT random inputs, half of them changed ones of CORPUS; findings go to FOLDER\n";
 
 std::vector<std::uint8_t> read_bytes(const fs::path& path)
 {
@@ -41,6 +44,7 @@ bool passes(Target target, const std::vector<std::uint8_t>& bytes, const std::st
         return true;
     } catch (const std::exception& error) {
         std::printf("%s: %s\n", name.c_str(), error.what());
+        std::fflush(stdout);
         return false;
     }
 }
@@ -60,14 +64,37 @@ std::vector<std::uint8_t> random_file(const std::vector<Seed>& seeds, Random& ra
     return bytes;
 }
 
-int storm(Target target, std::size_t count, std::size_t first, const fs::path& folder)
+using Corpus = std::vector<std::vector<std::uint8_t>>;
+
+Corpus read_corpus(std::span<const std::string> folders)
+{
+    std::vector<fs::path> paths;
+    for (const std::string& folder : folders)
+        for (const auto& entry : fs::directory_iterator(folder)) paths.push_back(entry.path());
+    std::ranges::sort(paths);
+    Corpus corpus;
+    for (const fs::path& path : paths) corpus.push_back(read_bytes(path));
+    return corpus;
+}
+
+std::vector<std::uint8_t> random_input(Target target, const std::vector<Seed>& seeds, const Corpus& corpus,
+                                       Random& random)
+{
+    if (!takes_a_program(target)) return random_file(seeds, random);
+    if (corpus.empty() || random.below(2) == 0) return random_program(random);
+    const auto& first = corpus[random.below(corpus.size())];
+    if (random.below(4) > 0) return mutate(first, random);
+    return cross_over(first, corpus[random.below(corpus.size())], random);
+}
+
+int storm(Target target, std::size_t count, std::size_t first, const fs::path& folder, const Corpus& corpus)
 {
     const std::vector<Seed> seeds = seeds_of(target);
     int findings = 0;
     const fs::path current = folder / "current";  // stays if the process dies
     for (std::size_t i = first; i < first + count; ++i) {
         Random random(i);
-        const auto bytes = takes_a_program(target) ? random_program(random) : random_file(seeds, random);
+        const auto bytes = random_input(target, seeds, corpus, random);
         if (std::getenv("KOEBE_FUZZ_KEEP")) write_bytes(current, bytes);
         const std::string name = "finding-" + std::to_string(i);
         if (passes(target, bytes, name)) continue;
@@ -93,8 +120,9 @@ int main(int argc, char** argv)
         for (const Seed& seed : seeds_of(target)) write_bytes(fs::path(words[2]) / seed.name, seed.bytes);
         return EXIT_SUCCESS;
     }
-    if (target && words[0] == "storm" && words.size() == 5)
-        return storm(target, std::stoul(words[2]), std::stoul(words[3]), words[4]);
+    if (target && words[0] == "storm" && words.size() >= 5)
+        return storm(target, std::stoul(words[2]), std::stoul(words[3]), words[4],
+                     read_corpus(std::span(words).subspan(5)));
     std::fputs(usage, stderr);
     return 2;
 }

@@ -141,15 +141,16 @@ void check_planar_mesh(const Program& program)
     require_even(polygon);
     const PlanarMesh mesh = planar_mesh({polygon});
     require(mesh.points.allFinite() && mesh.points.head(polygon.size()) == polygon, "the polygon's points stay");
+    const double extent = polygon.cwiseAbs().maxCoeff();
+    const double middle_is_off = 4.0 * 0x1p-53 * extent * extent;  // by its rounding, a chord's middle is beside it
     double area = 0.0;
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
         VectorXcd triangle(3);
         for (int k = 0; k < 3; ++k) triangle[k] = mesh.points[mesh.triangles(f, k)];
         const double part = area_of(triangle);
-        require(part >= 0.0, "triangles are counter-clockwise");
+        require(part >= -middle_is_off, "triangles are counter-clockwise");
         area += part;
     }
-    const double extent = polygon.cwiseAbs().maxCoeff();
     require(std::abs(area - std::abs(area_of(polygon))) <= 1e-9 * extent * extent, "the triangles fill the polygon");
 }
 

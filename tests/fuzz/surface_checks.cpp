@@ -105,6 +105,9 @@ void check_filling(const Program& program, bool fair)
     require(filled.label.size() == static_cast<std::size_t>(filled.triangles.rows()), "every face has a label");
     for (const Index twin : pair_halfedges(filled.triangles, static_cast<Index>(filled.vertices.rows())))
         require(twin != no_twin, "a filled surface is closed");
+    if (!fair) return;
+    const FilledSurface again = fill_and_fair_holes(vertices, triangles);
+    require(again.vertices == filled.vertices && again.triangles == filled.triangles, "a patch is the same each time");
 }
 
 void check_fans(const Program& program)

@@ -2,10 +2,14 @@
 #include "conformal/disk_map.h"
 #include "conformal/moebius.h"
 #include "core/errors.h"
+#include "core/topology.h"
+#include "random_disks.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 using namespace koebe;
 using namespace koebe::test;
@@ -114,4 +118,34 @@ TEST(DiskMap, a_centre_on_the_boundary_or_nowhere_is_refused)
     EXPECT_THROW(map_of(domain, Lift::plane, {.center = domain.loops[0][3]}), InputError);
     EXPECT_THROW(map_of(domain, Lift::plane, {.center = static_cast<Index>(domain.points.size())}), InputError);
     EXPECT_THROW(map_of(domain, Lift::plane, {.halvings = 0}), InputError);
+}
+
+TEST(DiskMap, never_leaves_the_closed_disk)
+{
+    // Points anywhere make obtuse faces, whose negative weights take some maps out of the disk.
+    int maps = 0, errors = 0;
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        std::mt19937 random(seed);
+        const Triangles triangles = as_triangles(flipped_at_random(limb(4, 5), 60, random));
+        Vertices vertices(21, 3);
+        for (double& x : vertices.reshaped()) x = static_cast<double>(random()) * 0x1p-32;
+        const Surface surface = require_bordered_genus_zero(triangles, 21);
+        const EdgeLengths lengths = edge_lengths(vertices, surface.triangles);
+        const auto farthest = [&](bool inside) {
+            return disk_map(surface.triangles, lengths, 21, surface.loops[0], {.inside = inside})
+                .positions.cwiseAbs()
+                .maxCoeff();
+        };
+        const double outside = farthest(false);
+        try {
+            EXPECT_LE(farthest(true), 1.0 + 1e-9);
+            ++maps;
+        } catch (const SolverError& error) {
+            EXPECT_FALSE(error.elements().empty());
+            EXPECT_GT(outside, 1.0 + 1e-9);
+            ++errors;
+        }
+    }
+    EXPECT_GT(maps, 0);
+    EXPECT_GT(errors, 0);
 }

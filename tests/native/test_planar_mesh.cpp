@@ -173,3 +173,15 @@ TEST(PlanarMesh, polygons_that_are_not_simple_are_refused_with_the_place)
     broken[2] = Complex(std::nan(""), 0.0);
     EXPECT_THROW(planar_mesh({broken}), InputError);
 }
+
+TEST(PlanarMesh, takes_polygons_of_any_size)
+{
+    const VectorXcd polygon = regular_polygon({0.1, -0.2}, 0.7, 30, 0.5);
+    const PlanarMesh mesh = planar_mesh({polygon});
+    for (const int exponent : {-900, -300, 300, 1000}) {
+        const double scale = std::ldexp(1.0, exponent);
+        const PlanarMesh scaled = planar_mesh({scale * polygon});
+        EXPECT_EQ(scaled.triangles, mesh.triangles) << exponent;
+        EXPECT_EQ(scaled.points, scale * mesh.points) << exponent;
+    }
+}

@@ -205,9 +205,8 @@ TEST(Threads, the_other_functions_give_at_once_what_they_give_alone)
     expect_alike("match_loops", [] { return match_loops(five_circles(), five_circles()).distance; });
 }
 
-// CGAL meets a hole's triangulations in an order of memory addresses, and takes the first of those that are as good: a
-// round hole is filled in one way by the first call of a process, and in another by those after it.
-TEST(Threads, DISABLED_faired_holes_are_the_same_each_time)
+// Of triangulations that are as good, as there are of a round hole, CGAL takes the first that it meets.
+TEST(Threads, faired_holes_are_the_same_each_time)
 {
     const CircleDomain holes = make_circle_domain(five_circles(), face_count);
     const Vertices surface = lift(holes.points, Lift::enneper);

@@ -1,0 +1,39 @@
+// A kernel whose 3D triangulations do not depend on memory addresses.
+#pragma once
+
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_3.h>
+#include <CGAL/tags.h>
+
+#include <cstddef>
+
+namespace koebe {
+
+/// CGAL's kernel under a name of its own, for the specialization below.
+struct KernelOfAgedCells : CGAL::Exact_predicates_inexact_constructions_kernel {};
+
+}  // namespace koebe
+
+namespace CGAL {
+
+/// A cell that knows its age. CGAL names an edge by the least of the cells around it, and walks around it from there.
+/// Without an age the least cell is that of the lowest address, which differs from call to call.
+template <class Base>
+class Delaunay_triangulation_cell_base_3<koebe::KernelOfAgedCells, Base> : public Base {
+public:
+    using Has_timestamp = Tag_true;
+    template <class Structure>
+    struct Rebind_TDS {
+        using Other = Delaunay_triangulation_cell_base_3<koebe::KernelOfAgedCells,
+                                                         typename Base::template Rebind_TDS<Structure>::Other>;
+    };
+    using Base::Base;
+    std::size_t time_stamp() const { return age_; }
+    void set_time_stamp(std::size_t age) { age_ = age; }
+
+private:
+    std::size_t age_ = static_cast<std::size_t>(-1);
+};
+
+}  // namespace CGAL
