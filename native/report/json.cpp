@@ -43,6 +43,11 @@ Json area_json(const AreaDistortion& area)
     return {{"log_sd", area.log_sd}, {"log_min", area.log_min}, {"log_max", area.log_max}};
 }
 
+Json warning_json(const Warning& warning)
+{
+    return {{"kind", to_string(warning.kind)}, {"elements", warning.elements}, {"text", warning.text()}};
+}
+
 }  // namespace
 
 const char* to_string(Method method) noexcept { return method == Method::gk ? "gk" : "ck"; }
@@ -64,9 +69,7 @@ Json to_json(const Distortion& distortion)
 
 Json to_json(const std::vector<Warning>& warnings)
 {
-    return array_json(warnings, [](const Warning& warning) {
-        return Json{{"kind", to_string(warning.kind)}, {"elements", warning.elements}, {"text", warning.text()}};
-    });
+    return array_json(warnings, warning_json);
 }
 
 Json to_json(const UniformizeResult& result)

@@ -303,3 +303,15 @@ def test_the_result_line_counts_the_warnings(folder):
     run = koebe("fill", "in.obj", "out.obj", cwd=folder)
     assert re.search(r" s, 1 warning: faces of fewer than three different vertices.*\n$", run.stdout), run.stdout
     assert len(json.loads(koebe("module", "in.obj", cwd=folder).stdout)["warnings"]) == 2
+
+
+def test_warnings_of_faces_name_the_faces_of_the_file(folder):
+    """The map is of triangles; a script knows the quads."""
+    vertices, quads = perforated()
+    turned = [*quads[:7], quads[7][::-1], *quads[8:]]
+    (folder / "in.obj").write_text(obj_text(vertices, turned))
+    koebe("uniformize", "in.obj", "out.obj", "--json", "report.json", cwd=folder)
+    (warning,) = json.loads((folder / "report.json").read_text())["warnings"]
+    assert set(warning) == {"kind", "elements", "text"}
+    assert (warning["kind"], warning["elements"]) == ("reoriented_faces", [7])
+    assert warning["text"].endswith("the first face is 7")

@@ -4,6 +4,7 @@ import ast
 import re
 from pathlib import Path
 
+import koebe
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -90,3 +91,10 @@ def test_every_error_has_an_entry(file, message):
 @pytest.mark.parametrize("kind", topology_kinds())
 def test_every_kind_of_topology_error_has_an_entry(kind):
     assert key(reasons()[kind].split(": ")[0]) in PAGE
+
+
+def test_every_kind_of_warning_has_its_row():
+    text = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| (\w+) \|", text, re.MULTILINE)
+    assert dict(rows) == koebe.WARNING_ELEMENTS
+    assert len(rows) == len(koebe.WARNING_ELEMENTS)
