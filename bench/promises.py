@@ -22,6 +22,10 @@ def broken(triangles, result):
         if set(loop[away].tolist()) - set(off.tolist()):
             found.append("off its circle and not listed")
             break
+    triangles = np.array(triangles)
+    for warning in result.warnings:
+        if warning.kind == "reoriented_faces":
+            triangles[warning.elements] = triangles[warning.elements, ::-1]
     area, longest = as_stored(uv, triangles)
     flipped = ~(area > 0)
     if flipped.sum() != result.flipped:
