@@ -203,13 +203,19 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         context.begin_stage("polish", 0.97, 1.0);
         result.unpolished_angle_error_deg =
             measure_distortion(whole.vertices, whole.surface.triangles, map.uv).angle_error_deg;
+        const PlanarPoints before = map.uv;
         polish_angles(whole.vertices, whole.surface, whole.loops, circles, map.off_circle, map.uv, context);
+        // It looks after faces and circles; a loop with vertices off its circle may still come to cross itself.
+        MapFaults polished = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
+        if (polished.any() && !faults.any())
+            map.uv = before;
+        else
+            faults = std::move(polished);
     }
     report_map(named, map, result);
     add_warnings(whole, outcome, result);
     const auto of_flips = flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion);
     result.warnings.insert(result.warnings.end(), of_flips.begin(), of_flips.end());
-    if (options.polish) faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
     if (faults.any()) {
         result.converged = false;
         result.warnings.push_back(
