@@ -17,7 +17,7 @@ struct InteriorSolution {
 
 /// K + diag(0 on I, 1 on B) = L L' with the boundary B ordered last. The trailing block L_BB gives
 /// Sigma = K_BB - K_BI K_II^-1 K_IB = L_BB L_BB' - 1, the leading part is the factor of K_II
-/// (docs/method.md, "One factorization").
+/// (docs/method.md, "The condensed engine").
 ///
 /// A part of the boundary can be grounded: it counts with the interior, but is held at 0, so that Sigma is of the rest
 /// alone. Of long boundaries nothing dense is kept: then there is no Sigma, and K_II is factored alone.

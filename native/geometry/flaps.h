@@ -9,7 +9,7 @@ namespace koebe {
 
 /// An ear or a strip behind an interior edge, the hinge, that joins two vertices of one loop and has no other loop
 /// behind it. With all its loop vertices on their circle it would be drawn over its neighbours, since the hinge is a
-/// chord of the hole (docs/method.md, "Flips").
+/// chord of the hole (docs/numerics.md, "Flips").
 struct Flap {
     int loop = 0;                 ///< place in the list of loops
     Index first = 0, last = 0;    ///< the hinge: the loop runs from first along the flap to last

@@ -26,7 +26,7 @@ struct IntrinsicMetric {
 /// Mollification adds one length to every edge so that each triangle inequality holds with a margin (Sharp and
 /// Crane 2020, section 4.5). Flips make opposite angles of every edge sum to at most pi (Fisher et al. 2006;
 /// Bobenko and Springborn 2007), but for those whose new edge would join two vertices of one boundary loop: it would
-/// take the flux from the vertices between (docs/method.md, "Bad triangles").
+/// take the flux from the vertices between (docs/numerics.md, "The metric").
 IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
                                  const IntrinsicMetricOptions& options = {});
 

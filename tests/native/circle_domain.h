@@ -1,4 +1,4 @@
-// Circle domains with known circles, triangulated, and conformal lifts of them (docs/method.md, "Exact solutions").
+// Circle domains with known circles, triangulated, and conformal lifts of them (docs/benchmarks.md, "Accuracy on exact domains").
 #pragma once
 
 #include "conformal/result.h"
