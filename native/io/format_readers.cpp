@@ -1,6 +1,7 @@
 #include "io/format_readers.h"
 
 #include "core/errors.h"
+#include "io/off_text.h"
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
@@ -126,32 +127,14 @@ PolygonMesh read_obj(std::string bytes)
 
 // ---------------------------------------------------------------- OFF
 
-/// The next line that says something: a number of corners, as many vertices from `first` on, and perhaps a colour.
-/// CGAL's scanner makes a number without a sign of any that it finds there.
-static bool read_off_face(std::istream& file, std::vector<Index>& polygon, Index first, std::size_t vertex_count)
-{
-    std::string line;
-    do {
-        if (!std::getline(file, line)) return false;
-        line.erase(std::min(line.find('#'), line.size()));
-    } while (line.find_first_not_of(" \t\r") == std::string::npos);
-    std::istringstream words(line);
-    Index corners = 0;
-    words >> corners;
-    for (Index vertex; std::ssize(polygon) < corners && words >> vertex; polygon.push_back(vertex - first))
-        if (vertex < first || static_cast<std::size_t>(vertex - first) >= vertex_count) return false;
-    return !words.fail() && std::ssize(polygon) == corners;
-}
-
 /// Not by read_OFF, which makes room for as many corners as a face says, and reads outside its arrays if a colour has
 /// two numbers; nor can it say which element is wrong.
 PolygonMesh read_off(std::string bytes)
 {
+    require_off_header(bytes);
     const std::size_t size = bytes.size();
     std::istringstream file(std::move(bytes));
     CGAL::File_scanner_OFF scanner(file);
-    if (scanner.binary() || scanner.skel() || scanner.n_dimensional())
-        throw InputError("OFF is supported as a text in three dimensions, not binary, SKEL or nOFF");
     if (file.fail()) throw InputError("the file does not start with OFF and three counts");
     if (file.peek() == '.') throw InputError("the header has no number of edges");  // it was taken from a coordinate
     require_count_fits(scanner.size_of_vertices(), "vertex", size);

@@ -124,6 +124,11 @@ double area_of(const VectorXcd& polygon)
     return twice / 2.0;
 }
 
+double extent_of(const VectorXcd& polygon)
+{
+    return std::max(polygon.real().cwiseAbs().maxCoeff(), polygon.imag().cwiseAbs().maxCoeff());
+}
+
 /// As many small edges as the gradation asks for may be very many: only polygons without short edges.
 void require_even(const VectorXcd& polygon)
 {
@@ -141,17 +146,23 @@ void check_planar_mesh(const Program& program)
     require_even(polygon);
     const PlanarMesh mesh = planar_mesh({polygon});
     require(mesh.points.allFinite() && mesh.points.head(polygon.size()) == polygon, "the polygon's points stay");
-    const double extent = polygon.cwiseAbs().maxCoeff();
-    const double middle_is_off = 4.0 * 0x1p-53 * extent * extent;  // by its rounding, a chord's middle is beside it
+    const int exponent = -std::ilogb(extent_of(polygon));  // to a size of which no area underflows
+    const auto scaled = [exponent](Complex z) {
+        return Complex(std::ldexp(z.real(), exponent), std::ldexp(z.imag(), exponent));
+    };
+    const VectorXcd unit = polygon.unaryExpr(scaled);
+    const double extent = extent_of(unit);
+    // By its rounding, a chord's middle is beside it; and the area is rounded.
+    const double middle_is_off = 8.0 * 0x1p-53 * extent * extent;
     double area = 0.0;
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
         VectorXcd triangle(3);
-        for (int k = 0; k < 3; ++k) triangle[k] = mesh.points[mesh.triangles(f, k)];
+        for (int k = 0; k < 3; ++k) triangle[k] = scaled(mesh.points[mesh.triangles(f, k)]);
         const double part = area_of(triangle);
         require(part >= -middle_is_off, "triangles are counter-clockwise");
         area += part;
     }
-    require(std::abs(area - std::abs(area_of(polygon))) <= 1e-9 * extent * extent, "the triangles fill the polygon");
+    require(std::abs(area - std::abs(area_of(unit))) <= 1e-9 * extent * extent, "the triangles fill the polygon");
 }
 
 void check_crossings(const Program& program)

@@ -23,6 +23,7 @@ COMMANDS = {
     "uniformize": ("uniformize", "in.obj", "out.obj", "--json", "out.json", "--svg", "out.svg"),
     "mesh engine": ("uniformize", "in.obj", "out.ply", "--engine", "mesh", "--balance", "area"),
     "fill": ("fill", "in.obj", "out.obj"),
+    "ricci": ("ricci", "in.obj", "out.obj"),
 }
 OUTPUTS = {name: {word for word in words if word.startswith("out.")} for name, words in COMMANDS.items()}
 

@@ -1,0 +1,20 @@
+// What is read of an OFF file beside CGAL's scanner, which takes any numbers for counts and vertices.
+#pragma once
+
+#include "core/types.h"
+
+#include <istream>
+#include <string_view>
+#include <vector>
+
+namespace koebe::io {
+
+/// CGAL computes with the counts in 32 bits before anybody can look at them.
+/// @throws InputError the file is not a text in three dimensions, or a count is more than the file can hold
+void require_off_header(std::string_view bytes);
+
+/// The next line that says something: a number of corners, as many vertices from `first` on, and perhaps a colour.
+/// @return false: the line is missing, is cut short or names a vertex that is not there
+bool read_off_face(std::istream& file, std::vector<Index>& polygon, Index first, std::size_t vertex_count);
+
+}  // namespace koebe::io
