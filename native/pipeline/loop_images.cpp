@@ -13,7 +13,7 @@
 namespace koebe {
 namespace {
 
-constexpr Index most_refined_faces = 20000;
+constexpr Index most_refined_faces = 20000, most_for_the_mesh_engine = 4000;
 constexpr int most_refinements = 3;
 
 std::vector<Index> boundary_of(const Domain& domain)
@@ -95,17 +95,18 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
         return KoebeOutcome{};
     };
     KoebeOutcome outcome = attempt([&] { return run_engine(domain, assembled, options, context); });
-    bool wanting = !sound(outcome) || more_boundary_than_inside(domain);
+    const bool condensed = options.engine == Engine::condensed;
+    bool wanting = !sound(outcome) || (condensed && more_boundary_than_inside(domain));
     Domain fine;
     Index stride = 1;
     for (int level = 0; level < most_refinements && wanting; ++level) {
         const Domain& coarse = level == 0 ? domain : fine;
-        if (4 * coarse.surface.triangles.rows() > most_refined_faces) break;
+        if (4 * coarse.surface.triangles.rows() > (condensed ? most_refined_faces : most_for_the_mesh_engine)) break;
         fine = refined_domain(coarse);
         stride *= 2;
         KoebeOutcome finer = attempt([&] {
             AssembledDomain refined;
-            if (options.engine == Engine::condensed) {
+            if (condensed) {
                 refined.take_metric(fine);
                 refined.factorize(fine);
             }

@@ -25,7 +25,8 @@ struct AssembledDomain {
 
 /// Runs the engine that the options name. Where the loops' images cannot be right (a circle that leaves the disk or
 /// meets another, a boundary vertex without flux, more boundary vertices than inner ones) it runs again on a refined
-/// domain (refined_domain), up to three times, as long as that has at most 20,000 faces.
+/// domain (refined_domain), up to three times, as long as that has at most 20,000 faces. The mesh engine, which is slow,
+/// does so for unsound images alone, up to 4,000 faces.
 /// @param assembled without a factor if the domain's matrix is singular
 /// @return the images of the domain's own loop vertices; no loops if nothing came of it
 KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
