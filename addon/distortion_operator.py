@@ -50,6 +50,7 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
                 self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
                 return {"CANCELLED"}
             _show_colors(run, context, self.kind != "none")
+            edit_mode.undo_all(context)
             if problems:
                 self.report({"WARNING"}, f"Koebe UV: left out. {'. '.join(problems)}")
             return {"FINISHED"}

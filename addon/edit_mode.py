@@ -43,6 +43,16 @@ def enter(run, context, obj):
         raise TransferError(f"{obj.name}: Blender does not enter Edit Mode with it")
 
 
+def undo_all(context):
+    """Let the undo step of the running operator hold the whole file, as it does in Object Mode.
+
+    In Edit Mode it holds the edited meshes alone, without slots, custom properties, selected objects and settings; but
+    Blender keeps the whole file beside it once a data-block was added or removed.
+    """
+    if context.mode == "EDIT_MESH":
+        bpy.data.meshes.remove(bpy.data.meshes.new("Koebe undo"))
+
+
 @contextlib.contextmanager
 def left_if_faster(run, context):
     """Object Mode inside, where Blender writes faster there, and where it is sure to find back."""

@@ -61,10 +61,14 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
             with edit_mode.left_if_faster(run, context):
                 job.write(run)
             results.record(run, context, job)
-            select_offenders(run, context, job)
+            selected = select_offenders(run, context, job)
             for area in context.screen.areas if context.screen else ():
                 area.tag_redraw()
-            return self._say(job)
+            edit_mode.undo_all(context)
+            answer = self._say(job)
+            if selected and answer == {"CANCELLED"}:  # after which Blender makes no undo step
+                bpy.ops.ed.undo_push(message="Select What Is Wrong")
+            return answer
 
     def _say(self, job):
         failures = [report.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
@@ -116,6 +120,7 @@ class UV_OT_koebe_checker(bpy.types.Operator):
             if len(problems) == len(wearing or objects):
                 self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
                 return {"CANCELLED"}
+            edit_mode.undo_all(context)
             if problems:
                 self.report({"WARNING"}, f"Koebe UV: left out. {'. '.join(problems)}")
             return {"FINISHED"}

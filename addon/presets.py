@@ -5,6 +5,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
+from . import edit_mode
 from .noted import note_group
 from .properties import OPTION_NAMES
 from .transaction import transaction
@@ -53,6 +54,7 @@ class UV_OT_koebe_reset(bpy.types.Operator):
             note_group(run, context.scene.koebe_uv)
             for name in OPTION_NAMES:
                 context.scene.koebe_uv.property_unset(name)
+            edit_mode.undo_all(context)
             return {"FINISHED"}
 
 

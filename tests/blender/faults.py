@@ -73,6 +73,7 @@ def check_all_comes_back(folder, build, operator, options, most):
     expected = fingerprint.fingerprint()
     build()
     before, wrong = fingerprint.fingerprint(), {}
+    assert answer == {"FINISHED"} and fingerprint.differences(before, expected), "it does nothing"
     for number in chosen(counting.steps, most):
         fault = Fault(folder, number)
         call(operator, fault, **options)

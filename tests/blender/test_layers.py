@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 import scenes
+import states
 
 
 def test_the_layer_of_the_option_is_made_and_the_others_stay():
@@ -58,6 +59,36 @@ def test_an_attribute_of_that_name_is_not_overwritten():
     values = scenes.read(obj.data.attributes["Koebe"].data, "value", np.float32)
     assert np.array_equal(values, np.arange(len(values)))
     assert len(obj.data.uv_layers) == 0
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+@pytest.mark.parametrize("name", ["uv_seam", ".uv_seam", "position", "Koebe Distortion", "sharp_edge"])
+def test_names_that_blender_uses_itself_break_no_run(name, mode):
+    """As a UV layer that is there already, as a vertex group, and as the layer to write."""
+    plain = states.twins()[0]  # it has a seam
+    scenes.select(plain)
+    bpy.ops.uv.koebe_uniformize()
+    expected = scenes.corner_uv(plain.data, "Koebe").copy()
+    states.new_file()
+    obj = states.twins()[0]
+    made = obj.data.uv_layers.new(name=name)
+    made = made and made.name
+    obj.vertex_groups.new(name="Koebe")
+    scenes.select(obj)
+    before = scenes.mesh_state(obj.data)
+    scenes.select_faces(obj)
+    bpy.ops.object.mode_set(mode=mode)
+    for _ in range(3):
+        assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+        assert bpy.ops.uv.koebe_distortion() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    found = scenes.corner_uv(obj.data, "Koebe").copy()
+    assert np.array_equal(found, expected)
+    after = scenes.mesh_state(obj.data, but_layer="Koebe")
+    assert {key for key in before if before[key] != after.get(key) and "select" not in key} == set()
+    if made and not made.startswith("."):
+        assert bpy.ops.uv.koebe_uniformize(layer=made) == {"FINISHED"}
+        assert np.array_equal(scenes.corner_uv(obj.data, made), expected)
 
 
 @pytest.mark.parametrize("name", ["", " ", ".hidden"])
