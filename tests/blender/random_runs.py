@@ -9,7 +9,7 @@ import states
 from runs import operator
 from touched import Touched
 
-LAYERS = ("Koebe", "Koebe", "First", "Other", "uv_seam", "Own 0")
+LAYERS = ("Koebe", "Koebe", "Koebe", "Koebe", "First", "Other", "uv_seam", "Own 0")
 ERRORS = (KeyboardInterrupt, ValueError, MemoryError, RuntimeError)
 
 
@@ -81,6 +81,7 @@ class RandomRun:
         return [items[index] for index in chosen]
 
     def _meshes(self):
+        bpy.context.view_layer.update()
         return [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH"]
 
     # ---------------------------------------------------------------- what an artist does between
@@ -155,7 +156,7 @@ class RandomRun:
         if name == "uv.koebe_uniformize":
             return {"layer": layer, "checker": one([True, False]), "checker_size": one([8.0, 32.0]),
                     "checker_even": one([True, False]), "tube": one(["annulus", "unroll"]),
-                    "placement": one(["pack", "together", "keep"]), "outer": one(["auto", "longest", "active"]),
+                    "placement": one(["pack", "together", "keep"]), "outer": one(["auto", "auto", "longest", "active"]),
                     "method": one(["gk", "ck"]), "max_sweeps": one([1, 50]), "upright": one([True, False])}  # fmt: skip
         if name == "uv.koebe_checker":
             return {"layer": layer, "checker_even": one([True, False])}
