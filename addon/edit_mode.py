@@ -16,7 +16,10 @@ def check(context, obj):
     if obj.library is not None or obj.override_library is not None:
         raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
     if not _visible(context, obj):
-        raise TransferError(f"{obj.name}: it is hidden: show it first")
+        raise TransferError(
+            f"{obj.name}: it is not in local view: leave that first" if obj.visible_get(view_layer=context.view_layer)
+            else f"{obj.name}: it is hidden: show it first"
+        )  # fmt: skip
 
 
 def _visible(context, obj):

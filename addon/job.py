@@ -7,6 +7,7 @@
 import dataclasses
 
 from . import checker, map_writing, native, transfer, uv_layers
+from .errors import few
 from .outcomes import Task
 from .pipeline import map_surfaces
 from .targets import Target, check_mesh, reason, with_own_meshes
@@ -39,7 +40,7 @@ class Job:
         if not self.targets:
             reasons = [text for _, text in self.refused]
             raise transfer.TransferError(
-                ". ".join(reasons) if reasons
+                few(reasons) if reasons
                 else "no faces are selected" if selected_only else "there is no mesh with faces"
             )  # fmt: skip
         if options.outer == "active" and all(task.outer == "auto" for task in self.tasks):

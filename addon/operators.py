@@ -5,6 +5,7 @@ import bpy
 
 from . import checker, edit_mode, report, results
 from .distortion import texel_density
+from .errors import few, lines
 from .job import Job
 from .modal_run import ModalRun
 from .native import NativeError
@@ -74,7 +75,7 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
         failures = [report.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         failures += [text for _, text in job.refused]
         if not job.mapped_any:
-            self.report({"ERROR"}, "Koebe UV: nothing was mapped. " + ". ".join(failures))
+            self.report({"ERROR"}, lines("Koebe UV: nothing was mapped.", failures))
             return {"CANCELLED"}
         for outcome in job.outcomes:
             if outcome.mapped:
@@ -83,7 +84,7 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
             for warning in dict.fromkeys([*found, *outcome.remarks]):
                 self.report({"WARNING"}, f"{outcome.name}: {warning}")
         if failures:
-            self.report({"WARNING"}, "Koebe UV: not mapped. " + ". ".join(failures))
+            self.report({"WARNING"}, "Koebe UV: not mapped. " + few(failures))
         return {"FINISHED"}
 
 
@@ -118,11 +119,11 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                     elif not checker.is_on(obj):  # it may be by now, as another object has the same mesh
                         checker.put_on(run, obj, material)
             if len(problems) == len(wearing or objects):
-                self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
+                self.report({"ERROR"}, lines("Koebe UV:", problems))
                 return {"CANCELLED"}
             edit_mode.undo_all(context)
             if problems:
-                self.report({"WARNING"}, f"Koebe UV: left out. {'. '.join(problems)}")
+                self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
             return {"FINISHED"}
 
     def _density(self, obj):

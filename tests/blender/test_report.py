@@ -134,3 +134,13 @@ def test_the_shortcut_is_off_until_asked_for(addon_name):
     assert preferences.shortcut is False
     preferences.shortcut = True
     preferences.shortcut = False
+
+
+def test_an_error_about_many_objects_is_a_few_lines_and_the_report_has_all():
+    cubes = [scenes.add_cube(f"Cube {index}") for index in range(40)]
+    scenes.select(*cubes)
+    with pytest.raises(RuntimeError) as caught:
+        bpy.ops.uv.koebe_uniformize()
+    lines = str(caught.value).strip().splitlines()
+    assert len(lines) <= 8 and max(map(len, lines)) < 160 and "34 more" in lines[-1]
+    assert [entry.object_name for entry in islands()] == [cube.name for cube in cubes]
