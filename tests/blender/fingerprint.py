@@ -210,7 +210,9 @@ def _edited(mesh):
             if kind.startswith("_") or kind in ("bevel_weight", "crease", "paint_mask", "skin", "freestyle"):
                 continue
             for layer in getattr(access.layers, kind).values():
-                values[f"{name} {kind} {layer.name}"] = [_layer_value(one[layer]) for one in elements]
+                found = [_layer_value(one[layer]) for one in elements]
+                if kind != "deform" or any(found):  # no weights are as good as none
+                    values[f"{name} {kind} {layer.name}"] = found
     return values
 
 

@@ -1,5 +1,9 @@
 """The report for the panel, and the operators that select what it speaks of."""
 
+import contextlib
+import errno
+import os
+
 import bpy
 import numpy as np
 import pytest
@@ -125,6 +129,29 @@ def test_a_preset_keeps_the_options(tmp_path):
         path = bpy.utils.preset_find("Koebe_test", "koebe_uv") or bpy.utils.preset_find("Koebe test", "koebe_uv")
         bpy.ops.script.execute_preset(filepath=path, menu_idname="KOEBE_MT_presets")
         assert settings.margin == pytest.approx(0.1) and settings.balance == "area"
+    finally:
+        bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
+
+
+def test_a_preset_that_cannot_be_written_leaves_the_older_one(monkeypatch):
+    bpy.ops.uv.koebe_preset_add(name="Koebe test")
+    path = bpy.utils.preset_find("Koebe_test", "koebe_uv")
+    try:
+        with open(path, encoding="utf-8") as file:
+            older = file.read()
+        bpy.context.scene.koebe_uv.margin = 0.2
+
+        def full(temporary, target):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+        monkeypatch.setattr(os, "replace", full)
+        with pytest.raises(RuntimeError, match="preset cannot be written or removed: No space"):
+            bpy.ops.uv.koebe_preset_add(name="Koebe other")
+        with contextlib.suppress(RuntimeError):  # 5.0 writes over none
+            bpy.ops.uv.koebe_preset_add(name="Koebe test")
+        with open(path, encoding="utf-8") as file:
+            assert file.read() == older
+        assert os.listdir(os.path.dirname(path)) == [os.path.basename(path)]
     finally:
         bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
 

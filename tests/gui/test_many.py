@@ -1,10 +1,16 @@
 """Hundreds of islands and of objects: the panel stays short and quick, and a message fits on the screen."""
 
-from test_responsive import DRAW
 from test_shapes import scroll_down
 from window import ROOT
 
-SECONDS = 0.3  # to draw the whole window once, with software OpenGL
+SECONDS = 0.05  # of the main thread to draw the window once, more than before
+DRAW = """
+import time
+with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+    start = time.thread_time()
+    bpy.ops.wm.redraw_timer(type='DRAW', iterations=5)
+    result = (time.thread_time() - start) / 5
+"""
 GRID = """
 import sys
 sys.path.insert(0, {folder!r})
@@ -45,14 +51,14 @@ def fill(window, **options):
 
 def run_all(window, count):
     window.press("uv.koebe_uniformize")
-    window.wait(f"not heart.computing and {ISLANDS} == {count}")
+    window.wait(f"not heart.computing and {ISLANDS} == {count}", 300)
     window.settle()
 
 
 def test_hundreds_of_islands_in_one_object(window):
-    fill(window, count=400)
+    fill(window, count=300)
     before = window.run(DRAW)
-    run_all(window, 400)
+    run_all(window, 300)
     window.picture("40_many_islands")
     drawing = window.run(DRAW)
     window.workspace("UV Editing")
@@ -61,7 +67,7 @@ def test_hundreds_of_islands_in_one_object(window):
     window.key("Home")
     window.picture("41_many_circles")
     in_uv_editor = window.run(DRAW)
-    print(f"drawing the window {before:.3f} s, with 400 islands {drawing:.3f} s, in the UV Editor {in_uv_editor:.3f} s")
+    print(f"drawing the window {before:.3f} s, with 300 islands {drawing:.3f} s, in the UV Editor {in_uv_editor:.3f} s")
     assert drawing < before + SECONDS and in_uv_editor < before + SECONDS
 
 
