@@ -5,7 +5,6 @@ from .report_panel import KoebePanel, draw_message
 from .shape_operators import UV_OT_koebe_carry_texture, UV_OT_koebe_compare_shapes
 
 MAX_NUMBERS = 24  # of a module; a hole's x, y and radius a row
-
 MAX_ENTRIES = 12  # objects that were compared, or that a texture was carried to
 
 

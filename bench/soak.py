@@ -4,7 +4,7 @@
 Usage: soak.py ZIP [COUNT]      in Blender (-b -P soak.py -- ...) or with the bpy module
 
 Maps, with checker, distortion and undo steps, in Object Mode and in Edit Mode, of surfaces of many sizes. Prints the
-resident memory at 100, 1,000 and 2,000 maps; the exit code is 1 if it grows by more than GROWTH from the first to the last.
+resident memory at 100, 1,000 and 2,000 maps; the exit code is 1 if it grows by more than GROWTH from first to last.
 """
 
 import gc

@@ -5,7 +5,6 @@ import bpy
 import numpy as np
 import pytest
 import scenes
-import states
 
 
 def test_the_layer_of_the_option_is_made_and_the_others_stay():
@@ -62,7 +61,7 @@ def test_an_attribute_of_that_name_is_not_overwritten():
 
 
 def test_a_uv_layer_with_the_name_of_blenders_seams_breaks_no_run():
-    """5.0 takes it for seams, all of them set: the map is as without it, run after run, and what has the name keeps it."""
+    """5.0 takes it for seams, all of them set: the map is as without it, and what has the name keeps it."""
     obj, plain = scenes.add_panel("Named"), scenes.add_panel("Plain")
     obj.data.uv_layers.new(name="uv_seam")
     obj.vertex_groups.new(name="Koebe")
@@ -78,7 +77,7 @@ def test_a_uv_layer_with_the_name_of_blenders_seams_breaks_no_run():
 
 @pytest.mark.parametrize("name", ["uv_seam", "sharp_edge", "material_index", "crease_edge", "position"])
 def test_names_that_blender_uses_itself_are_refused(name):
-    """5.0 ends when a UV layer gets the name sharp_edge, 4.5 when a seam is marked beside one that is called uv_seam."""
+    """5.0 ends when a UV layer gets the name sharp_edge, 4.5 when a seam is marked beside one named uv_seam."""
     obj = scenes.add_panel()
     with pytest.raises(RuntimeError, match=f"layer: Blender uses the name '{name}' itself"):
         bpy.ops.uv.koebe_uniformize(layer=name)

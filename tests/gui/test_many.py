@@ -8,7 +8,7 @@ DRAW = """
 import time
 with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
     start = time.thread_time()
-    bpy.ops.wm.redraw_timer(type='DRAW', iterations=5)
+    bpy.ops.wm.redraw_timer(type='DRAW_WIN_SWAP', iterations=5)
     result = (time.thread_time() - start) / 5
 """
 GRID = """

@@ -95,8 +95,8 @@ def start_and_hold(window):
 
 
 def test_distortion_colours_both_windows_and_off_brings_both_back(window, second):
-    shading = f"[s.shading.color_type for w in bpy.context.window_manager.windows for a in w.screen.areas " \
-              f"if a.type == 'VIEW_3D' for s in a.spaces if s.type == 'VIEW_3D']"  # fmt: skip
+    shading = "[s.shading.color_type for w in bpy.context.window_manager.windows for a in w.screen.areas " \
+              "if a.type == 'VIEW_3D' for s in a.spaces if s.type == 'VIEW_3D']"  # fmt: skip
     window.run("bpy.ops.uv.koebe_uniformize(); bpy.ops.uv.koebe_distortion(kind='none')")
     before = window.ask(shading)
     assert len(before) == 2 and "VERTEX" not in before

@@ -105,8 +105,8 @@ class Window:
         Returns the error that it reports at once, if it does.
         """
         given = ", ".join(f"{name}={value!r}" for name, value in options.items())
-        call = f"    try: bpy.ops.{operator}('INVOKE_DEFAULT', {given})\n    except RuntimeError as error: result = str(error)"
-        return self.run(IN_VIEW.format(window=window) + call)
+        call = f"    try: bpy.ops.{operator}('INVOKE_DEFAULT', {given})\n"
+        return self.run(f"{IN_VIEW.format(window=window)}{call}    except RuntimeError as error: result = str(error)")
 
     def key(self, *keys):
         """Press keys, one after the other."""
