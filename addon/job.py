@@ -94,7 +94,7 @@ class Job:
                 if lost:
                     raise transfer.TransferError(". ".join(lost))
             return
-        plans = []
+        plans, start = [], run.mark()
         for target, outcome in zip(self.targets, self.outcomes, strict=True):
             if outcome.mapped:
                 with self._attempt(run, outcome):
@@ -103,6 +103,8 @@ class Job:
         for (outcome, plan), material in zip(plans, materials, strict=True):
             with self._attempt(run, outcome):
                 self._write_one(run, outcome, plan, material)
+        if not self.mapped_any:
+            run.put_back(start)  # the new material
 
     @staticmethod
     def _attempt(run, outcome):

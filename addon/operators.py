@@ -119,6 +119,7 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                     elif not checker.is_on(obj):  # it may be by now, as another object has the same mesh
                         checker.put_on(run, obj, material)
             if len(problems) == len(wearing or objects):
+                run.put_back()  # the new material
                 self.report({"ERROR"}, lines("Koebe UV:", problems))
                 return {"CANCELLED"}
             edit_mode.undo_all(context)

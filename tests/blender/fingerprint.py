@@ -211,7 +211,8 @@ def _edited(mesh):
                 continue
             for layer in getattr(access.layers, kind).values():
                 found = [_layer_value(one[layer]) for one in elements]
-                if kind != "deform" or any(found):  # no weights are as good as none
+                flags = kind == "deform" or kind == "bool" and layer.name.startswith(".")
+                if not flags or any(found):  # none is as good as all off
                     values[f"{name} {kind} {layer.name}"] = found
     return values
 

@@ -120,9 +120,9 @@ class RandomRun:
                 bpy.ops.mesh.select_random(ratio=0.6, seed=int(self._random.integers(1000)))
 
     def _pick(self):
-        """Another select mode."""
-        modes = [(True, False, False), (False, True, False), (False, False, True), (True, False, True)]
-        bpy.context.tool_settings.mesh_select_mode = self._one(modes)
+        """Another select mode, of all the meshes that are edited."""
+        if bpy.context.mode == "EDIT_MESH" and bpy.ops.mesh.select_mode.poll():
+            bpy.ops.mesh.select_mode(type=self._one(["VERT", "EDGE", "FACE"]))
 
     def _twin(self):
         """Another object with the same mesh, which may be in Edit Mode."""
