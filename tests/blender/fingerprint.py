@@ -233,7 +233,8 @@ def _shape_keys(key):
     for block in key.key_blocks:
         values[f"{block.name} settings"] = [getattr(block, name) for name in KEY_PROPERTIES]
         values[f"{block.name} relative to"] = block.relative_key.name
-        values[block.name] = _read(block.data, "co", 3, np.float32)
+        if not key.user.is_editmode:  # there they are of the last time that the arrays were brought up to date
+            values[block.name] = _read(block.data, "co", 3, np.float32)
     return values
 
 
