@@ -74,6 +74,10 @@ test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys
 	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1280x800x24' \
 	    $(PYTHON) -m pytest -p no:cacheprovider -rA tests/gui
 
+# A quarter of an hour: not in `make test` either.
+soak: package $(DONE)/install-blender ## 2,000 maps in one Blender, the memory measured
+	scripts/in_own_home.sh $(BLENDER) bench/soak.py $$PWD/dist/koebe_uv-*.zip
+
 test-asan: $(VENV)/.done ## the native tests under the address and undefined behaviour sanitizers
 	$(ccache) cmake --preset asan
 	cmake --build --preset asan

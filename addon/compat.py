@@ -66,12 +66,12 @@ def corner_indices(mesh):
 def seam_edges(mesh):
     """Whether each edge (E,) is a seam. The mesh must not be in Edit Mode."""
     name = _seam_attribute()
-    if name is not None and name not in mesh.attributes:
+    if name is None:
+        return read(mesh.edges, "use_seam", bool)
+    seams = mesh.attributes.get(name)
+    if seams is None or (seams.domain, seams.data_type) != ("EDGE", "BOOLEAN"):  # something else that has the name
         return np.zeros(len(mesh.edges), dtype=bool)
-    seams = None if name is None else mesh.attributes[name]
-    if seams is not None and (seams.domain, seams.data_type) == ("EDGE", "BOOLEAN"):
-        return read(seams.data, "value", bool)
-    return read(mesh.edges, "use_seam", bool)
+    return read(seams.data, "value", bool)
 
 
 @functools.cache

@@ -9,7 +9,7 @@ import numpy as np
 from . import distortion
 from .noted import set_property
 from .targets import check_mesh
-from .transfer import TransferError, arrays
+from .transfer import TransferError, arrays, bring_up_to_date
 
 NAME = "Koebe Distortion"
 MEMORY_KEY = "koebe_distortion"  # on the mesh: what is shown, in which attribute, and which one was active before
@@ -81,6 +81,7 @@ def take_off(run, obj):
         return
     memory, now = mesh[MEMORY_KEY].to_dict(), _active(mesh)
     if own is not None:
+        bring_up_to_date(obj)  # it may have been put on a moment ago
         with arrays(obj) as old:
             run.before_write(_restore_attribute, obj, own, _read(old, own), now)
         mesh.color_attributes.remove(mesh.color_attributes[own])

@@ -4,6 +4,7 @@
 import bpy
 
 from . import distortion, distortion_display, drawing, edit_mode
+from .errors import few, lines
 from .noted import set_property
 from .targets import reason, target_objects, with_own_meshes
 from .transaction import transaction
@@ -47,11 +48,12 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
                     with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
                         self._color(run, obj)
             if len(problems) == len(objects):
-                self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
+                self.report({"ERROR"}, lines("Koebe UV:", problems))
                 return {"CANCELLED"}
             _show_colors(run, context, self.kind != "none")
+            edit_mode.undo_all(context)
             if problems:
-                self.report({"WARNING"}, f"Koebe UV: left out. {'. '.join(problems)}")
+                self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
             return {"FINISHED"}
 
     def _color(self, run, obj):
@@ -91,6 +93,12 @@ def _restore_shading(views, kinds):
         view.shading.color_type = kind
 
 
+def _upper_left(context):
+    """Whether the region is the only one of its 3D View, or the upper left one of its quad view."""
+    regions = [region for region in context.area.regions if region.type == "WINDOW"]
+    return context.region == min(regions, key=lambda region: (region.x, -region.y))
+
+
 def draw_legend():
     """The legend of the active object's colours, at the upper left of the 3D View."""
     context = bpy.context
@@ -98,7 +106,7 @@ def draw_legend():
     if obj is None or obj.type != "MESH" or not context.space_data.overlay.show_overlays:
         return
     kind = distortion_display.shown(obj.data)
-    if kind is not None:
+    if kind is not None and _upper_left(context):
         title, marks = distortion.legend(kind)
         ramp = distortion.ANGLE_RAMP if kind == distortion.ANGLE else distortion.AREA_RAMP
         drawing.color_bar(title, ramp, marks)

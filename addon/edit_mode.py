@@ -16,7 +16,10 @@ def check(context, obj):
     if obj.library is not None or obj.override_library is not None:
         raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
     if not _visible(context, obj):
-        raise TransferError(f"{obj.name}: it is hidden: show it first")
+        raise TransferError(
+            f"{obj.name}: it is not in local view: leave that first" if obj.visible_get(view_layer=context.view_layer)
+            else f"{obj.name}: it is hidden: show it first"
+        )  # fmt: skip
 
 
 def _visible(context, obj):
@@ -41,6 +44,16 @@ def enter(run, context, obj):
     bpy.ops.object.mode_set(mode="EDIT")
     if obj.mode != "EDIT":
         raise TransferError(f"{obj.name}: Blender does not enter Edit Mode with it")
+
+
+def undo_all(context):
+    """Let the undo step of the running operator hold the whole file, as it does in Object Mode.
+
+    In Edit Mode it holds the edited meshes alone, without slots, custom properties, selected objects and settings; but
+    Blender keeps the whole file beside it once a data-block was added or removed.
+    """
+    if context.mode == "EDIT_MESH":
+        bpy.data.meshes.remove(bpy.data.meshes.new("Koebe undo"))
 
 
 @contextlib.contextmanager

@@ -4,6 +4,7 @@
 import bpy
 
 from . import hole_filling, native
+from .errors import few, lines
 from .filled_mesh import FillPlan
 from .targets import reason, target_objects, with_own_meshes
 from .transaction import transaction
@@ -59,10 +60,10 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
                 plan.write(run, context)
                 holes, faces = holes + len(plan.fillings), faces + plan.faces
         if not holes:
-            self.report({"ERROR"}, "Koebe UV: nothing was filled. " + ". ".join(problems))
+            self.report({"ERROR"}, lines("Koebe UV: nothing was filled.", problems))
             return {"CANCELLED"}
         text = f"Koebe UV: {holes} {'hole' if holes == 1 else 'holes'} filled with {faces} faces"
-        self.report({"WARNING" if problems else "INFO"}, ". ".join([text, *problems]))
+        self.report({"WARNING" if problems else "INFO"}, f"{text}. {few(problems)}" if problems else text)
         return {"FINISHED"}
 
 

@@ -7,6 +7,7 @@
 import dataclasses
 
 from . import checker, map_writing, native, transfer, uv_layers
+from .errors import few
 from .outcomes import Task
 from .pipeline import map_surfaces
 from .targets import Target, check_mesh, reason, with_own_meshes
@@ -39,7 +40,7 @@ class Job:
         if not self.targets:
             reasons = [text for _, text in self.refused]
             raise transfer.TransferError(
-                ". ".join(reasons) if reasons
+                few(reasons) if reasons
                 else "no faces are selected" if selected_only else "there is no mesh with faces"
             )  # fmt: skip
         if options.outer == "active" and all(task.outer == "auto" for task in self.tasks):
@@ -93,7 +94,7 @@ class Job:
                 if lost:
                     raise transfer.TransferError(". ".join(lost))
             return
-        plans = []
+        plans, start = [], run.mark()
         for target, outcome in zip(self.targets, self.outcomes, strict=True):
             if outcome.mapped:
                 with self._attempt(run, outcome):
@@ -102,6 +103,8 @@ class Job:
         for (outcome, plan), material in zip(plans, materials, strict=True):
             with self._attempt(run, outcome):
                 self._write_one(run, outcome, plan, material)
+        if not self.mapped_any:
+            run.put_back(start)  # the new material
 
     @staticmethod
     def _attempt(run, outcome):

@@ -5,6 +5,7 @@ import bpy
 
 from . import checker, edit_mode, report, results
 from .distortion import texel_density
+from .errors import few, lines
 from .job import Job
 from .modal_run import ModalRun
 from .native import NativeError
@@ -61,16 +62,20 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
             with edit_mode.left_if_faster(run, context):
                 job.write(run)
             results.record(run, context, job)
-            select_offenders(run, context, job)
+            selected = select_offenders(run, context, job)
             for area in context.screen.areas if context.screen else ():
                 area.tag_redraw()
-            return self._say(job)
+            edit_mode.undo_all(context)
+            answer = self._say(job)
+            if selected and answer == {"CANCELLED"}:  # after which Blender makes no undo step
+                bpy.ops.ed.undo_push(message="Select What Is Wrong")
+            return answer
 
     def _say(self, job):
         failures = [report.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         failures += [text for _, text in job.refused]
         if not job.mapped_any:
-            self.report({"ERROR"}, "Koebe UV: nothing was mapped. " + ". ".join(failures))
+            self.report({"ERROR"}, lines("Koebe UV: nothing was mapped.", failures))
             return {"CANCELLED"}
         for outcome in job.outcomes:
             if outcome.mapped:
@@ -79,7 +84,7 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
             for warning in dict.fromkeys([*found, *outcome.remarks]):
                 self.report({"WARNING"}, f"{outcome.name}: {warning}")
         if failures:
-            self.report({"WARNING"}, "Koebe UV: not mapped. " + ". ".join(failures))
+            self.report({"WARNING"}, "Koebe UV: not mapped. " + few(failures))
         return {"FINISHED"}
 
 
@@ -114,10 +119,12 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                     elif not checker.is_on(obj):  # it may be by now, as another object has the same mesh
                         checker.put_on(run, obj, material)
             if len(problems) == len(wearing or objects):
-                self.report({"ERROR"}, f"Koebe UV: {'. '.join(problems)}")
+                run.put_back()  # the new material
+                self.report({"ERROR"}, lines("Koebe UV:", problems))
                 return {"CANCELLED"}
+            edit_mode.undo_all(context)
             if problems:
-                self.report({"WARNING"}, f"Koebe UV: left out. {'. '.join(problems)}")
+                self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
             return {"FINISHED"}
 
     def _density(self, obj):

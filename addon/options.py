@@ -15,6 +15,14 @@ PLACEMENTS = ("pack", "together", "keep")
 MAX_LAYER_NAME_BYTES = 63
 
 
+# Blender keeps values of its own under these names from 4.0 on, of edges, faces or vertices: where a UV layer has the
+# name, it reads the one for the other, and ends when it writes.
+BLENDERS_OWN = {
+    "position", "material_index", "uv_seam", "sharp_edge", "sharp_face", "custom_normal", "crease_edge", "crease_vert",
+    "bevel_weight_edge", "bevel_weight_vert", "freestyle_edge", "freestyle_face",
+}  # fmt: skip
+
+
 class OptionError(ValueError):
     """An option has a value that cannot be used."""
 
@@ -98,5 +106,7 @@ def _check_layer_name(name):
         raise OptionError("layer: the name of the UV layer is empty")
     if name.startswith("."):
         raise OptionError("layer: Blender keeps names that start with a dot to itself")
+    if name in BLENDERS_OWN:
+        raise OptionError(f"layer: Blender uses the name {name!r} itself")
     if len(name.encode("utf-8")) > MAX_LAYER_NAME_BYTES:
         raise OptionError(f"layer: the name is longer than {MAX_LAYER_NAME_BYTES} bytes")

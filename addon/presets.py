@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Presets of the panel's options, and back to the defaults."""
 
+import contextlib
+import os
+
 import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
+from . import edit_mode
 from .noted import note_group
 from .properties import OPTION_NAMES
 from .transaction import transaction
@@ -37,8 +41,26 @@ class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Koebe UV Preset"
     preset_menu = "KOEBE_MT_presets"
     preset_subdir = FOLDER
-    # Full paths: what `preset_defines` names, Blender 4.3 does not find under Python 3.13 (PEP 667).
-    preset_values = [f"bpy.context.scene.koebe_uv.{name}" for name in OPTION_NAMES]
+
+    def execute(self, context):
+        try:
+            return super().execute(context)
+        except OSError as error:
+            self.report({"ERROR"}, f"Koebe UV: the preset cannot be written or removed: {error.strerror or error}")
+            return {"CANCELLED"}
+
+    def add(self, context, path):
+        """Write the file, which may replace another, as a whole or not at all. `AddPresetBase` calls this."""
+        settings = context.scene.koebe_uv
+        lines = [f"bpy.context.scene.koebe_uv.{name} = {getattr(settings, name)!r}\n" for name in OPTION_NAMES]
+        temporary = f"{path}.part"
+        try:
+            with open(temporary, "w", encoding="utf-8") as file:
+                file.writelines(["import bpy\n", *lines])
+            os.replace(temporary, path)
+        finally:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
 
 
 class UV_OT_koebe_reset(bpy.types.Operator):
@@ -53,6 +75,7 @@ class UV_OT_koebe_reset(bpy.types.Operator):
             note_group(run, context.scene.koebe_uv)
             for name in OPTION_NAMES:
                 context.scene.koebe_uv.property_unset(name)
+            edit_mode.undo_all(context)
             return {"FINISHED"}
 
 

@@ -47,6 +47,7 @@ class ReportOperator:
             with transaction() as run:
                 edit_mode.enter(run, context, obj)
                 select_only(run, context, [(obj, *self._chosen(obj, entry))])
+                edit_mode.undo_all(context)
                 return {"FINISHED"}
         except TransferError as error:
             self.report({"ERROR"}, f"Koebe UV: {error}")

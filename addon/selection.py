@@ -92,7 +92,7 @@ def edges_along(obj, vertices):
 
 
 def select_offenders(run, context, job):
-    """Select what is wrong with the islands that failed, in those objects that are in Edit Mode."""
+    """Select what is wrong with the islands that failed, in the objects in Edit Mode; whether there is any."""
     chosen = []
     for target, outcome in zip(job.targets, job.outcomes, strict=True):
         obj = target.obj
@@ -101,3 +101,4 @@ def select_offenders(run, context, job):
             chosen += [(obj, kind, elements) for kind, elements in found]
     if chosen:
         select_only(run, context, chosen)
+    return bool(chosen)

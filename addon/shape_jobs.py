@@ -3,6 +3,7 @@
 
 from . import carried_material, map_writing, native, transfer, uv_layers
 from .carry import carry, read_source
+from .errors import few
 from .shapes import Comparison, ShapeError, compare, map_shape, module
 from .targets import Target, check_mesh, check_readable, reason, with_own_meshes
 
@@ -83,7 +84,7 @@ class CarryJob(_ShapeJob):
         self.layer, self.fit_holes, self.targets = layer, fit_holes, []
         super().__init__(own)
         if not self.targets[1:]:
-            raise transfer.TransferError(". ".join(self.failures))
+            raise transfer.TransferError(few(self.failures))
         self.source_uv = transfer.read_uv(source, layer)
         self.material = carried_material.painted(source)
         self.carried = None

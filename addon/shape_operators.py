@@ -5,6 +5,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
 
 from . import results
+from .errors import few, lines
 from .modal_run import ModalRun
 from .native import NativeError
 from .noted import note_group
@@ -120,7 +121,7 @@ class UV_OT_koebe_compare_shapes(_ShapeOperator, bpy.types.Operator):
             if not job.comparisons[0].converged:
                 self.report({"WARNING"}, f"{job.names[0]}: not converged")
             if job.failures:
-                self.report({"WARNING"}, "Koebe UV: left out. " + ". ".join(job.failures))
+                self.report({"WARNING"}, "Koebe UV: left out. " + few(job.failures))
             return {"FINISHED"}
 
 
@@ -156,7 +157,7 @@ class UV_OT_koebe_carry_texture(_ShapeOperator, bpy.types.Operator):
             job.write(run, self.material)
             done = [one for one in job.carried if one is not None]
             if not done:
-                self.report({"ERROR"}, "Koebe UV: nothing was carried. " + ". ".join(job.failures))
+                self.report({"ERROR"}, lines("Koebe UV: nothing was carried.", job.failures))
                 return {"CANCELLED"}
             shapes = context.window_manager.koebe_shapes
             note_group(run, shapes)
@@ -170,7 +171,7 @@ class UV_OT_koebe_carry_texture(_ShapeOperator, bpy.types.Operator):
             for one in done:
                 self.report({"WARNING" if one.message or len(one.flipped) else "INFO"}, _line(one))
             if job.failures:
-                self.report({"WARNING"}, "Koebe UV: not carried. " + ". ".join(job.failures))
+                self.report({"WARNING"}, "Koebe UV: not carried. " + few(job.failures))
             return {"FINISHED"}
 
 

@@ -5,6 +5,7 @@ from .report_panel import KoebePanel, draw_message
 from .shape_operators import UV_OT_koebe_carry_texture, UV_OT_koebe_compare_shapes
 
 MAX_NUMBERS = 24  # of a module; a hole's x, y and radius a row
+MAX_ENTRIES = 12  # objects that were compared, or that a texture was carried to
 
 
 class ShapesPanel(KoebePanel):
@@ -53,8 +54,10 @@ def draw_module(column, shapes):
 def draw_entries(column, title, entries, form):
     """One line an object: its name and its number, or why there is none."""
     column.label(text=title)
-    for entry in entries:
+    for entry in entries[:MAX_ENTRIES]:
         split = column.split(factor=0.65)
         split.label(text=entry.name, icon="CHECKMARK" if entry.measured and not entry.message else "ERROR")
         split.label(text=form.format(entry.distance) if entry.measured else "")
         draw_message(column, entry.message)
+    if len(entries) > MAX_ENTRIES:
+        column.label(text=f"and {len(entries) - MAX_ENTRIES} objects more")

@@ -27,11 +27,11 @@ class Transaction:
     @contextlib.contextmanager
     def part(self):
         """What is written inside is put back if an exception leaves it."""
-        start = len(self._restores)
+        start = self.mark()
         try:
             yield
         except BaseException:
-            self._put_back(start)
+            self.put_back(start)
             raise
 
     @contextlib.contextmanager
@@ -43,7 +43,12 @@ class Transaction:
         except Exception as error:
             failed(error)
 
-    def _put_back(self, start):
+    def mark(self):
+        """What was written until now, for `put_back`."""
+        return len(self._restores)
+
+    def put_back(self, start=0):
+        """Put back what was written since the mark `start`: after an exception, or where nothing came of it."""
         while len(self._restores) > start:
             try:
                 self._restores[-1]()

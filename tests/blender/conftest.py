@@ -25,6 +25,12 @@ def addon(addon_name):
 
 
 @pytest.fixture(scope="session")
+def folder(addon):
+    """The folder of the installed add-on."""
+    return os.path.dirname(addon("transaction").__file__)
+
+
+@pytest.fixture(scope="session")
 def koebe(addon):
     """The native package, as the installed add-on finds it."""
     return addon("native").load()

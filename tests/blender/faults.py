@@ -10,7 +10,7 @@ EVERY_STEP = "KOEBE_EVERY_STEP"  # set in the environment: fail at every step, n
 
 
 class Fault:
-    """Counts the lines of the add-on that are executed from a transaction's start, and raises before one of them."""
+    """Counts the lines of the add-on that are executed within a transaction, and raises before one of them."""
 
     def __init__(self, folder, at=None, error=KeyboardInterrupt):
         self.steps, self._folder, self._at, self._error, self._live = [], folder, at, error, False
@@ -31,7 +31,8 @@ class Fault:
         code = frame.f_code
         if not code.co_filename.startswith(self._folder):
             return None
-        self._live |= code.co_name == "transaction"
+        if code.co_name == "transaction":  # which is entered at its start, and once more at its end
+            self._live = not self._live
         return self._step
 
     def _step(self, frame, event, argument):
@@ -68,14 +69,18 @@ def call(operator, fault=None, **options):
 def check_all_comes_back(folder, build, operator, options, most):
     """Fail at the steps of an operator by a key, which ends all of it: everything is as before, and then it works."""
     build()
+    call(operator, **options)  # what is found out once a session would be missing later
+    build()
     counting = Fault(folder)
     answer = call(operator, counting, **options)
     expected = fingerprint.fingerprint()
     build()
     before, wrong = fingerprint.fingerprint(), {}
+    assert answer == {"FINISHED"} and fingerprint.differences(before, expected), "it does nothing"
     for number in chosen(counting.steps, most):
         fault = Fault(folder, number)
         call(operator, fault, **options)
+        assert fault.fired
         found = fingerprint.differences(before, fingerprint.fingerprint())
         if found:
             wrong[_named(counting.steps[number - 1])] = found

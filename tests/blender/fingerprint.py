@@ -210,7 +210,10 @@ def _edited(mesh):
             if kind.startswith("_") or kind in ("bevel_weight", "crease", "paint_mask", "skin", "freestyle"):
                 continue
             for layer in getattr(access.layers, kind).values():
-                values[f"{name} {kind} {layer.name}"] = [_layer_value(one[layer]) for one in elements]
+                found = [_layer_value(one[layer]) for one in elements]
+                flags = kind == "deform" or kind == "bool" and layer.name.startswith(".")
+                if not flags or any(found):  # none is as good as all off
+                    values[f"{name} {kind} {layer.name}"] = found
     return values
 
 
@@ -230,7 +233,8 @@ def _shape_keys(key):
     for block in key.key_blocks:
         values[f"{block.name} settings"] = [getattr(block, name) for name in KEY_PROPERTIES]
         values[f"{block.name} relative to"] = block.relative_key.name
-        values[block.name] = _read(block.data, "co", 3, np.float32)
+        if not key.user.is_editmode:  # there they are of the last time that the arrays were brought up to date
+            values[block.name] = _read(block.data, "co", 3, np.float32)
     return values
 
 

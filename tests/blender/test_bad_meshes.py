@@ -38,6 +38,17 @@ def not_a_number():
     return vertices, faces
 
 
+def collapsed(*factors):
+    """The panel with its coordinates multiplied."""
+    vertices, faces = scenes.panel_arrays()
+    return vertices * factors, faces
+
+
+def slanted():
+    vertices, faces = scenes.panel_arrays()
+    return vertices[:, :1] * [0.3, -0.7, 0.11], faces
+
+
 BAD = {
     "closed": (lambda: ([v.co for v in scenes.add_cube().data.vertices],
                         [p.vertices for p in bpy.data.objects["Cube"].data.polygons]), "seam"),
@@ -45,6 +56,9 @@ BAD = {
     "nonmanifold_edge": (lambda: (FAN, [(0, 1, 2), (1, 0, 3), (0, 1, 4)]), "edge"),
     "nonorientable": (moebius_strip, "one-sided"),
     "nan": (not_a_number, "NaN|finite"),
+    "a line": (lambda: collapsed(1, 0, 0), "collapsed to a line"),
+    "a slanted line": (slanted, "collapsed to a line"),
+    "a point": (lambda: collapsed(0, 0, 0), "collapsed"),
 }  # fmt: skip
 
 
@@ -60,6 +74,17 @@ def test_the_reason_is_said_and_nothing_is_changed(kind):
     assert len(obj.data.uv_layers) == 0
     assert len(obj.material_slots) == 0
     assert "Koebe Checker" not in bpy.data.materials
+
+
+@pytest.mark.parametrize("scale", [(1, 0, 0), (0, 1, 0), (0, 0, 0)])
+def test_an_object_whose_scale_leaves_a_line_is_refused_and_another_done(scale):
+    bad, good = scenes.add_panel("Bad"), scenes.add_panel("Good")
+    bad.scale = scale
+    scenes.select(bad, good)
+    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert len(bad.data.uv_layers) == 0 and "Koebe" in good.data.uv_layers
+    bad_entry, good_entry = bpy.context.window_manager.koebe_uv.islands
+    assert not bad_entry.mapped and "collapsed" in bad_entry.message
 
 
 def test_good_objects_are_done_beside_bad_ones():

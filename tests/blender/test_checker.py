@@ -158,3 +158,18 @@ def test_squares_are_even_over_objects_if_asked(even):
     bpy.ops.uv.koebe_uniformize(checker_even=even, checker_size=20)
     assert one.material_slots[0].material.node_tree.nodes["Fine"].inputs["Scale"].default_value == 20
     assert squares_in_space(two) / squares_in_space(one) == pytest.approx(1 if even else 3, rel=1e-3)
+
+
+@pytest.mark.parametrize("operator", ["koebe_checker", "koebe_uniformize"])
+def test_where_nothing_could_be_written_no_material_is_left(addon, monkeypatch, operator):
+    """Each object fails by itself, after the material for all of them was made."""
+    scenes.select(scenes.add_panel("One", size=12), scenes.add_panel("Other", size=12))
+
+    def broken(run, obj, *rest):
+        raise MemoryError("none left")
+
+    monkeypatch.setattr(addon("checker"), "put_on", broken)
+    with pytest.raises(RuntimeError, match="none left"):
+        getattr(bpy.ops.uv, operator)()
+    assert [material.name for material in bpy.data.materials] == []
+    assert [len(obj.data.uv_layers) for obj in bpy.data.objects] == [0, 0]

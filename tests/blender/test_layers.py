@@ -60,6 +60,30 @@ def test_an_attribute_of_that_name_is_not_overwritten():
     assert len(obj.data.uv_layers) == 0
 
 
+def test_a_uv_layer_with_the_name_of_blenders_seams_breaks_no_run():
+    """5.0 takes it for seams, all of them set: the map is as without it, and what has the name keeps it."""
+    obj, plain = scenes.add_panel("Named"), scenes.add_panel("Plain")
+    obj.data.uv_layers.new(name="uv_seam")
+    obj.vertex_groups.new(name="Koebe")
+    scenes.select(obj, plain)
+    before = scenes.corner_uv(obj.data, "uv_seam").copy()
+    for _ in range(3):
+        assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+        assert bpy.ops.uv.koebe_distortion() == {"FINISHED"}
+        assert len(bpy.context.window_manager.koebe_uv.islands) == 2
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), scenes.corner_uv(plain.data, "Koebe"))
+    assert np.array_equal(scenes.corner_uv(obj.data, "uv_seam"), before)
+
+
+@pytest.mark.parametrize("name", ["uv_seam", "sharp_edge", "material_index", "crease_edge", "position"])
+def test_names_that_blender_uses_itself_are_refused(name):
+    """5.0 ends when a UV layer gets the name sharp_edge, 4.5 when a seam is marked beside one named uv_seam."""
+    obj = scenes.add_panel()
+    with pytest.raises(RuntimeError, match=f"layer: Blender uses the name '{name}' itself"):
+        bpy.ops.uv.koebe_uniformize(layer=name)
+    assert len(obj.data.uv_layers) == 0
+
+
 @pytest.mark.parametrize("name", ["", " ", ".hidden"])
 def test_names_that_cannot_be_used_are_refused(name):
     obj = scenes.add_panel()

@@ -1,5 +1,9 @@
 """The report for the panel, and the operators that select what it speaks of."""
 
+import contextlib
+import errno
+import os
+
 import bpy
 import numpy as np
 import pytest
@@ -129,8 +133,41 @@ def test_a_preset_keeps_the_options(tmp_path):
         bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
 
 
+def test_a_preset_that_cannot_be_written_leaves_the_older_one(monkeypatch):
+    bpy.ops.uv.koebe_preset_add(name="Koebe test")
+    path = bpy.utils.preset_find("Koebe_test", "koebe_uv")
+    try:
+        with open(path, encoding="utf-8") as file:
+            older = file.read()
+        bpy.context.scene.koebe_uv.margin = 0.2
+
+        def full(temporary, target):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+        monkeypatch.setattr(os, "replace", full)
+        with pytest.raises(RuntimeError, match="preset cannot be written or removed: No space"):
+            bpy.ops.uv.koebe_preset_add(name="Koebe other")
+        with contextlib.suppress(RuntimeError):  # 5.0 writes over none
+            bpy.ops.uv.koebe_preset_add(name="Koebe test")
+        with open(path, encoding="utf-8") as file:
+            assert file.read() == older
+        assert os.listdir(os.path.dirname(path)) == [os.path.basename(path)]
+    finally:
+        bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
+
+
 def test_the_shortcut_is_off_until_asked_for(addon_name):
     preferences = bpy.context.preferences.addons[addon_name].preferences
     assert preferences.shortcut is False
     preferences.shortcut = True
     preferences.shortcut = False
+
+
+def test_an_error_about_many_objects_is_a_few_lines_and_the_report_has_all():
+    cubes = [scenes.add_cube(f"Cube {index}") for index in range(40)]
+    scenes.select(*cubes)
+    with pytest.raises(RuntimeError) as caught:
+        bpy.ops.uv.koebe_uniformize()
+    lines = str(caught.value).strip().splitlines()
+    assert len(lines) <= 8 and max(map(len, lines)) < 160 and "34 more" in lines[-1]
+    assert [entry.object_name for entry in islands()] == [cube.name for cube in cubes]

@@ -1,10 +1,13 @@
 """Tubes as annuli and unrolled: a conformal rectangle with a wrap seam in the UVs only."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
 import scenes
 
+SAMPLES = Path(__file__).resolve().parents[2] / "blend_samples"
 AROUND = 32
 
 
@@ -116,3 +119,63 @@ def test_the_unit_disks_automorphism_makes_the_annulus_concentric(addon):
     moved = (z - (0.4 + 0.2j)) / (1 - np.conj(0.4 + 0.2j) * z)
     found = addon("tube").concentric(moved, np.arange(40, 80))
     assert np.abs(found[:40]) == pytest.approx(1) and np.abs(found[40:]) == pytest.approx(0.3)
+
+
+# ---------------------------------------------------------------- flaps and chords
+
+
+def add_tube_with_ear(triangles):
+    """A tube whose upper rim carries an ear of that many triangles, at its very back."""
+    obj = add_tube()
+    vertices = [tuple(v.co) for v in obj.data.vertices]
+    faces = [tuple(p.vertices) for p in obj.data.polygons]
+    rim = 24 * AROUND  # its first vertex is the rearmost one
+    chord = (rim, rim + AROUND - 1)
+    for number in range(triangles):
+        vertices.append((0.05 * number, 1.5 + number, 3.2))
+        faces.append((*chord, len(vertices) - 1))
+        chord = (chord[0], len(vertices) - 1)
+    bpy.data.objects.remove(obj)
+    obj = scenes.add_object("Eared", vertices, faces)
+    scenes.select(obj)
+    return obj
+
+
+@pytest.mark.parametrize("triangles", [1, 2, 3])
+def test_an_ear_on_the_rim_is_no_end_for_the_cut(triangles):
+    obj, healthy = add_tube_with_ear(triangles), scenes.add_panel("Healthy")
+    scenes.select(obj, healthy)
+    assert bpy.ops.uv.koebe_uniformize(tube="unroll") == {"FINISHED"}
+    scenes.assert_circle_domain(healthy)
+    told = {entry.object_name: entry for entry in bpy.context.window_manager.koebe_uv.islands}
+    assert told["Eared"].mapped, told["Eared"].message
+    uvs = uvs_of_vertices(obj)
+    cut = [v for v, found in enumerate(uvs) if len(found) == 2]
+    assert max(map(len, uvs)) == 2 and len(cut) == 25  # straight down, from loop to loop
+    assert max(cut) < 25 * AROUND  # none of the ear's
+
+
+@pytest.mark.parametrize("name", ["face_surprised", "perforated_panel"])
+def test_any_part_of_a_sample_unrolls_or_says_why(name):
+    """Random selections have flaps, chords and points where they touch; a healthy object beside them is mapped."""
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{name}.blend"))
+    obj, random = next(obj for obj in bpy.data.objects if obj.type == "MESH"), np.random.default_rng(5)
+    healthy = scenes.add_panel("Healthy", size=12)
+    center = scenes.read(obj.data.polygons, "center", np.float32, 3)
+    unrolled = 0
+    for _ in range(12):
+        around = center[random.integers(len(center))]
+        distance = np.linalg.norm(center - around, axis=1)
+        least = np.quantile(distance, random.uniform(0.005, 0.05))
+        most = least * random.uniform(1.5, 4.0)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        scenes.select(healthy, obj)
+        healthy.data.polygons.foreach_set("select", np.ones(len(healthy.data.polygons), bool))
+        scenes.select_faces(obj, np.flatnonzero((distance >= least) & (distance <= most)))
+        bpy.ops.uv.koebe_uniformize(tube="unroll", checker=False)
+        entries = list(bpy.context.window_manager.koebe_uv.islands)
+        assert [entry.mapped for entry in entries if entry.object_name == "Healthy"] == [True]
+        for entry in entries:
+            assert entry.mapped or "nobody foresaw" not in entry.message, entry.message
+            unrolled += entry.mapped and len(entry.loops) == 2 and entry.loops[1].uv_radius == 0
+    assert unrolled > 3

@@ -16,6 +16,14 @@ TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to th
 SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
 
 
+IN_VIEW = """
+window = bpy.context.window_manager.windows[{window}]
+area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')
+region = next(r for r in area.regions if r.type == 'WINDOW')
+with bpy.context.temp_override(window=window, area=area, region=region):
+"""
+
+
 class Window:
     """Starts Blender; `ask` looks inside, everything else is what a hand does."""
 
@@ -90,6 +98,15 @@ class Window:
         self.move(x, y)
         xdotool("click", button)
         self.settle()
+
+    def press(self, operator, window=0, **options):
+        """Call an operator in the 3D View of a window as its button does, where the way to the button is no subject.
+
+        Returns the error that it reports at once, if it does.
+        """
+        given = ", ".join(f"{name}={value!r}" for name, value in options.items())
+        call = f"    try: bpy.ops.{operator}('INVOKE_DEFAULT', {given})\n"
+        return self.run(f"{IN_VIEW.format(window=window)}{call}    except RuntimeError as error: result = str(error)")
 
     def key(self, *keys):
         """Press keys, one after the other."""

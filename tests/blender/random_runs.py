@@ -1,0 +1,203 @@
+"""Random files, random acts of an artist, and random calls of the operators, all from one number."""
+
+import bpy
+import faults
+import fingerprint
+import numpy as np
+import scenes
+import states
+from runs import operator
+from touched import Touched
+
+LAYERS = ("Koebe", "Koebe", "Koebe", "Koebe", "First", "Other", "uv_seam", "Own 0")
+ERRORS = (KeyboardInterrupt, ValueError, MemoryError, RuntimeError)
+
+
+def closed(name="Closed"):
+    return scenes.add_cube(name)
+
+
+def lone(name="Lone"):
+    return scenes.add_object(name, [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+
+
+def collapsed(name="Collapsed"):
+    obj = states.plain(name)
+    obj.scale = (1.0, 0.0, 0.0)
+    return obj
+
+
+def bare(name="Bare"):
+    return scenes.add_object(name, [(0, 0, 0), (1, 0, 0)], [])
+
+
+def ring(name="Ring"):
+    """A tube, to be unrolled."""
+    vertices, faces = scenes.panel_arrays(12, holes=((0.0, 1.0, 0.2, 0.5),), height=lambda x, y: 0 * x)
+    inner = [face for face in faces if 0 not in face]
+    return scenes.add_object(name, *_used(vertices, inner))
+
+
+def _used(vertices, faces):
+    used, index = np.unique(np.concatenate(faces), return_inverse=True)
+    return vertices[used], [part.tolist() for part in np.split(index, np.cumsum([len(face) for face in faces])[:-1])]
+
+
+MAKERS = (
+    states.plain, states.dressed, states.numbered, states.layered, states.keyed, states.named, states.twins,
+    states.full, states.broken, closed, lone, collapsed, bare, ring,
+)  # fmt: skip
+
+
+class RandomRun:
+    """One sequence: a file, then calls with acts between them. `wrong` says what changed that must not."""
+
+    def __init__(self, folder, seed):
+        self._folder, self._random = folder, np.random.default_rng(seed)
+        self.wrong, self.calls, self.finished, self.faults = [], 0, 0, 0
+
+    def go(self, calls):
+        """Build the file, and do so many calls."""
+        states.new_file()
+        for maker in self._random.permutation(len(MAKERS))[: self._random.integers(2, 6)]:
+            MAKERS[maker]()
+        states.consistent(self._meshes())
+        scenes.select(*self._some(self._meshes()))
+        for _ in range(calls):
+            for _ in range(self._random.integers(0, 3)):
+                self._act()
+            self._call()
+
+    # ---------------------------------------------------------------- chances
+
+    def _one(self, items):
+        items = list(items)
+        return items[self._random.integers(len(items))]
+
+    def _some(self, items):
+        """At least one of them."""
+        items = list(items)
+        chosen = self._random.permutation(len(items))[: self._random.integers(1, len(items) + 1)]
+        return [items[index] for index in chosen]
+
+    def _meshes(self):
+        bpy.context.view_layer.update()
+        return [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH"]
+
+    # ---------------------------------------------------------------- what an artist does between
+
+    def _act(self):
+        acts = [self._select, self._mode, self._mode, self._hide, self._lock, self._marks, self._pick, self._twin,
+                self._seams, self._turn, self._name]  # fmt: skip
+        self._one(acts)()
+        bpy.context.view_layer.update()
+
+    def _select(self):
+        if bpy.context.mode == "OBJECT":
+            chosen = self._some(self._meshes())
+            for obj in self._meshes():
+                obj.select_set(obj in chosen)
+            bpy.context.view_layer.objects.active = self._one([*chosen, *self._meshes()])
+
+    def _mode(self):
+        active = bpy.context.view_layer.objects.active
+        if active is not None and active.visible_get() and bpy.ops.object.mode_set.poll():
+            bpy.ops.object.mode_set(mode="OBJECT" if bpy.context.mode == "EDIT_MESH" else "EDIT")
+
+    def _hide(self):
+        obj = self._one(self._meshes())
+        obj.hide_set(not obj.hide_get())
+
+    def _lock(self):
+        obj = self._one(self._meshes())
+        obj.hide_select = not obj.hide_select
+
+    def _marks(self):
+        """Select faces."""
+        if bpy.context.mode == "EDIT_MESH" and bpy.ops.mesh.select_all.poll():
+            bpy.ops.mesh.select_all(action=self._one(["SELECT", "DESELECT", "INVERT"]))
+            if self._random.random() < 0.5:
+                bpy.ops.mesh.select_random(ratio=0.6, seed=int(self._random.integers(1000)))
+
+    def _pick(self):
+        """Another select mode, of all the meshes that are edited."""
+        if bpy.context.mode == "EDIT_MESH" and bpy.ops.mesh.select_mode.poll():
+            bpy.ops.mesh.select_mode(type=self._one(["VERT", "EDGE", "FACE"]))
+
+    def _twin(self):
+        """Another object with the same mesh, which may be in Edit Mode."""
+        obj = self._one(self._meshes())
+        if len(bpy.data.objects) < 9:
+            other = bpy.data.objects.new(f"{obj.name} again", obj.data)
+            bpy.context.collection.objects.link(other)
+            bpy.context.view_layer.update()
+            if bpy.context.mode == "OBJECT" and not obj.data.is_editmode:
+                other.select_set(True)
+
+    def _seams(self):
+        obj = self._one(self._meshes())
+        if not obj.data.is_editmode and len(obj.data.edges):
+            seams = self._random.random(len(obj.data.edges)) < self._one([0.0, 0.02, 0.3])
+            obj.data.edges.foreach_set("use_seam", seams)
+
+    def _turn(self):
+        self._one(self._meshes()).rotation_euler.x += 1.0
+
+    def _name(self):
+        """Give something of the add-on's another name."""
+        for obj in self._meshes():
+            if "Koebe" in obj.data.uv_layers and not obj.data.is_editmode and self._random.random() < 0.5:
+                obj.data.uv_layers["Koebe"].name = "Was Koebe"
+
+    # ---------------------------------------------------------------- calls
+
+    def _options(self, name):
+        one, layer = self._one, self._one(LAYERS)
+        if name == "uv.koebe_uniformize":
+            return {"layer": layer, "checker": one([True, False]), "checker_size": one([8.0, 32.0]),
+                    "checker_even": one([True, False]), "tube": one(["annulus", "unroll"]),
+                    "placement": one(["pack", "together", "keep"]), "outer": one(["auto", "auto", "longest", "active"]),
+                    "method": one(["gk", "ck"]), "max_sweeps": one([1, 50]), "upright": one([True, False])}  # fmt: skip
+        if name == "uv.koebe_checker":
+            return {"layer": layer, "checker_even": one([True, False])}
+        if name == "uv.koebe_distortion":
+            return {"layer": layer, "kind": one(["angle", "area", "none"])}
+        if name == "mesh.koebe_fill_holes":
+            return {"which": one(["holes", "selected", "all"])}
+        if name == "uv.koebe_carry_texture":
+            return {"layer": layer, "fit_holes": one([True, False]), "material": one([True, False])}
+        return {"loop": int(self._random.integers(4))} if name == "uv.koebe_select_loop" else {}
+
+    def _call(self):
+        name = self._one([
+            "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_checker",
+            "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
+            "uv.koebe_compare_shapes", "uv.koebe_select_loop", "uv.koebe_select_flipped", "uv.koebe_select_offenders",
+            "uv.koebe_reset",
+        ])  # fmt: skip
+        options, fault = self._options(name), None
+        if self._random.random() < 0.5:
+            at = int(np.exp(self._random.uniform(0.0, np.log(3000.0))))
+            fault = faults.Fault(self._folder, at, self._one(ERRORS))
+        bpy.context.view_layer.update()
+        before = fingerprint.fingerprint()
+        touched = Touched(name, options, self._targets(name))
+        answer = faults.call(operator(name), fault, **options)
+        after = fingerprint.fingerprint()
+        finished = answer == {"FINISHED"}
+        self.calls, self.finished = self.calls + 1, self.finished + finished
+        self.faults += fault is not None and fault.fired
+        allowed = touched.when_finished if finished else touched.on_error
+        spoilt = [key for key in fingerprint.differences(before, after) if not allowed(key)]
+        if spoilt:
+            where = fault.steps[-1] if fault is not None and fault.fired else None
+            self.wrong.append((name, options, str(answer)[-300:], where, spoilt))
+
+    def _targets(self, name):
+        """The objects that an operator is for."""
+        context = bpy.context
+        if name.startswith("uv.koebe_select"):
+            return []
+        if context.mode == "EDIT_MESH":
+            return list(context.objects_in_mode_unique_data)
+        return [obj for obj in context.selected_objects if obj.type == "MESH"]

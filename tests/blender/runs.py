@@ -1,0 +1,122 @@
+"""Every operator that writes, in the modes and states it may be called in: how to build the file, and its options."""
+
+import bpy
+import numpy as np
+import scenes
+import states
+
+
+def carried():
+    """A mapped and painted source that wears the checker, and targets in several states."""
+    states.new_file()
+    source = states.dressed("Source")
+    bpy.ops.uv.koebe_uniformize(outer="longest")
+    targets = [states.plain(), states.keyed(), states.layered(), states.full()]
+    scenes.select(targets[0])
+    bpy.ops.uv.koebe_uniformize()
+    states.consistent([source, *targets])
+    scenes.select(source, *targets)
+
+
+def reported():
+    """A report, and another object in Edit Mode."""
+    states.new_file()
+    obj = states.keyed()
+    bpy.ops.uv.koebe_uniformize()
+    other, hidden = states.plain("Other"), states.plain("Hidden")
+    states.consistent([obj, other, hidden])
+    scenes.select(other, hidden)
+    bpy.ops.object.mode_set(mode="EDIT")
+    hidden.hide_set(True)
+
+
+def reported_in_object_mode():
+    """A report, and another object selected."""
+    states.new_file()
+    obj = states.keyed()
+    bpy.ops.uv.koebe_uniformize()
+    other = states.plain("Other")
+    states.consistent([obj, other])
+    scenes.select(other)
+
+
+def offending():
+    """A report that begins with an island that cannot be mapped, and another object selected."""
+    states.new_file()
+    good, bad = states.keyed(), states.broken()
+    scenes.select(good, bad)
+    bpy.ops.uv.koebe_uniformize()
+    states.consistent([good, bad])
+    scenes.select(good)
+
+
+def flipped():
+    """A report on a tube so long that 32-bit UVs cannot tell its last faces apart."""
+    states.new_file()
+    around, rings = 12, 60
+    turn = 2 * np.pi * np.arange(around) / around
+    vertices = [(0.1 * np.cos(a), 0.1 * np.sin(a), 0.1 * j) for j in range(rings + 1) for a in turn]
+    at = lambda i, j: j * around + i % around  # noqa: E731
+    faces = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for j in range(rings) for i in range(around)]
+    tube, other = scenes.add_object("Long", vertices, faces), states.plain("Other")
+    scenes.select(tube)
+    bpy.ops.uv.koebe_uniformize()
+    assert bpy.context.window_manager.koebe_uv.islands[0].flipped > 0
+    states.consistent([tube, other])
+    scenes.select(other)
+
+
+def chosen():
+    """Options of the panel that are not the defaults."""
+    states.many()
+    settings = bpy.context.scene.koebe_uv
+    settings.margin, settings.method, settings.layer = 0.1, "ck", "Other"
+
+
+def chosen_in_edit_mode():
+    """The same in Edit Mode."""
+    states.edited_in_sight()
+    bpy.context.scene.koebe_uv.margin = 0.1
+
+
+def edited_to_fill():
+    """Two meshes in Edit Mode with all selected, and their UVs in the layer."""
+    states.edited_in_sight()
+    bpy.ops.uv.koebe_uniformize(checker=False)
+
+
+RUNS = {
+    "uniformize": (states.many, "uv.koebe_uniformize", {}),
+    "uniformize what is worn": (states.worn, "uv.koebe_uniformize", {"checker_size": 5.0, "checker_even": False}),
+    "uniformize in Edit Mode": (states.edited, "uv.koebe_uniformize", {}),
+    "uniformize in Edit Mode, in sight": (states.edited_in_sight, "uv.koebe_uniformize", {"layer": "First"}),
+    "uniformize in Edit Mode what is worn": (states.edited_worn, "uv.koebe_uniformize", {"layer": "Last"}),
+    "uniformize in Edit Mode without a checker": (states.edited, "uv.koebe_uniformize", {"checker": False}),
+    "checker on": (states.many, "uv.koebe_checker", {}),
+    "checker off": (states.worn, "uv.koebe_checker", {}),
+    "checker on in Edit Mode": (states.edited, "uv.koebe_checker", {}),
+    "checker off in Edit Mode": (states.edited_worn, "uv.koebe_checker", {}),
+    "distortion on": (states.many, "uv.koebe_distortion", {"layer": "Koebe"}),
+    "distortion on in Edit Mode": (edited_to_fill, "uv.koebe_distortion", {"layer": "Koebe"}),
+    "distortion changed": (states.worn, "uv.koebe_distortion", {"kind": "angle"}),
+    "distortion off": (states.worn, "uv.koebe_distortion", {"kind": "none"}),
+    "distortion changed in Edit Mode": (states.edited_worn, "uv.koebe_distortion", {"kind": "angle"}),
+    "distortion off in Edit Mode": (states.edited_worn, "uv.koebe_distortion", {"kind": "none"}),
+    "fill": (states.many, "mesh.koebe_fill_holes", {"which": "all"}),
+    "fill in Edit Mode": (states.edited, "mesh.koebe_fill_holes", {}),
+    "fill in Edit Mode, in sight": (edited_to_fill, "mesh.koebe_fill_holes", {}),
+    "reset in Edit Mode": (chosen_in_edit_mode, "uv.koebe_reset", {}),
+    "reset": (chosen, "uv.koebe_reset", {}),
+    "carry": (carried, "uv.koebe_carry_texture", {"fit_holes": True}),
+    "compare": (carried, "uv.koebe_compare_shapes", {}),
+    "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
+    "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),
+    "select what is wrong": (offending, "uv.koebe_select_offenders", {}),
+    "select what is flipped": (flipped, "uv.koebe_select_flipped", {}),
+}
+
+
+def operator(name):
+    """The operator of that name."""
+    space, function = name.split(".")
+    return getattr(getattr(bpy.ops, space), function)

@@ -1,0 +1,103 @@
+"""What an operator may change, as the table in docs/guide.md says, told by the names of a fingerprint."""
+
+import bpy
+
+SELECTION = ("verts flags", "edges flags", "faces flags", "history", "active face")
+SLOTS = ("slots", "behind the slots", "custom", "active_material_index")
+
+
+class Touched:
+    """The objects that an operator works on, before it is called, and what it may change."""
+
+    def __init__(self, name, options, objects):
+        self._name, self._options = name, options
+        if name == "uv.koebe_carry_texture":
+            source = bpy.context.active_object
+            objects = [obj for obj in objects if source is None or obj.data != source.data]
+        self._meshes = {f"mesh {obj.data.name_full}" for obj in objects}
+        self._keys = {f"key {obj.data.shape_keys.name_full}" for obj in objects if obj.data.shape_keys}
+        users = [obj for obj in bpy.data.objects if any(obj.data == one.data for one in objects)]
+        self._users = {obj.name_full for obj in users}
+        self._layer = options.get("layer", "Koebe")
+        self._colors = {obj.data["koebe_distortion"].get("name") for obj in objects if "koebe_distortion" in obj.data}
+
+    def on_error(self, key):
+        """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
+        owner, _, what = key.partition(": ")
+        if self._name != "uv.koebe_uniformize":
+            return False
+        return key == "file: report" or self._selects(owner, what)
+
+    def when_finished(self, key):
+        """Whether that may differ after an operator that finished."""
+        owner, _, what = key.partition(": ")
+        return getattr(self, f"_{self._name.partition('.koebe_')[2]}")(owner, what)
+
+    def _selects(self, owner, what):
+        return owner.startswith("mesh ") and what in (*SELECTION, "select mode") or (
+            owner == "file" and what.endswith(" select mode")
+        )
+
+    def _writes_uv(self, owner, what):
+        names = (f"uv {self._layer}", f"loops uv {self._layer}", f"attribute {self._layer} CORNER FLOAT2")
+        return owner in self._meshes and (
+            what == "uv layers" or any(what in (name, f"{name} select", f"{name} pin_uv") for name in names)
+            or what.startswith((f"attribute .vs.{self._layer}", f"attribute .es.{self._layer}",
+                                f"attribute .pn.{self._layer}"))
+            or self._is_color(what, self._colors) or (bool(self._colors) and what == "active color")
+            or (bool(self._colors) and what == "custom")
+        )  # fmt: skip
+
+    def _is_color(self, what, names):
+        return any(what in (f"attribute {name} CORNER FLOAT_COLOR", f"loops float_color {name}") for name in names)
+
+    def _dresses(self, owner, what):
+        if owner in self._users:
+            return what in SLOTS
+        if owner in self._meshes:
+            return what == "materials"
+        if owner.startswith("material Koebe Checker"):
+            return True
+        return owner == "names of materials" or owner.startswith("material ") and what == "users"
+
+    def _uniformize(self, owner, what):
+        return (
+            self._writes_uv(owner, what) or self._selects(owner, what) or (owner, what) == ("file", "report")
+            or (self._options.get("checker", True) and self._dresses(owner, what))
+        )  # fmt: skip
+
+    def _checker(self, owner, what):
+        return self._dresses(owner, what)
+
+    def _distortion(self, owner, what):
+        if owner == "file":
+            return what.endswith((" shading", " custom"))
+        own = {f"Koebe Distortion.{number:03d}" if number else "Koebe Distortion" for number in range(9)}
+        return owner in self._meshes and (what in ("custom", "active color") or self._is_color(what, own))
+
+    def _fill_holes(self, owner, what):
+        if owner in self._keys:
+            return not what.endswith((" settings", " relative to")) and what not in ("custom", "relative", "reference")
+        kept = ("custom", "users", "fake user", "materials", "edited", "active color", "select mode")
+        return owner in self._meshes and what not in kept
+
+    def _carry_texture(self, owner, what):
+        reports = owner == "file" and what in ("report", "shapes")
+        return reports or self._writes_uv(owner, what) or (
+            self._options.get("material", True) and self._dresses(owner, what)
+        )
+
+    def _compare_shapes(self, owner, what):
+        return (owner, what) == ("file", "shapes")
+
+    def _select(self, owner, what):
+        if owner == "file":
+            return what == "mode" or what.endswith((" active", " select mode"))
+        if owner.startswith("mesh "):
+            return True  # Edit Mode is another representation: what is in it is compared where it is not changed
+        return what == "mode" or what.startswith("selected in ")
+
+    _select_loop = _select_flipped = _select_offenders = _select
+
+    def _reset(self, owner, what):
+        return owner == "file" and what.endswith(" settings")
