@@ -17,9 +17,15 @@ def check(context, obj):
         raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
     if not _visible(context, obj):
         raise TransferError(
-            f"{obj.name}: it is not in local view: leave that first" if obj.visible_get(view_layer=context.view_layer)
+            f"{obj.name}: it is not in local view: leave that first" if _out_of_local_view(context, obj)
             else f"{obj.name}: it is hidden: show it first"
         )  # fmt: skip
+
+
+def _out_of_local_view(context, obj):
+    space = context.space_data
+    local = space is not None and space.type == "VIEW_3D" and space.local_view is not None
+    return local and not obj.local_view_get(space)
 
 
 def _visible(context, obj):
