@@ -6,7 +6,7 @@ import sys
 import bpy
 import fingerprint
 
-EVERY_STEP = "KOEBE_EVERY_STEP"  # set in the environment: fail at every step, not at a choice of them
+EVERY_STEP = "KOEBE_EVERY_STEP"  # in the environment: fail at every step, or, if "lines", at every line, not at a choice
 
 
 class Fault:
@@ -45,14 +45,15 @@ class Fault:
 
 def chosen(steps, most):
     """Numbers of steps: of each line the first and the last time, at most so many, evenly; or all if asked for."""
-    if EVERY_STEP in os.environ:
+    asked = os.environ.get(EVERY_STEP)
+    if asked and asked != "lines":
         return range(1, len(steps) + 1)
     first, last = {}, {}
     for number, place in enumerate(steps, 1):
         first.setdefault(place, number)
         last[place] = number
     numbers = sorted({*first.values(), *last.values()})
-    return numbers[:: max(1, -(-len(numbers) // most))]
+    return numbers if asked else numbers[:: max(1, -(-len(numbers) // most))]
 
 
 def call(operator, fault=None, **options):

@@ -1,6 +1,6 @@
 """An operator that is broken off at any step leaves everything as it was; an object's own failure leaves that object.
 
-All steps instead of a choice: KOEBE_EVERY_STEP=1 in the environment.
+All lines instead of a choice: KOEBE_EVERY_STEP=lines in the environment; each time that they run: =1.
 """
 
 import faults
