@@ -70,7 +70,7 @@ def explain(error):
 def warnings(task, one):
     """What to watch out for in a mapped island: kind, elements in the mesh's numbers (those of loops aside), text."""
     native = [
-        {"kind": warning.kind, "elements": _in_mesh(one.island, warning), "text": warning.text}
+        _in_mesh(one.island, warning)
         for warning in one.result.warnings
         if not (one.unrolled and warning.kind == OF_THE_DISK)
     ]
@@ -79,11 +79,9 @@ def warnings(task, one):
 
 
 def _in_mesh(island, warning):
-    """A warning's elements as the mesh numbers them."""
+    """A warning with its elements as the mesh numbers them."""
     number = {"vertices": island.source_vertex, "faces": island.triangle_face}.get(warning.of)
-    if number is None:
-        return warning.elements
-    return np.unique(number[np.asarray(warning.elements, dtype=np.int64)]).tolist()
+    return dict(warning if number is None else warning.renumbered(number))
 
 
 def entries(outcome):

@@ -30,3 +30,13 @@ def test_faces_that_were_turned_are_no_flips():
     result = koebe.uniformize(vertices, triangles, method="ck")
     assert [len(w.elements) for w in result.warnings if w.kind == "reoriented_faces"] == [2]
     assert promises.broken(triangles, result) == []
+
+
+def test_a_warning_takes_the_numbers_of_a_larger_mesh():
+    vertices, triangles = random_surfaces.make("uneven", 409)
+    (turned,) = (w for w in koebe.uniformize(vertices, triangles).warnings if w.kind == "reoriented_faces")
+    first, second = turned.elements
+    moved = turned.renumbered([1000 - face for face in range(len(triangles))])
+    assert moved.elements == [1000 - second, 1000 - first] and moved.kind == turned.kind
+    assert moved.text == turned.text.replace(f"the first face is {first}", f"the first face is {1000 - second}")
+    assert moved.text != turned.text

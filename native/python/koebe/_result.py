@@ -32,6 +32,15 @@ class Warning(dict):
         """What its elements are."""
         return WARNING_ELEMENTS[self["kind"]]
 
+    def renumbered(self, number: Any) -> "Warning":
+        """The same with number[e] for each element e: for whoever maps a part of a larger mesh. Rising, each once."""
+        elements = np.unique(np.asarray(number)[self["elements"]]).tolist() if self["elements"] else []
+        text = self["text"]
+        if elements:
+            before, said, after = text.rpartition(f" is {self['elements'][0]}")
+            text = before + (f" is {elements[0]}" if said else "") + after
+        return Warning(kind=self["kind"], elements=elements, text=text)
+
     def __str__(self) -> str:
         return self["text"]
 
