@@ -93,7 +93,7 @@ def carry(koebe, source, target, fit_holes=False, progress=None, cancel=None):
     """
     target, match = _with_matching_outer_loop(koebe, source, target, progress, cancel)
     try:
-        alignment = koebe.align_domains(source.domain, target.result, match)
+        alignment = koebe.align_domains(source.domain, target.result, match=match)
     except koebe.KoebeError as error:
         raise ShapeError(f"{target.name}: {error}") from error
     points = alignment(target.result.uv)

@@ -115,7 +115,7 @@ def filling(koebe, mesh, loop, keys):
     if not np.ptp(vertices[: len(rim)], axis=0).max() > 0.0:  # NaN too
         raise FillError("a hole has no extent: merge its doubled vertices")
     try:
-        filled, faces, label = koebe.fill_holes(vertices, triangles, [0], fair=True)
+        filled, faces, label = koebe.fill_holes(vertices, triangles, loops=[0], fair=True)
     except koebe.KoebeError as error:
         raise FillError(f"a hole of {len(rim)} edges: {error}") from error
     added = filled[len(vertices) :]

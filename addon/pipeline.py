@@ -70,7 +70,7 @@ def _map_island(koebe, island, outer, options, progress, cancel):
     one = IslandOutcome(island)
     with _failing_alone(koebe, [one]):
         _check_area(island)
-        if options.tube == "unroll" and len(koebe.boundary_loops(island.triangles, len(island.vertices))) == 2:
+        if options.tube == "unroll" and len(koebe.boundary_loops(island.triangles, vertex_count=len(island.vertices))) == 2:
             # A concentric annulus keeps its digits however small the hole; moved off the centre it loses them.
             arguments["balance"] = "none"
         one.result = koebe.uniformize(

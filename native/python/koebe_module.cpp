@@ -128,6 +128,7 @@ PYBIND11_MODULE(_koebe, m)
     m.attr("warning_elements") = warning_elements;
     py::class_<UniformizeResult>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
+        .def_property_readonly("flipped_faces", [](const UniformizeResult& r) { return r.distortion.flipped; })
         .def("to_json", [](const UniformizeResult& r) { return to_json(r).dump(); });
 
     m.def("uniformize", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,

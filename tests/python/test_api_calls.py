@@ -96,7 +96,7 @@ def test_another_thread_that_writes_into_the_arrays_does_no_harm():
         "uniformize": lambda: koebe.uniformize(vertices, faces).uv,
         "distortion": lambda: koebe.distortion(vertices, faces, vertices[:, :2]),
         "harmonic_map": lambda: koebe.harmonic_map(vertices, faces, [0, 1, 2], vertices[:3, :2]),
-        "boundary_loops": lambda: koebe.boundary_loops(faces, len(vertices)),
+        "boundary_loops": lambda: koebe.boundary_loops(faces, vertex_count=len(vertices)),
         "fill_holes": lambda: koebe.fill_holes(vertices, faces),
         "fill_holes, fair": lambda: koebe.fill_holes(vertices, faces, fair=True),
     }
@@ -181,9 +181,9 @@ def domain(holes):
 LONG_CALLS = {
     "uniformize": lambda: partial(koebe.uniformize, *LARGE),
     "uniformize, mesh": lambda: partial(koebe.uniformize, *plate(80), engine="mesh"),
-    "fill_holes, fair": lambda: partial(koebe.fill_holes, *plate(240, 1), [1], fair=True),
+    "fill_holes, fair": lambda: partial(koebe.fill_holes, *plate(240, 1), loops=[1], fair=True),
     "annulus_map": lambda: partial(koebe.annulus_map, *plate(240, 1)),
-    "disk_map": lambda: partial(koebe.disk_map, *koebe.fill_holes(*LARGE, range(1, 17))[:2]),
+    "disk_map": lambda: partial(koebe.disk_map, *koebe.fill_holes(*LARGE, loops=range(1, 17))[:2]),
     "harmonic_map": lambda: partial(koebe.harmonic_map, *plate(300), [0, 1, 2], np.eye(3, 2)),
     "match_loops": lambda: partial(koebe.match_loops, domain(400), domain(400)),
 }
@@ -319,7 +319,7 @@ def test_a_callback_may_call_again():
         "koebe.uniformize(*LARGE)",
         "koebe.uniformize(*LARGE, progress=lambda fraction, stage: None)",
         "koebe.uniformize(*LARGE, progress=lambda fraction, stage: time.sleep(0.01))",
-        "koebe.fill_holes(*plate(240, 1), [1], fair=True)",
+        "koebe.fill_holes(*plate(240, 1), loops=[1], fair=True)",
         "koebe.match_loops(domain(100), domain(100))",
         "[koebe.uniformize(*SMALL) for _ in range(1000)]",
         "[koebe.boundary_loops(SMALL[1]) for _ in range(100000)]",

@@ -9,7 +9,7 @@ from test_package import FACES, VERTICES
 
 COUNT = len(VERTICES)
 RIMS = koebe.boundary_loops(FACES)
-DISK = koebe.fill_holes(VERTICES, FACES, [0])[:2]
+DISK = koebe.fill_holes(VERTICES, FACES, loops=[0])[:2]
 UV = VERTICES[:, :2] / 2
 
 
@@ -22,7 +22,7 @@ class Domain:
 
 TAKE_A_SURFACE = {
     "uniformize": koebe.uniformize,
-    "boundary_loops": lambda v, f: koebe.boundary_loops(f, COUNT),
+    "boundary_loops": lambda v, f: koebe.boundary_loops(f, vertex_count=COUNT),
     "disk_map": koebe.disk_map,
     "annulus_map": koebe.annulus_map,
     "annulus_map, yamabe": lambda v, f: koebe.annulus_map(v, f, backend="yamabe"),
@@ -235,19 +235,19 @@ def harmonic(fixed, values=None):
     "call",
     [
         lambda: koebe.boundary_loops([[0, 0, 1]]),
-        lambda: koebe.boundary_loops([[0, 1, 2]], 2),
+        lambda: koebe.boundary_loops([[0, 1, 2]], vertex_count=2),
         lambda: koebe.boundary_loops([[0, 1, -2]]),
         lambda: koebe.boundary_loops([]),
-        lambda: koebe.boundary_loops([[0, 1, 2]], 0),
-        lambda: koebe.boundary_loops([[0, 1, 2]], 2**31),
-        lambda: koebe.fill_holes(VERTICES, FACES, [2]),
-        lambda: koebe.fill_holes(VERTICES, FACES, [-1]),
-        lambda: koebe.fill_holes(VERTICES, FACES, [0, 0]),
-        lambda: koebe.fill_holes(VERTICES, FACES, [0.0]),
-        lambda: koebe.fill_holes(VERTICES, FACES, [False]),
-        lambda: koebe.fill_holes(VERTICES, FACES, [2**40]),
-        lambda: koebe.fill_holes(VERTICES, FACES, 0),
-        lambda: koebe.fill_holes(VERTICES, FACES, [[0]]),
+        lambda: koebe.boundary_loops([[0, 1, 2]], vertex_count=0),
+        lambda: koebe.boundary_loops([[0, 1, 2]], vertex_count=2**31),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=[2]),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=[-1]),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=[0, 0]),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=[0.0]),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=[False]),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=[2**40]),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=0),
+        lambda: koebe.fill_holes(VERTICES, FACES, loops=[[0]]),
         lambda: koebe.annulus_map(VERTICES, FACES, backend="ricci"),
         lambda: koebe.annulus_map(*DISK),
         lambda: koebe.disk_map(VERTICES, FACES),
@@ -266,13 +266,13 @@ def harmonic(fixed, values=None):
         lambda: harmonic([0, 1], np.zeros((2, 3))),
         lambda: harmonic([0, 1], np.full((2, 2), np.inf)),
         lambda: harmonic([0, 1], np.zeros((2, 2), dtype=complex)),
-        lambda: koebe.conformal_module(Domain(), [0, 1]),
-        lambda: koebe.conformal_module(Domain(), []),
-        lambda: koebe.conformal_module(Domain(), [0, 1, 1]),
-        lambda: koebe.conformal_module(Domain(), [0, 1, 3]),
-        lambda: koebe.conformal_module(Domain(), [0, 1, -1]),
-        lambda: koebe.conformal_module(Domain(), [0.0, 1.0, 2.0]),
-        lambda: koebe.conformal_module(Domain(), "by length"),
+        lambda: koebe.conformal_module(Domain(), order=[0, 1]),
+        lambda: koebe.conformal_module(Domain(), order=[]),
+        lambda: koebe.conformal_module(Domain(), order=[0, 1, 1]),
+        lambda: koebe.conformal_module(Domain(), order=[0, 1, 3]),
+        lambda: koebe.conformal_module(Domain(), order=[0, 1, -1]),
+        lambda: koebe.conformal_module(Domain(), order=[0.0, 1.0, 2.0]),
+        lambda: koebe.conformal_module(Domain(), order="by length"),
         lambda: koebe.conformal_module(Domain(radii=[1.0, 0.2])),
         lambda: koebe.conformal_module(Domain(radii=[np.nan, 0.2, 0.3])),
         lambda: koebe.conformal_module(Domain(radii=[1.0, 0.2, -0.3])),
@@ -287,10 +287,10 @@ def harmonic(fixed, values=None):
         lambda: koebe.canonical_order(3),
         lambda: koebe.match_loops(Domain(), None),
         lambda: koebe.match_loops(Domain(), Domain([[0.0, 0.0]], [1.0])),
-        lambda: koebe.align_domains(Domain(), Domain(), [1, 0, 2]),
-        lambda: koebe.align_domains(Domain(), Domain(), [0, 1]),
-        lambda: koebe.align_domains(Domain(), Domain(), []),
-        lambda: koebe.align_domains(Domain(), Domain(), [0, 1, 2**40]),
+        lambda: koebe.align_domains(Domain(), Domain(), match=[1, 0, 2]),
+        lambda: koebe.align_domains(Domain(), Domain(), match=[0, 1]),
+        lambda: koebe.align_domains(Domain(), Domain(), match=[]),
+        lambda: koebe.align_domains(Domain(), Domain(), match=[0, 1, 2**40]),
         lambda: koebe.align_domains(Domain(), Domain())(UV.astype(complex)),
         lambda: koebe.align_domains(Domain(), Domain())(VERTICES),
         lambda: koebe.align_domains(Domain(), Domain())([[np.nan, 0.0]]),
@@ -312,7 +312,7 @@ def test_arguments_that_mean_nothing_are_input_errors(call):
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: koebe.boundary_loops([[0, 1, 2]], 3.0),
+        lambda: koebe.boundary_loops([[0, 1, 2]], vertex_count=3.0),
         lambda: koebe.fill_holes(VERTICES, FACES, fair=1),
         lambda: koebe.harmonic_map(VERTICES, FACES, [0], [[0.0, 0.0]], uniform="yes"),
         lambda: koebe.annulus_map(VERTICES, FACES, backend=None),
@@ -329,7 +329,7 @@ def test_arguments_of_a_wrong_type_are_type_errors(call):
 
 def test_one_vertex_that_no_mesh_needs_costs_no_memory():
     far = 2**31 - 3
-    loops = koebe.boundary_loops([[0, 7, far], [7, 9, far]], 2**31 - 1)
+    loops = koebe.boundary_loops([[0, 7, far], [7, 9, far]], vertex_count=2**31 - 1)
     assert [loop.tolist() for loop in loops] == [[0, 7, 9, far]] and loops[0].dtype == np.int32
     with pytest.raises(koebe.TopologyError) as caught:
         koebe.boundary_loops([[0, 7, far], [7, 0, 9], [0, 7, 11]])

@@ -10,7 +10,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the limit is on
 CALLS = {
     "uniformize": "koebe.uniformize(*mesh).uv",
     "uniformize, mesh": "koebe.uniformize(*mesh, engine='mesh').uv",
-    "fill_holes, fair": "koebe.fill_holes(*mesh, [1], fair=True)[0]",
+    "fill_holes, fair": "koebe.fill_holes(*mesh, loops=[1], fair=True)[0]",
     "annulus_map, yamabe": "koebe.annulus_map(*plate(24, 1), backend='yamabe')[0]",
     "boundary_loops": "koebe.boundary_loops(mesh[1])[0]",
     "match_loops": "koebe.match_loops(domain(100), domain(100))[2]",

@@ -60,7 +60,7 @@ def test_the_module_has_3n_minus_3_numbers_or_one_or_none():
 def test_a_domain_in_normal_position_is_read_off():
     domain = Domain((0.0, 0.0, 0.25), (0.0, 0.6, 0.125), (0.4, -0.3, 0.2))
     assert koebe.conformal_module(domain) == pytest.approx([0.25, 0.6, 0.125, 0.4, -0.3, 0.2], abs=1e-15)
-    assert koebe.conformal_module(domain, [0, 2, 1, 3])[0] > 0.125
+    assert koebe.conformal_module(domain, order=[0, 2, 1, 3])[0] > 0.125
 
 
 def test_one_hole_gives_the_radius_of_the_annulus():
@@ -117,8 +117,8 @@ def test_renumbered_loops_are_the_same_shape():
     shuffled[new] = vertices
     other = koebe.uniformize(shuffled, new[faces[::-1]].astype(np.int32))
     assert koebe.module_distance(other, RESULT) < 1e-7
-    module = koebe.conformal_module(RESULT, "canonical")
-    assert koebe.conformal_module(other, "canonical") == pytest.approx(module, abs=1e-7)
+    module = koebe.conformal_module(RESULT, order="canonical")
+    assert koebe.conformal_module(other, order="canonical") == pytest.approx(module, abs=1e-7)
     order, other_order, _ = koebe.match_loops(RESULT, other)
     for k, j in zip(order, other_order, strict=True):
         assert set(new[RESULT.loops[k]]) == set(other.loops[j])
@@ -128,7 +128,7 @@ def test_a_mirror_image_is_another_shape():
     result = koebe.uniformize(*mirrored(*FLAT))
     assert koebe.module_distance(result, RESULT) > 0.01
     order, other_order, _ = koebe.match_loops(RESULT, result)
-    module, other = koebe.conformal_module(RESULT, order), koebe.conformal_module(result, order)
+    module, other = koebe.conformal_module(RESULT, order=order), koebe.conformal_module(result, order=order)
     assert other * [1, 1, 1, -1, 1, 1] == pytest.approx(module, abs=1e-6)
 
 
@@ -145,12 +145,12 @@ def test_distance_of_modules_is_euclidean_and_of_results_matched():
     [
         lambda: koebe.module_distance([1.0], [1.0, 2.0]),
         lambda: koebe.module_distance(RESULT, koebe.uniformize(*plate(16, HOLES[:2]))),
-        lambda: koebe.conformal_module(RESULT, [0, 1]),
-        lambda: koebe.conformal_module(RESULT, [0, 1, 1, 2]),
-        lambda: koebe.conformal_module(RESULT, []),
-        lambda: koebe.conformal_module(RESULT, "longest"),
+        lambda: koebe.conformal_module(RESULT, order=[0, 1]),
+        lambda: koebe.conformal_module(RESULT, order=[0, 1, 1, 2]),
+        lambda: koebe.conformal_module(RESULT, order=[]),
+        lambda: koebe.conformal_module(RESULT, order="longest"),
         lambda: koebe.conformal_module(np.zeros(3)),
-        lambda: koebe.align_domains(RESULT, RESULT, [1, 0, 2, 3]),
+        lambda: koebe.align_domains(RESULT, RESULT, match=[1, 0, 2, 3]),
     ],
 )
 def test_what_cannot_be_compared_is_refused(call):
@@ -191,9 +191,9 @@ def test_module_takes_any_order_of_the_loops(tmp_path):
     ranks = json.loads(command("module", file).stdout)["loops"]
     order = [2, 0, 3, 1]
     report = json.loads(command("module", file, "--loops", ",".join(str(ranks[k]) for k in order)).stdout)
-    assert report["module"] == pytest.approx(koebe.conformal_module(RESULT, order), abs=1e-9)
+    assert report["module"] == pytest.approx(koebe.conformal_module(RESULT, order=order), abs=1e-9)
     report = json.loads(command("module", file, "--loops", "canonical").stdout)
-    assert report["module"] == pytest.approx(koebe.conformal_module(RESULT, "canonical"), abs=1e-9)
+    assert report["module"] == pytest.approx(koebe.conformal_module(RESULT, order="canonical"), abs=1e-9)
     assert command("module", file, "--loops", "canonical", "--any-outer").returncode == 0
 
 

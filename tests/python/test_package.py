@@ -128,13 +128,13 @@ def test_faired_filling_continues_the_surface():
     sphere = np.column_stack([2 * VERTICES[:, :2], squared - 1]) / (1 + squared)[:, None]
     before = sphere.copy()
     inner = int(np.abs(VERTICES[koebe.boundary_loops(FACES)[0], :2]).max() > 0.7)
-    vertices, faces, label = koebe.fill_holes(sphere, FACES, [inner], fair=True)
+    vertices, faces, label = koebe.fill_holes(sphere, FACES, loops=[inner], fair=True)
     assert np.array_equal(sphere, before) and np.array_equal(vertices[: len(sphere)], sphere)
     assert np.array_equal(faces[: len(FACES)], FACES) and set(label[len(FACES) :]) == {inner}
     assert len(vertices) > len(sphere) + 20
     assert np.abs(np.linalg.norm(vertices, axis=1) - 1).max() < 0.03
     with pytest.raises(koebe.InputError):
-        koebe.fill_holes(sphere, FACES, [2], fair=True)
+        koebe.fill_holes(sphere, FACES, loops=[2], fair=True)
 
 
 @pytest.mark.parametrize("uniform", [False, True])
@@ -160,7 +160,7 @@ def test_boundary_loops_and_the_disk_map():
     assert sorted(len(loop) for loop in loops) == [48, 48]
     with pytest.raises(koebe.InputError):
         koebe.disk_map(VERTICES, FACES)
-    vertices, faces, _ = koebe.fill_holes(VERTICES, FACES, [0])
+    vertices, faces, _ = koebe.fill_holes(VERTICES, FACES, loops=[0])
     points = koebe.disk_map(vertices, faces)
     rim = koebe.boundary_loops(faces)[0]
     assert np.allclose(np.linalg.norm(points[rim], axis=1), 1.0)

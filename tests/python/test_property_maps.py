@@ -54,7 +54,7 @@ def require_promises(result, vertices, faces):
     gaps = abs(z[1:, None] - z[1:]) - radii[1:, None] - radii[1:]
     assert (gaps[~np.eye(len(gaps), dtype=bool)] >= -ROUNDING).all()
 
-    rims = koebe.boundary_loops(faces, len(vertices))
+    rims = koebe.boundary_loops(faces, vertex_count=len(vertices))
     assert sorted(map(from_lowest, loops)) == sorted(map(from_lowest, rims))
     for loop, off, center, radius in zip(loops, result.off_circle, centers, radii, strict=True):
         assert set(off) <= set(loop)
@@ -110,7 +110,7 @@ def test_every_option_keeps_the_promises(surface, chosen):
 @given(any_surface, randoms())
 def test_every_choice_of_the_outer_loop_keeps_the_promises(surface, random):
     vertices, faces = surface
-    loops = koebe.boundary_loops(faces, len(vertices))
+    loops = koebe.boundary_loops(faces, vertex_count=len(vertices))
     chosen = loops[int(random.integers(len(loops)))]
     result = koebe.uniformize(vertices, faces, outer=int(random.choice(chosen)))
     assert set(result.loops[0]) == set(chosen)

@@ -233,7 +233,7 @@ def test_the_generated_surfaces_have_genus_0_and_a_boundary(kind):
     def check(surface):
         vertices, faces = surface
         edges = {frozenset(e) for f in faces.tolist() for e in zip(f, f[1:] + f[:1], strict=True)}
-        loops = koebe.boundary_loops(faces, len(vertices))
+        loops = koebe.boundary_loops(faces, vertex_count=len(vertices))
         assert len(vertices) - len(edges) + len(faces) == 2 - len(loops) and len(loops) >= 1
         directed = {e for f in faces.tolist() for e in zip(f, f[1:] + f[:1], strict=True)}
         rim = {e for e in directed if e[::-1] not in directed}
@@ -264,7 +264,7 @@ def test_a_faired_patch_is_finite_and_keeps_what_was_there(surface):
     loops = koebe.boundary_loops(faces)
     rank = min(range(len(loops)), key=lambda k: len(loops[k]))
     try:
-        filled, all_faces, label = koebe.fill_holes(vertices, faces, [rank], fair=True)
+        filled, all_faces, label = koebe.fill_holes(vertices, faces, loops=[rank], fair=True)
     except (koebe.InputError, koebe.SolverError) as error:
         assert str(error)
         return
@@ -311,7 +311,7 @@ def test_distortion_counts_flips_as_they_are_stored(surface, random):
 
 
 FUNCTIONS = {
-    "boundary_loops": lambda v, f: koebe.boundary_loops(f, len(v)),
+    "boundary_loops": lambda v, f: koebe.boundary_loops(f, vertex_count=len(v)),
     "fill_holes": koebe.fill_holes,
     "fill_holes, fair": lambda v, f: koebe.fill_holes(v, f, fair=True),
     "disk_map": koebe.disk_map,
@@ -388,7 +388,7 @@ def test_automorphisms_of_the_disk_and_new_numbers_change_no_shape(domain, dista
     module = koebe.conformal_module(first)
     assert len(module) == len(koebe.module_names(len(radii))) and np.isfinite(module).all()
     back = np.argsort(order)
-    assert np.allclose(koebe.conformal_module(second, back), module, atol=1e-9)
+    assert np.allclose(koebe.conformal_module(second, order=back), module, atol=1e-9)
     assert koebe.module_distance(first, second) < 1e-8
     alignment = koebe.align_domains(first, second)
     assert alignment.residual < 1e-7

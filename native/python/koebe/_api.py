@@ -31,6 +31,7 @@ def _options(method, engine, outer, tolerance, max_sweeps, balance, threads, pol
 def uniformize(
     vertices: Any,
     triangles: Any,
+    *,
     method: str = "gk",
     engine: str = "condensed",
     outer: str | int = "auto",
@@ -67,7 +68,7 @@ def uniformize(
     return UniformizeResult(_koebe.uniformize(*as_surface(vertices, triangles), options, progress, cancel))
 
 
-def boundary_loops(triangles: Any, vertex_count: int | None = None) -> list[np.ndarray]:
+def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[np.ndarray]:
     """Boundary loops as int32 arrays of vertices, in order with the surface on the left; lowest vertex first.
 
     vertex_count    of the mesh; without it any number is a vertex
@@ -96,7 +97,7 @@ def disk_map(vertices: Any, triangles: Any) -> np.ndarray:
     return _koebe.disk_map(*as_surface(vertices, triangles))
 
 
-def annulus_map(vertices: Any, triangles: Any, backend: str = "harmonic") -> tuple[np.ndarray, float]:
+def annulus_map(vertices: Any, triangles: Any, *, backend: str = "harmonic") -> tuple[np.ndarray, float]:
     """The map of a surface with two boundary loops to the annulus r < |z| < 1 (paper, section 4.2).
 
     backend   'harmonic': by a holomorphic 1-form. 'yamabe': by the discrete Yamabe flow to a flat cylinder, with
@@ -109,7 +110,7 @@ def annulus_map(vertices: Any, triangles: Any, backend: str = "harmonic") -> tup
 
 
 def fill_holes(
-    vertices: Any, triangles: Any, loops: Sequence[int] | None = None, fair: bool = False
+    vertices: Any, triangles: Any, *, loops: Sequence[int] | None = None, fair: bool = False
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fill boundary loops.
 
@@ -124,7 +125,7 @@ def fill_holes(
 
 
 def harmonic_map(
-    vertices: Any, triangles: Any, fixed: Any, values: Any, uniform: bool = False
+    vertices: Any, triangles: Any, fixed: Any, values: Any, *, uniform: bool = False
 ) -> np.ndarray:
     """The map into the plane of least Dirichlet energy with given values at some vertices (paper, equation 2).
 

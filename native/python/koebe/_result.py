@@ -55,6 +55,7 @@ class UniformizeResult:
     off_circle       int32 arrays: vertices of each loop that are not on its circle
     history          one entry a step: step, pair, change, mean_roundness
     flipped, below_resolution    counts of faces, as in the command's JSON
+    flipped_faces    int32 array of the faces that `flipped` counts, rising
     warnings         list of Warning: kind, elements, text
     """
 
@@ -68,6 +69,7 @@ class UniformizeResult:
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
         self.warnings = [Warning(warning) for warning in self._report["warnings"]]
+        self.flipped_faces = np.array(native.flipped_faces, dtype=np.int32)
         self._native = native
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
 

@@ -22,7 +22,7 @@ def _require_own_circles(domain: Any) -> None:
         _koebe.require_own_circles(domain._native)
 
 
-def canonical_order(result: Any, any_outer: bool = False) -> np.ndarray:
+def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
     """An order of the loops, the outer one first, that does not depend on how they are numbered.
 
     By how near they are to the outer loop conformally. It jumps where two loops are alike, so compare shapes by
@@ -31,7 +31,7 @@ def canonical_order(result: Any, any_outer: bool = False) -> np.ndarray:
     return np.array(_koebe.canonical_order(*as_circles(result), flag(any_outer, "any_outer")), dtype=np.int32)
 
 
-def conformal_module(result: Any, order: Sequence[int] | str | None = None) -> np.ndarray:
+def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -> np.ndarray:
     """The conformal module of a circle domain (paper, Fig. 13): r_1, y_2, r_2, x_3, y_3, r_3, ...
 
     order    the loops in the order wanted, the outer one, which may be any, first; None: as in the result;
@@ -58,7 +58,7 @@ def module_names(loop_count: int) -> list[str]:
     return _koebe.module_names(whole(loop_count, "loop_count", least=0))
 
 
-def match_loops(a: Any, b: Any, any_outer: bool = False) -> tuple[np.ndarray, np.ndarray, float]:
+def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray, np.ndarray, float]:
     """The correspondence of the loops of two domains with the least distance of their modules.
 
     Returns an order of a's loops and one of b's in which corresponding loops stand at the same place, outer ones
@@ -105,7 +105,7 @@ class DomainAlignment:
         return self._native(as_points(points, "points", 2))
 
 
-def align_domains(source: Any, target: Any, match: Sequence[int] | None = None) -> DomainAlignment:
+def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
     """The automorphism of the unit disk that takes the target's circles nearest to the source's, by least squares.
 
     match    the target's loop for each of the source's, 0 for 0; None: as match_loops finds them
