@@ -31,7 +31,7 @@ for target in "${targets[@]}"; do
     if "$build/tests/fuzz/fuzz_$target" -seed="$seed" -timeout=300 -report_slow_units=300 \
         -rss_limit_mb=4096 -max_len=$([ "$target" = read ] && echo 600 || echo 302) -print_final_stats=1 \
         "${words[@]}" -artifact_prefix="$findings/" "$corpus" "${kept[@]}" >"$log" 2>&1; then
-        runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+        runs=$(sed -n "s/^stat::number_of_executed_units: *//p" "$log" | tail -n 1)
         echo "fuzz $target: ${runs:-0} inputs, no finding"
     else
         found=1
