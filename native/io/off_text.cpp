@@ -41,6 +41,9 @@ void require_off_header(std::string_view bytes)
         const auto most = static_cast<std::int64_t>(std::min(bytes.size(), std::size_t{1} << 28));
         if (error == std::errc::result_out_of_range || count > most || count < -most)
             throw InputError(std::string("the header's number of element ") + element + " does not fit the file");
+        // CGAL takes what comes behind a number, without a space, for the next one.
+        if (end != word.data() + word.size() && (*end == '-' || *end == '+'))
+            throw InputError(std::string("the header's number of element ") + element + " is no integer");
         word = next_word(text);
     }
 }
