@@ -11,13 +11,13 @@
 #include "circle_domain.h"
 #include "cli/fast_kernels.h"
 #include "core/topology.h"
-#include "geometry/dense_spd.h"
-#include "geometry/laplacian.h"
-#include "geometry/sparse_cholesky.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
+#include "linear/dense_spd.h"
+#include "linear/sparse_cholesky.h"
 #include "pipeline/uniformize.h"
 #include "report/json.h"
+#include "surface/laplacian.h"
 
 #include <algorithm>
 #include <chrono>

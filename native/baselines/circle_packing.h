@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "geometry/laplacian.h"
+#include "surface/laplacian.h"
 
 namespace koebe {
 

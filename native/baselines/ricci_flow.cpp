@@ -1,9 +1,10 @@
 #include "baselines/ricci_flow.h"
 
-#include "conformal/circle_fit.h"
+#include "circles/circle_fit.h"
 #include "core/connectivity.h"
 #include "flow/curvature.h"
 #include "flow/flat_layout.h"
+#include "iteration/circle_change.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "baselines/circle_packing.h"
-#include "conformal/koebe_iteration.h"
 #include "core/execution.h"
 #include "flow/convex_newton.h"
-#include "geometry/intrinsic_metric.h"
+#include "iteration/koebe_outcome.h"
+#include "surface/intrinsic_metric.h"
 
 #include <string>
 #include <vector>

@@ -1,17 +1,19 @@
 #include "baselines/ricci_uniformize.h"
 
-#include "conformal/circle_fit.h"
-#include "conformal/distortion.h"
-#include "conformal/moebius.h"
+#include "circles/circle_fit.h"
+#include "circles/moebius.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
-#include "foldover/flap_map.h"
-#include "foldover/flip_removal.h"
-#include "foldover/flip_report.h"
-#include "geometry/dense_spd.h"
-#include "geometry/intrinsic_metric.h"
+#include "core/resolution.h"
+#include "flaps/flap_map.h"
+#include "linear/dense_spd.h"
 #include "pipeline/domain.h"
+#include "pipeline/flip_removal.h"
+#include "pipeline/map_report.h"
+#include "pipeline/map_warnings.h"
 #include "pipeline/promise.h"
+#include "quality/distortion.h"
+#include "surface/intrinsic_metric.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,7 +24,6 @@
 namespace koebe {
 namespace {
 
-constexpr double on_circle = 1e-6;        // a length in the unit disk
 constexpr double flat = 1e-5;             // radians of curvature left at a vertex
 constexpr double worth_a_warning = 1e-3;  // relative change of a length
 
@@ -37,9 +38,17 @@ std::string with_number(const char* format, double number)
     return text;
 }
 
-/// Two loops concentric; the circles of the loops into the report.
-VectorXcd in_normal_position(const RicciFlowResult& flow, const Domain& domain, UniformizeResult& result)
+/// Vertices of the outer loop that the layout has left outside the unit disk go onto its circle.
+void draw_in(const VertexLoop& outer, PlanarPoints& points)
 {
+    for (const Index v : outer)
+        if (const double radius = points.row(v).norm(); radius > 1.0) points.row(v) /= radius;
+}
+
+/// The flow's layout with the circles fitted to its loops, two loops concentric.
+CircleMap in_normal_position(const RicciFlowResult& flow, const Domain& domain)
+{
+    CircleMap map;
     std::vector<Circle> circles;
     for (const VectorXcd& loop : flow.outcome.loops) circles.push_back(fit_circle_least_squares(loop));
     circles[0] = Circle{};
@@ -48,19 +57,13 @@ VectorXcd in_normal_position(const RicciFlowResult& flow, const Domain& domain, 
         moebius = center_circle(circles[1]);
     const VectorXcd positions = moebius(flow.positions);
     for (std::size_t k = 0; k < circles.size(); ++k) {
-        LoopReport report;
-        report.circle = k == 0 ? circles[0] : moebius(circles[k]);
-        report.roundness = roundness(gather_loop(positions, domain.loops[k]), report.circle);
-        result.loops.push_back(std::move(report));
+        map.circles.push_back(k == 0 ? circles[0] : moebius(circles[k]));
+        map.roundness.push_back(roundness(gather_loop(positions, domain.loops[k]), map.circles[k]));
     }
-    return positions;
-}
-
-/// Vertices of the outer loop that the layout has left outside the unit disk go onto its circle.
-void draw_in(const VertexLoop& outer, PlanarPoints& points)
-{
-    for (const Index v : outer)
-        if (const double radius = points.row(v).norm(); radius > 1.0) points.row(v) /= radius;
+    map.uv.resize(positions.size(), 2);
+    map.uv << positions.real(), positions.imag();
+    draw_in(domain.loops[0], map.uv);
+    return map;
 }
 
 UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const RicciOptions& options,
@@ -106,35 +109,27 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 
     context.begin_stage("finish", 0.9, 1.0);
     stage = Clock::now();
-    const VectorXcd positions = in_normal_position(flow, domain, result);
-    PlanarPoints core_uv(positions.size(), 2);
-    core_uv << positions.real(), positions.imag();
-    draw_in(domain.loops[0], core_uv);
-    const std::size_t own_flips = flipped_faces(domain.surface.triangles, core_uv).size();
-    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original,
-                             whole.original_faces, whole.first_corners};
+    CircleMap map = in_normal_position(flow, domain);
+    const std::size_t own_flips = flipped_faces(domain.surface.triangles, map.uv).size();
+    map = hang_back(whole, cut, std::move(map), context);
     // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
-    const UntangledMap map =
-        flow.curvature_error < flat
-            ? remove_flips(named, cut, std::move(core_uv), reported_circles(result.loops), context)
-            : hang_back(named, cut, std::move(core_uv), context);
-    report_map(named, map, result);
+    const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
+    report_map(whole, map, result);
 
     if (!result.converged) result.warnings.push_back({WarningKind::not_converged, "not converged: " + flow.reason});
     if (flow.packing_change > worth_a_warning)
         result.warnings.push_back(
             {WarningKind::packing,
              with_number("the circle packing changes edge lengths by up to %.2g of themselves", flow.packing_change)});
-    if (flow.closing_gap > on_circle)
+    if (flow.closing_gap > circle_tolerance)
         result.warnings.push_back(
             {WarningKind::closing_gap, with_number("holes close up to %.2g of their length", flow.closing_gap)});
     if (own_flips > 0)
         result.warnings.push_back(
             {WarningKind::flow_flips, "faces flipped by the flow's own map: " + std::to_string(own_flips)});
-    for (Warning& warning : flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion))
+    for (Warning& warning : flip_warnings(whole, map.uv, cut.flaps, untangled, result.distortion))
         result.warnings.push_back(std::move(warning));
-    if (const MapFaults faults = find_faults(whole.surface.triangles, whole.loops, map.uv, reported_circles(result.loops));
-        faults.any()) {
+    if (const MapFaults faults = find_faults(whole.surface.triangles, whole.loops, map.uv, map.circles); faults.any()) {
         result.converged = false;
         result.warnings.push_back(faults.warning("not one to one: ", whole.original, whole.original_faces));
     }

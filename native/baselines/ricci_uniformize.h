@@ -2,8 +2,8 @@
 #pragma once
 
 #include "baselines/ricci_flow.h"
-#include "conformal/result.h"
 #include "core/execution.h"
+#include "pipeline/result.h"
 
 namespace koebe {
 

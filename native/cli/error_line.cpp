@@ -30,10 +30,7 @@ std::string full_name(const KoebeError& error)
 
 }  // namespace
 
-std::string error_line(const std::string& name, const std::string& reason)
-{
-    return one_line(name + ": " + reason);
-}
+std::string error_line(const std::string& name, const std::string& reason) { return one_line(name + ": " + reason); }
 
 std::string error_line(const KoebeError& error)
 {

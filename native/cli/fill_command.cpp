@@ -10,7 +10,7 @@
 #include "cli/validators.h"
 
 #include "core/detachable_run.h"
-#include "geometry/hole_filling.h"
+#include "holes/hole_filling.h"
 #include "io/atomic_file.h"
 
 #include <chrono>
@@ -58,8 +58,7 @@ PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
 
     PatchedPolygons result;
     result.mesh.vertices = filled.vertices;
-    for (Index f = 0; f < input.polygons.face_count(); ++f)
-        add_polygon(result, input.polygons.face(f), turned[f], -1);
+    for (Index f = 0; f < input.polygons.face_count(); ++f) add_polygon(result, input.polygons.face(f), turned[f], -1);
     for (Eigen::Index t = triangles.rows(); t < filled.triangles.rows(); ++t)
         add_polygon(result, {filled.triangles.row(t).data(), 3}, false, filled.label[t]);
     return result;
@@ -72,8 +71,8 @@ std::vector<Index> chosen_loops(const Request& request, const Vertices& vertices
     if (!request.loops.empty()) return request.loops;
     std::vector<Index> ranks = chosen_ranks(surface, std::nullopt);
     if (request.all || ranks.empty()) return ranks;
-    const Index outer = request.outer == "longest" ? longest_loop(vertices, surface)
-                                                   : loop_of(surface, std::stoi(request.outer));
+    const Index outer =
+        request.outer == "longest" ? longest_loop(vertices, surface) : loop_of(surface, std::stoi(request.outer));
     ranks.erase(ranks.begin() + outer);
     return ranks;
 }
@@ -108,8 +107,8 @@ int run(const Request& request)
     require_writable_files(request.files(), !request.quiet);
     const auto input = std::make_shared<const MeshInput>(read_mesh_input(request.input, token));
     ExecutionContext context({}, token);
-    const PatchedPolygons filled = run_detachable<PatchedPolygons>(
-        context, [request, input](ExecutionContext&) { return fill(request, *input); });
+    const PatchedPolygons filled =
+        run_detachable<PatchedPolygons>(context, [request, input](ExecutionContext&) { return fill(request, *input); });
     AtomicFile file(request.output);
     write_with_patches(file, request.format, filled.mesh, filled.patch);
     context.checkpoint();
@@ -137,12 +136,12 @@ Subcommand add_fill(CLI::App& app)
         ->add_option("OUT", request->output,
                      "OBJ to write, with the groups surface, patch_0, patch_1, …, or PLY, with the property patch")
         ->required();
-    CLI::Option* outer = options
-                             ->add_option("--outer", request->outer,
-                                          "loop that stays open: the longest, or that of a vertex (from 0)")
-                             ->check(outer_loop_choice({"longest"}))
-                             ->type_name("longest|VERTEX")
-                             ->capture_default_str();
+    CLI::Option* outer =
+        options
+            ->add_option("--outer", request->outer, "loop that stays open: the longest, or that of a vertex (from 0)")
+            ->check(outer_loop_choice({"longest"}))
+            ->type_name("longest|VERTEX")
+            ->capture_default_str();
     CLI::Option* all = options->add_flag("--all", request->all, "fill the outer loop too: the surface is closed");
     options
         ->add_option("--loops", request->loops,

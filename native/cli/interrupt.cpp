@@ -15,11 +15,11 @@ CancelToken cancel_on_signal()
 {
     static CancelToken token;
     signalled = &token;
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_handler = raise_token;
     action.sa_flags = SA_RESETHAND | SA_RESTART;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction old{};
+        struct sigaction old {};
         sigaction(signal, nullptr, &old);
         if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
     }

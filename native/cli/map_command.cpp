@@ -79,8 +79,7 @@ std::string result_line(const MapRequest& request, const UniformizeResult& resul
 void show_warnings(const UniformizeResult& result)
 {
     if (::isatty(STDERR_FILENO) != 1) return;
-    for (const Warning& warning : result.warnings)
-        std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
+    for (const Warning& warning : result.warnings) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
 }
 
 }  // namespace
@@ -88,7 +87,9 @@ void show_warnings(const UniformizeResult& result)
 void add_mesh_arguments(CLI::App& app, MapRequest& request)
 {
     app.add_option("IN", request.input, "surface with holes: OBJ, OFF, PLY or STL")->required();
-    app.add_option("OUT", request.output, "OBJ or PLY to write: the same vertices and faces, with texture coordinates in [0, 1]^2")->required();
+    app.add_option("OUT", request.output,
+                   "OBJ or PLY to write: the same vertices and faces, with texture coordinates in [0, 1]^2")
+        ->required();
 }
 
 void add_map_options(CLI::App& app, MapRequest& request)

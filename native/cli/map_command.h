@@ -1,9 +1,9 @@
 // What the sub-commands that map a surface to a circle domain share: files, options, the result line.
 #pragma once
 
-#include "conformal/result.h"
 #include "core/execution.h"
 #include "io/mesh_writer.h"
+#include "pipeline/result.h"
 #include "report/json.h"
 
 #include <CLI/CLI.hpp>

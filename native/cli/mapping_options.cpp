@@ -12,7 +12,9 @@ void add_mapping_options(CLI::App& app, UniformizeOptions& options)
     app.add_option("--max-sweeps", options.max_sweeps, "sweeps over all loops before giving up")
         ->check(whole_number(1))
         ->capture_default_str();
-    app.add_option("--threads", options.threads, "at most; 0: all cores. The result is the same for any number")->check(whole_number(0))->capture_default_str();
+    app.add_option("--threads", options.threads, "at most; 0: all cores. The result is the same for any number")
+        ->check(whole_number(0))
+        ->capture_default_str();
 }
 
 }  // namespace koebe::cli

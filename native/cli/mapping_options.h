@@ -1,7 +1,7 @@
 // The options that every command has which computes a map.
 #pragma once
 
-#include "conformal/result.h"
+#include "pipeline/options.h"
 
 #include <CLI/CLI.hpp>
 

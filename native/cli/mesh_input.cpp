@@ -19,12 +19,11 @@ MeshInput read_and_triangulate(const std::filesystem::path& path)
     input.triangulation = triangulate(input.polygons);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())
-        input.warnings.push_back({WarningKind::collapsed_faces,
-                                  "faces of fewer than three different vertices, passed over: " +
-                                      std::to_string(collapsed.size()),
-                                  collapsed});
-    if (input.triangulation.triangles.rows() == 0)
-        throw InputError("no face has three different vertices", collapsed);
+        input.warnings.push_back(
+            {WarningKind::collapsed_faces,
+             "faces of fewer than three different vertices, passed over: " + std::to_string(collapsed.size()),
+             collapsed});
+    if (input.triangulation.triangles.rows() == 0) throw InputError("no face has three different vertices", collapsed);
     input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return input;
 }

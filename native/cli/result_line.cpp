@@ -27,7 +27,8 @@ std::string counted(std::size_t number, const std::string& noun)
 
 std::string one_line(std::string text)
 {
-    std::ranges::replace_if(text, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
     using Json = nlohmann::json;  // which knows what is no UTF-8
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }

@@ -25,7 +25,7 @@ namespace koebe::cli {
 namespace {
 
 constexpr std::size_t megabyte = std::size_t{1} << 20;
-constexpr std::size_t buffer = 129 * megabyte;           // BUFFER_SIZE of OpenBLAS 0.3 with what it puts around it
+constexpr std::size_t buffer = 129 * megabyte;            // BUFFER_SIZE of OpenBLAS 0.3 with what it puts around it
 constexpr std::size_t to_start = buffer + 32 * megabyte;  // and the stacks and the heap of the start
 
 /// Whether there is room for so many bytes more, of the kind that OpenBLAS asks for.

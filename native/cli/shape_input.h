@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cli/subcommand.h"
-#include "conformal/result.h"
 #include "core/execution.h"
+#include "pipeline/result.h"
 
 #include <nlohmann/json.hpp>
 

@@ -22,8 +22,8 @@ namespace {
 void keep_standard_streams()
 {
     // Each is open in the direction that nobody asks for; open() takes the lowest number that is free.
-    for (const auto& [stream, direction] : {std::pair{STDIN_FILENO, O_WRONLY}, std::pair{STDOUT_FILENO, O_RDONLY},
-                                            std::pair{STDERR_FILENO, O_RDONLY}})
+    for (const auto& [stream, direction] :
+         {std::pair{STDIN_FILENO, O_WRONLY}, std::pair{STDOUT_FILENO, O_RDONLY}, std::pair{STDERR_FILENO, O_RDONLY}})
         if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", direction);
 }
 
@@ -35,8 +35,7 @@ void require_standard_output()
 
 void print(std::string_view text, const std::string& done)
 {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-        fail(errno, done);
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) fail(errno, done);
 }
 
 }  // namespace koebe::cli

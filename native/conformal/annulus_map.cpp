@@ -5,7 +5,7 @@
 #include "core/errors.h"
 #include "flow/flat_layout.h"
 #include "flow/yamabe_flow.h"
-#include "geometry/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/types.h"
-#include "geometry/laplacian.h"
-#include "geometry/one_form.h"
+#include "surface/laplacian.h"
+#include "surface/one_form.h"
 
 #include <vector>
 

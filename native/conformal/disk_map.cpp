@@ -1,12 +1,12 @@
 #include "conformal/disk_map.h"
 
+#include "circles/circle_fit.h"
+#include "circles/moebius.h"
 #include "conformal/annulus_map.h"
-#include "conformal/circle_fit.h"
 #include "conformal/closed_disk.h"
-#include "conformal/moebius.h"
 #include "core/errors.h"
-#include "geometry/harmonic_map.h"
-#include "geometry/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
+#include "surface/harmonic_map.h"
 
 #include <algorithm>
 #include <cmath>

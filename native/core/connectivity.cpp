@@ -13,8 +13,7 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
 
     // Bucket the half-edges by their smaller vertex; a bucket holds at most one fan, so it is short.
     std::vector<Index> bucket_begin(vertex_count + 1, 0);
-    for (Index h = 0; h < halfedge_count; ++h)
-        ++bucket_begin[std::min(origin(triangles, h), target(triangles, h)) + 1];
+    for (Index h = 0; h < halfedge_count; ++h) ++bucket_begin[std::min(origin(triangles, h), target(triangles, h)) + 1];
     for (Index v = 0; v < vertex_count; ++v) bucket_begin[v + 1] += bucket_begin[v];
 
     struct Entry {
@@ -34,8 +33,7 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
         const auto begin = entries.begin() + bucket_begin[v];
         const auto end = entries.begin() + bucket_begin[v + 1];
         std::sort(begin, end, [](const Entry& a, const Entry& b) {
-            return a.other_vertex != b.other_vertex ? a.other_vertex < b.other_vertex
-                                                    : a.halfedge < b.halfedge;
+            return a.other_vertex != b.other_vertex ? a.other_vertex < b.other_vertex : a.halfedge < b.halfedge;
         });
         for (auto run = begin; run != end;) {
             auto run_end = run + 1;

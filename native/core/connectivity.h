@@ -14,10 +14,7 @@ inline Index next_halfedge(Index halfedge) { return halfedge % 3 == 2 ? halfedge
 inline Index previous_halfedge(Index halfedge) { return halfedge % 3 == 0 ? halfedge + 2 : halfedge - 1; }
 
 inline Index origin(const Triangles& triangles, Index halfedge) { return triangles.data()[halfedge]; }
-inline Index target(const Triangles& triangles, Index halfedge)
-{
-    return triangles.data()[next_halfedge(halfedge)];
-}
+inline Index target(const Triangles& triangles, Index halfedge) { return triangles.data()[next_halfedge(halfedge)]; }
 
 /// Pairs the half-edges of each edge, whatever the orientation of its faces.
 /// @return (3F) the other half-edge on the same edge, or no_twin on the boundary

@@ -5,12 +5,12 @@ namespace koebe {
 const char* to_string(TopologyKind kind) noexcept
 {
     switch (kind) {
-        case TopologyKind::closed: return "closed";
-        case TopologyKind::genus: return "genus";
-        case TopologyKind::nonmanifold_edge: return "nonmanifold_edge";
-        case TopologyKind::nonmanifold_vertex: return "nonmanifold_vertex";
-        case TopologyKind::nonorientable: return "nonorientable";
-        case TopologyKind::disconnected: return "disconnected";
+    case TopologyKind::closed: return "closed";
+    case TopologyKind::genus: return "genus";
+    case TopologyKind::nonmanifold_edge: return "nonmanifold_edge";
+    case TopologyKind::nonmanifold_vertex: return "nonmanifold_vertex";
+    case TopologyKind::nonorientable: return "nonorientable";
+    case TopologyKind::disconnected: return "disconnected";
     }
     return "unknown";
 }

@@ -13,7 +13,9 @@ namespace koebe {
 class KoebeError : public std::runtime_error {
 public:
     explicit KoebeError(const std::string& message, std::vector<Index> elements = {})
-        : std::runtime_error(message), elements_(std::move(elements)) {}
+        : std::runtime_error(message), elements_(std::move(elements))
+    {
+    }
     virtual ~KoebeError() = default;
     /// The error's public name, as printed by the command and used in Python.
     virtual const char* name() const noexcept { return "KoebeError"; }
@@ -46,7 +48,9 @@ const char* to_string(TopologyKind kind) noexcept;
 class TopologyError : public KoebeError {
 public:
     TopologyError(TopologyKind kind, const std::string& message, std::vector<Index> elements = {})
-        : KoebeError(message, std::move(elements)), kind_(kind) {}
+        : KoebeError(message, std::move(elements)), kind_(kind)
+    {
+    }
     const char* name() const noexcept override { return "TopologyError"; }
     TopologyKind kind() const noexcept { return kind_; }
 

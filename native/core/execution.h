@@ -32,7 +32,9 @@ class ExecutionContext {
 public:
     ExecutionContext() = default;
     ExecutionContext(ProgressCallback progress, CancelToken token, PollCallback poll = {})
-        : progress_(std::move(progress)), token_(std::move(token)), poll_(std::move(poll)) {}
+        : progress_(std::move(progress)), token_(std::move(token)), poll_(std::move(poll))
+    {
+    }
 
     /// Throws Cancelled if the token was raised.
     void checkpoint() const
@@ -54,10 +56,7 @@ public:
     }
 
     /// Passes on what another context has reported of the whole.
-    void report(double overall, const std::string& stage)
-    {
-        begin_stage(stage, overall, overall);
-    }
+    void report(double overall, const std::string& stage) { begin_stage(stage, overall, overall); }
 
     /// Opens a stage that covers [begin, end] of the whole.
     void begin_stage(std::string stage, double begin, double end)

@@ -18,8 +18,8 @@ bool same_direction(const Triangles& triangles, Index h, Index twin)
 }
 
 struct Orientation {
-    std::vector<char> reversed;   // per face, relative to its component's seed
-    std::vector<Index> component; // per face
+    std::vector<char> reversed;    // per face, relative to its component's seed
+    std::vector<Index> component;  // per face
     Index component_count = 0;
 };
 
@@ -82,8 +82,7 @@ void apply_orientation(Surface& surface, std::vector<char> reversed)
             std::swap(surface.triangles(f, 1), surface.triangles(f, 2));
             surface.reoriented.push_back(static_cast<Index>(f));
         }
-    if (!surface.reoriented.empty())
-        surface.twin = pair_halfedges(surface.triangles, surface.vertex_count);
+    if (!surface.reoriented.empty()) surface.twin = pair_halfedges(surface.triangles, surface.vertex_count);
 }
 
 /// Every vertex must carry one fan of faces: walk round it once and compare with its number of faces.
@@ -119,8 +118,7 @@ std::vector<VertexLoop> find_loops(const Surface& surface)
 {
     std::vector<Index> successor(surface.vertex_count, -1);
     for (Index h = 0; h < static_cast<Index>(surface.triangles.size()); ++h)
-        if (surface.twin[h] == no_twin)
-            successor[origin(surface.triangles, h)] = target(surface.triangles, h);
+        if (surface.twin[h] == no_twin) successor[origin(surface.triangles, h)] = target(surface.triangles, h);
     std::vector<VertexLoop> loops;
     for (Index start = 0; start < surface.vertex_count; ++start) {
         if (successor[start] < 0) continue;
@@ -147,8 +145,7 @@ std::vector<Index> find_handle_loop(const Surface& surface)
         for (const Index v : surface.loops[k]) loop_of[v] = static_cast<Index>(k);
     std::vector<std::vector<Index>> loop_halfedges(surface.loops.size());
     for (Index h = 0; h < halfedge_count; ++h)
-        if (surface.twin[h] == no_twin)
-            loop_halfedges[loop_of[origin(surface.triangles, h)]].push_back(h);
+        if (surface.twin[h] == no_twin) loop_halfedges[loop_of[origin(surface.triangles, h)]].push_back(h);
 
     std::vector<char> dual_tree(halfedge_count, 0);
     std::vector<char> visited(face_count + surface.loops.size(), 0);
@@ -165,9 +162,8 @@ std::vector<Index> find_handle_loop(const Surface& surface)
         const Index node = queue[head];
         if (node < face_count) {
             for (Index h = 3 * node; h < 3 * node + 3; ++h)
-                cross(h, surface.twin[h] != no_twin
-                             ? face_of(surface.twin[h])
-                             : face_count + loop_of[origin(surface.triangles, h)]);
+                cross(h, surface.twin[h] != no_twin ? face_of(surface.twin[h])
+                                                    : face_count + loop_of[origin(surface.triangles, h)]);
         } else {
             for (const Index h : loop_halfedges[node - face_count]) cross(h, face_of(h));
         }
@@ -177,8 +173,7 @@ std::vector<Index> find_handle_loop(const Surface& surface)
     for (Index h = 0; h < halfedge_count; ++h) {
         if (dual_tree[h]) continue;
         outgoing[origin(surface.triangles, h)].push_back(target(surface.triangles, h));
-        if (surface.twin[h] == no_twin)
-            outgoing[target(surface.triangles, h)].push_back(origin(surface.triangles, h));
+        if (surface.twin[h] == no_twin) outgoing[target(surface.triangles, h)].push_back(origin(surface.triangles, h));
     }
     std::vector<Index> parent(surface.vertex_count, -1);
     const Index root = origin(surface.triangles, 0);
@@ -268,8 +263,7 @@ Surface require_bordered_genus_zero(const Triangles& triangles, Index vertex_cou
                                 "(vertices of a loop through it listed)",
                             find_handle_loop(surface));
     if (surface.loops.empty())
-        throw TopologyError(TopologyKind::closed,
-                            "the surface is closed: delete a face or mark a seam to open it");
+        throw TopologyError(TopologyKind::closed, "the surface is closed: delete a face or mark a seam to open it");
     return surface;
 }
 

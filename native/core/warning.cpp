@@ -5,26 +5,26 @@ namespace koebe {
 const char* to_string(WarningKind kind) noexcept
 {
     switch (kind) {
-        case WarningKind::collapsed_faces: return "collapsed_faces";
-        case WarningKind::unused_vertices: return "unused_vertices";
-        case WarningKind::reoriented_faces: return "reoriented_faces";
-        case WarningKind::thin_faces: return "thin_faces";
-        case WarningKind::coarse_mesh: return "coarse_mesh";
-        case WarningKind::no_flux: return "no_flux";
-        case WarningKind::not_converged: return "not_converged";
-        case WarningKind::no_circles: return "no_circles";
-        case WarningKind::lost_circles: return "lost_circles";
-        case WarningKind::shrunk_circles: return "shrunk_circles";
-        case WarningKind::replaced_circles: return "replaced_circles";
-        case WarningKind::flaps: return "flaps";
-        case WarningKind::off_circle: return "off_circle";
-        case WarningKind::below_resolution: return "below_resolution";
-        case WarningKind::flipped: return "flipped";
-        case WarningKind::not_one_to_one: return "not_one_to_one";
-        case WarningKind::packing: return "packing";
-        case WarningKind::closing_gap: return "closing_gap";
-        case WarningKind::flow_flips: return "flow_flips";
-        case WarningKind::no_hole: return "no_hole";
+    case WarningKind::collapsed_faces: return "collapsed_faces";
+    case WarningKind::unused_vertices: return "unused_vertices";
+    case WarningKind::reoriented_faces: return "reoriented_faces";
+    case WarningKind::thin_faces: return "thin_faces";
+    case WarningKind::coarse_mesh: return "coarse_mesh";
+    case WarningKind::no_flux: return "no_flux";
+    case WarningKind::not_converged: return "not_converged";
+    case WarningKind::no_circles: return "no_circles";
+    case WarningKind::lost_circles: return "lost_circles";
+    case WarningKind::shrunk_circles: return "shrunk_circles";
+    case WarningKind::replaced_circles: return "replaced_circles";
+    case WarningKind::flaps: return "flaps";
+    case WarningKind::off_circle: return "off_circle";
+    case WarningKind::below_resolution: return "below_resolution";
+    case WarningKind::flipped: return "flipped";
+    case WarningKind::not_one_to_one: return "not_one_to_one";
+    case WarningKind::packing: return "packing";
+    case WarningKind::closing_gap: return "closing_gap";
+    case WarningKind::flow_flips: return "flow_flips";
+    case WarningKind::no_hole: return "no_hole";
     }
     return "unknown";
 }
@@ -32,28 +32,28 @@ const char* to_string(WarningKind kind) noexcept
 ElementKind elements_of(WarningKind kind) noexcept
 {
     switch (kind) {
-        case WarningKind::unused_vertices:
-        case WarningKind::off_circle: return ElementKind::vertices;
-        case WarningKind::collapsed_faces:
-        case WarningKind::reoriented_faces:
-        case WarningKind::flaps:
-        case WarningKind::below_resolution:
-        case WarningKind::flipped:
-        case WarningKind::not_one_to_one: return ElementKind::faces;
-        case WarningKind::lost_circles:
-        case WarningKind::shrunk_circles:
-        case WarningKind::replaced_circles: return ElementKind::loops;
-        default: return ElementKind::none;
+    case WarningKind::unused_vertices:
+    case WarningKind::off_circle: return ElementKind::vertices;
+    case WarningKind::collapsed_faces:
+    case WarningKind::reoriented_faces:
+    case WarningKind::flaps:
+    case WarningKind::below_resolution:
+    case WarningKind::flipped:
+    case WarningKind::not_one_to_one: return ElementKind::faces;
+    case WarningKind::lost_circles:
+    case WarningKind::shrunk_circles:
+    case WarningKind::replaced_circles: return ElementKind::loops;
+    default: return ElementKind::none;
     }
 }
 
 const char* to_string(ElementKind kind) noexcept
 {
     switch (kind) {
-        case ElementKind::none: return "none";
-        case ElementKind::vertices: return "vertices";
-        case ElementKind::faces: return "faces";
-        case ElementKind::loops: return "loops";
+    case ElementKind::none: return "none";
+    case ElementKind::vertices: return "vertices";
+    case ElementKind::faces: return "faces";
+    case ElementKind::loops: return "loops";
     }
     return "none";
 }

@@ -41,7 +41,7 @@ const char* to_string(ElementKind kind) noexcept;
 
 struct Warning {
     WarningKind kind;
-    std::string sentence;             ///< without a full stop
+    std::string sentence;              ///< without a full stop
     std::vector<Index> elements = {};  ///< rising; loops by their place in the report
     std::string advice = {};           ///< one more sentence, or none
 

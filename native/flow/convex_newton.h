@@ -3,7 +3,7 @@
 
 #include "core/execution.h"
 #include "core/types.h"
-#include "geometry/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 // Angles and curvature of a metric given by edge lengths.
 #pragma once
 
-#include "geometry/laplacian.h"
+#include "surface/laplacian.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // Laying a flat metric into the plane.
 #pragma once
 
-#include "geometry/laplacian.h"
+#include "surface/laplacian.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "flow/curvature.h"
-#include "geometry/edge_flip.h"
+#include "surface/edge_flip.h"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "flow/convex_newton.h"
-#include "geometry/laplacian.h"
+#include "surface/laplacian.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "foldover/angle_polish.h"
 
-#include "conformal/distortion.h"
 #include "foldover/patch_problem.h"
+#include "quality/distortion.h"
 
 #include <Eigen/LU>
 

@@ -1,7 +1,7 @@
 // A map with its circles as they are, of the least angle error the mesh can carry.
 #pragma once
 
-#include "conformal/result.h"
+#include "circles/circle.h"
 #include "core/execution.h"
 #include "core/topology.h"
 

@@ -1,6 +1,6 @@
 #include "foldover/foldover_free.h"
 
-#include "geometry/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,7 @@
 // Foldover-free planar maps: the regularized variational method of Garanzha et al. 2021.
 #pragma once
 
-#include "conformal/result.h"
+#include "circles/circle.h"
 #include "core/execution.h"
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include "foldover/patch_problem.h"
 
-#include "conformal/stored_uv.h"
+#include "quality/stored_uv.h"
 
 #include <Eigen/LU>
 

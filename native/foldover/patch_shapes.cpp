@@ -1,6 +1,6 @@
 #include "foldover/patch_shapes.h"
 
-#include "geometry/laplacian.h"
+#include "surface/laplacian.h"
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,8 @@
 #include "foldover/tangled_map.h"
 
-#include "conformal/stored_uv.h"
-#include "geometry/planar_predicates.h"
+#include "core/resolution.h"
+#include "planar/planar_predicates.h"
+#include "quality/stored_uv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,6 @@
 namespace koebe {
 namespace {
 
-constexpr double noticeable = 5e-7;   // disk units: half of what counts as on the circle
 constexpr double least_edge = 1e-11;  // disk units: 1e5 times the rounding of 64-bit positions
 
 }  // namespace
@@ -57,7 +57,8 @@ std::vector<Index> TangledMap::tangled(const std::vector<Index>& faces) const
 {
     std::vector<Index> result;
     for (const Index f : faces)
-        if (const StoredFace face(triangles(), uv_, f); face.doubtful() && !face.below_resolution()) result.push_back(f);
+        if (const StoredFace face(triangles(), uv_, f); face.doubtful() && !face.below_resolution())
+            result.push_back(f);
     return result;
 }
 
@@ -91,7 +92,8 @@ bool TangledMap::hangs(Index face) const
 bool TangledMap::near_circle(Index vertex) const
 {
     const Circle& circle = circles_[loop_of_[vertex]];
-    return std::abs(std::abs(Complex(uv_(vertex, 0), uv_(vertex, 1)) - circle.center) - circle.radius) <= noticeable;
+    return std::abs(std::abs(Complex(uv_(vertex, 0), uv_(vertex, 1)) - circle.center) - circle.radius) <=
+           inner_circle_tolerance;
 }
 
 bool TangledMap::loops_cross(const std::vector<Index>& moved) const

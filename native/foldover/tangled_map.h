@@ -1,7 +1,7 @@
 // A map whose flipped faces are being turned back.
 #pragma once
 
-#include "conformal/result.h"
+#include "circles/circle.h"
 #include "core/topology.h"
 
 #include <span>
@@ -37,7 +37,7 @@ public:
     int loop_of(Index vertex) const { return loop_of_[vertex]; }
     Place place(Index vertex) const { return place_[vertex]; }
     void set_place(Index vertex, Place place) { place_[vertex] = place; }
-    /// Whether it lies on its circle, up to 5e-7 of the unit disk.
+    /// Whether it lies on its circle, up to inner_circle_tolerance.
     bool near_circle(Index vertex) const;
 
     /// Whether a vertex may move, and anything around it is large enough for 64-bit positions to do so with sense.

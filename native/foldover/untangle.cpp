@@ -1,7 +1,7 @@
 #include "foldover/untangle.h"
 
-#include "conformal/stored_uv.h"
 #include "foldover/untangle_patch.h"
+#include "quality/stored_uv.h"
 
 #include <algorithm>
 

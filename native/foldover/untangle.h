@@ -1,7 +1,7 @@
 // Turns flipped faces back, by moving as little as possible.
 #pragma once
 
-#include "conformal/result.h"
+#include "circles/circle.h"
 #include "core/execution.h"
 #include "core/topology.h"
 

@@ -1,5 +1,6 @@
 #include "foldover/untangle_patch.h"
 
+#include "core/resolution.h"
 #include "foldover/patch_problem.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace koebe {
 namespace {
-
-constexpr double inward = 5e-7;  // disk units: half of what counts as on the circle, four roundings of 32-bit UVs
 
 }  // namespace
 
@@ -93,7 +92,8 @@ bool nudge_face(TangledMap& map, Index face)
         around.insert(around.end(), map.faces_around(v[k]).begin(), map.faces_around(v[k]).end());
     const std::size_t tangled_before = map.tangled(around).size();
     const PlanarPoints before = uv(v, Eigen::all);
-    for (const int k : {(middle + 1) % 3, (middle + 2) % 3}) uv.row(v[k]) *= (1.0 - inward) / uv.row(v[k]).norm();
+    for (const int k : {(middle + 1) % 3, (middle + 2) % 3})
+        uv.row(v[k]) *= (1.0 - inner_circle_tolerance) / uv.row(v[k]).norm();
     if (map.tangled(around).size() < tangled_before) return true;
     for (int k = 0; k < 3; ++k) uv.row(v[k]) = before.row(k);
     return false;

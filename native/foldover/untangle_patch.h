@@ -20,7 +20,7 @@ bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape s
                   const ExecutionContext& context);
 
 /// A face with all three vertices on the outer loop is as thin as its arc: where that is less than 32-bit UVs
-/// resolve, its two outer ones go inward by 5e-7, within what counts as on the circle.
+/// resolve, its two outer ones go inward by inner_circle_tolerance.
 /// @return whether fewer faces are tangled
 bool nudge_face(TangledMap& map, Index face);
 

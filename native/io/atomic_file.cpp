@@ -66,7 +66,8 @@ AtomicFile::AtomicFile(const fs::path& target)
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
+    : target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
       descriptor_(std::exchange(other.descriptor_, -1))
 {
     enlist();

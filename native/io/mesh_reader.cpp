@@ -30,9 +30,7 @@ Reader reader_for(const std::string& filed)
 
 std::string read_bytes(const fs::path& path)
 {
-    const auto fail = [&path] {
-        throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")");
-    };
+    const auto fail = [&path] { throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")"); };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     if (!file) fail();
     if (fs::is_character_file(path) || fs::is_block_file(path))  // those may have no end
@@ -80,9 +78,8 @@ void require_a_mesh(const PolygonMesh& mesh)
                              std::to_string(mesh.vertices.rows()) + " (faces listed)",
                          bad);
     if (const std::vector<Index> bad = not_finite(mesh.vertices); !bad.empty())
-        throw InputError(std::to_string(bad.size()) +
-                             " vertices have a coordinate that is NaN or infinite (vertices listed)",
-                         bad);
+        throw InputError(
+            std::to_string(bad.size()) + " vertices have a coordinate that is NaN or infinite (vertices listed)", bad);
 }
 
 }  // namespace

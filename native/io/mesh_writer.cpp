@@ -32,7 +32,8 @@ void write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMes
     std::vector<Index> group(patch);
     for (Index& g : group) ++g;
     std::vector<std::string> names{"surface"};
-    for (Index k = 0; !patch.empty() && k <= std::ranges::max(patch); ++k) names.push_back("patch_" + std::to_string(k));
+    for (Index k = 0; !patch.empty() && k <= std::ranges::max(patch); ++k)
+        names.push_back("patch_" + std::to_string(k));
     write_obj_with_groups(file, mesh, group, names);
 }
 

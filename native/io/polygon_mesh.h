@@ -10,9 +10,9 @@ namespace koebe {
 
 /// What a mesh file holds and what is written back: same vertices, same faces, same order.
 struct PolygonMesh {
-    Vertices vertices;                  ///< in the unit of the file, in 64 bits
-    std::vector<Index> corners;         ///< vertex of each corner, face after face
-    std::vector<Index> face_begin{0};   ///< (F + 1) face f has corners [face_begin[f], face_begin[f + 1])
+    Vertices vertices;                 ///< in the unit of the file, in 64 bits
+    std::vector<Index> corners;        ///< vertex of each corner, face after face
+    std::vector<Index> face_begin{0};  ///< (F + 1) face f has corners [face_begin[f], face_begin[f + 1])
 
     Index face_count() const { return static_cast<Index>(face_begin.size()) - 1; }
     std::span<const Index> face(Index f) const

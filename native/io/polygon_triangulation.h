@@ -8,9 +8,9 @@
 namespace koebe {
 
 struct Triangulation {
-    Triangles triangles;            ///< with the polygons' vertices and orientation, in the order of the faces
-    std::vector<Index> face;        ///< the filed face of each triangle
-    std::vector<Index> collapsed;   ///< faces of fewer than three different vertices: they have no triangle
+    Triangles triangles;           ///< with the polygons' vertices and orientation, in the order of the faces
+    std::vector<Index> face;       ///< the filed face of each triangle
+    std::vector<Index> collapsed;  ///< faces of fewer than three different vertices: they have no triangle
 };
 
 /// Cuts every polygon into triangles without new vertices.

@@ -9,10 +9,7 @@
 namespace koebe::io {
 
 /// u = (1 + x) / 2 or v = (1 + y) / 2 of a point of the closed unit disk, clamped to [0, 1].
-inline double texture_coordinate(double disk_coordinate)
-{
-    return std::clamp(0.5 * (1.0 + disk_coordinate), 0.0, 1.0);
-}
+inline double texture_coordinate(double disk_coordinate) { return std::clamp(0.5 * (1.0 + disk_coordinate), 0.0, 1.0); }
 
 /// @throws InputError disk_points has not one row for each vertex
 inline void require_point_for_each_vertex(const PolygonMesh& mesh, const PlanarPoints& disk_points)

@@ -15,12 +15,12 @@
 namespace koebe {
 namespace {
 
-constexpr double same = 1e-4;           // relative difference of lengths that count as one: more than 32-bit noise
-constexpr double hash_unit = 1e-3;      // of lengths in a hash, over the longest boundary edge
-constexpr int hash_rounds = 24;         // edges that a neighbourhood reaches
-constexpr double coarsest = 0x1p-34;    // of the grid, over the extent
+constexpr double same = 1e-4;         // relative difference of lengths that count as one: more than 32-bit noise
+constexpr double hash_unit = 1e-3;    // of lengths in a hash, over the longest boundary edge
+constexpr int hash_rounds = 24;       // edges that a neighbourhood reaches
+constexpr double coarsest = 0x1p-34;  // of the grid, over the extent
 constexpr double finest = 0x1p-50;
-constexpr double of_shortest = 0x1p-22; // of the grid, over the shortest edge
+constexpr double of_shortest = 0x1p-22;  // of the grid, over the shortest edge
 
 std::uint64_t mixed(std::uint64_t x)
 {
@@ -106,7 +106,8 @@ private:
             for (std::uint64_t& value : next) value = mixed(value);
             hash.swap(next);
             std::vector<std::uint64_t> keys;
-            for (const Index h : candidates) keys.push_back(mixed(hash[origin(triangles, h)]) + hash[target(triangles, h)]);
+            for (const Index h : candidates)
+                keys.push_back(mixed(hash[origin(triangles, h)]) + hash[target(triangles, h)]);
             std::sort(keys.begin(), keys.end());
             if (std::adjacent_find(keys.begin(), keys.end()) == keys.end()) break;
         }
@@ -212,8 +213,7 @@ private:
             }
             form_.thinnest = std::min(form_.thinnest, longest > 0.0 ? first.cross(last).norm() / longest : 0.0);
         }
-        const double grid = std::exp2(
-            std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
+        const double grid = std::exp2(std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
         form_.thinnest /= grid;
         points = (points.array() / grid).round() * grid;
     }

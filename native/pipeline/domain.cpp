@@ -44,27 +44,14 @@ std::size_t choose_outer_loop(const Domain& domain, const UniformizeOptions& opt
     return longest;
 }
 
-/// The place of a loop among the input's loops, which are in the order of their lowest vertices.
-int rank_by_lowest_vertex(const Domain& domain, std::size_t loop)
-{
-    const auto lowest = [&](const VertexLoop& l) {
-        Index least = domain.original[l.front()];
-        for (const Index v : l) least = std::min(least, domain.original[v]);
-        return least;
-    };
-    const Index own = lowest(domain.surface.loops[loop]);
-    return static_cast<int>(std::count_if(domain.surface.loops.begin(), domain.surface.loops.end(),
-                                          [&](const VertexLoop& l) { return lowest(l) < own; }));
-}
-
 }  // namespace
 
 Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
 {
     validate_arrays(vertices, triangles);
     Domain domain;
-    CanonicalForm form = canonical_form(
-        require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows())), vertices);
+    CanonicalForm form =
+        canonical_form(require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows())), vertices);
     domain.surface = std::move(form.surface);
     domain.vertices = std::move(form.vertices);
     domain.original = std::move(form.original_vertices);
@@ -73,7 +60,7 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
     domain.thinnest = form.thinnest;
 
     const std::size_t outer = choose_outer_loop(domain, options);
-    domain.outer_rank = rank_by_lowest_vertex(domain, outer);
+    domain.outer_rank = rank_by_lowest_vertex(domain, domain.surface.loops[outer]);
     std::vector<std::size_t> order(domain.surface.loops.size());
     std::iota(order.begin(), order.end(), 0);
     std::vector<double> length;
@@ -85,6 +72,18 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
         domain.edges.push_back(loop_edges(domain.vertices, domain.loops.back()));
     }
     return domain;
+}
+
+int rank_by_lowest_vertex(const Domain& domain, const VertexLoop& loop)
+{
+    const auto lowest = [&](const VertexLoop& l) {
+        Index least = domain.original[l.front()];
+        for (const Index v : l) least = std::min(least, domain.original[v]);
+        return least;
+    };
+    const Index own = lowest(loop);
+    return static_cast<int>(std::count_if(domain.surface.loops.begin(), domain.surface.loops.end(),
+                                          [&](const VertexLoop& l) { return lowest(l) < own; }));
 }
 
 bool is_polygon(const Domain& domain)

@@ -1,10 +1,10 @@
 // The input made ready: used vertices alone, a unit scale, the loops in the order of the iteration.
 #pragma once
 
-#include "conformal/result.h"
 #include "core/topology.h"
 #include "core/types.h"
-#include "geometry/flaps.h"
+#include "flaps/flaps.h"
+#include "pipeline/options.h"
 
 #include <vector>
 
@@ -14,17 +14,20 @@ namespace koebe {
 struct Domain {
     Surface surface;
     Vertices vertices;
-    std::vector<Index> original;       // vertex of the input for each vertex
-    std::vector<Index> original_faces; // face of the input for each face; of a core: empty
-    std::vector<VertexLoop> loops;     // outer first, then by falling length on the surface
-    std::vector<VectorXd> edges;       // length of the edge from each loop vertex to the next
-    std::vector<char> first_corners;   // of each face, the corner that was the first of the input's; of a core: empty
-    double thinnest = 0.0;             // least height of a face, in steps of the canonical grid
-    int outer_rank = 0;                // of the outer loop among the input's, which go by their lowest vertices
+    std::vector<Index> original;        // vertex of the input for each vertex
+    std::vector<Index> original_faces;  // face of the input for each face; of a core: empty
+    std::vector<VertexLoop> loops;      // outer first, then by falling length on the surface
+    std::vector<VectorXd> edges;        // length of the edge from each loop vertex to the next
+    std::vector<char> first_corners;    // of each face, the corner that was the first of the input's; of a core: empty
+    double thinnest = 0.0;              // least height of a face, in steps of the canonical grid
+    int outer_rank = 0;                 // of the outer loop among the input's, which go by their lowest vertices
 };
 
 /// Whether the surface is a disk without inner vertices.
 bool is_polygon(const Domain& domain);
+
+/// The place of a loop of the domain among the input's loops, which are in the order of their lowest vertices.
+int rank_by_lowest_vertex(const Domain& domain, const VertexLoop& loop);
 
 /// @throws InputError, TopologyError
 Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);

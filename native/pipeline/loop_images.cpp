@@ -1,10 +1,11 @@
 #include "pipeline/loop_images.h"
 
-#include "conformal/boundary_angles.h"
-#include "conformal/circle_fit.h"
-#include "conformal/koebe_condensed.h"
-#include "conformal/koebe_mesh.h"
+#include "circles/boundary_angles.h"
+#include "circles/circle_fit.h"
+#include "circles/crowded_circles.h"
 #include "core/errors.h"
+#include "iteration/koebe_condensed.h"
+#include "iteration/koebe_mesh.h"
 #include "pipeline/refinement.h"
 
 #include <cmath>
@@ -78,6 +79,11 @@ void AssembledDomain::take_metric(const Domain& domain)
 void AssembledDomain::factorize(const Domain& domain)
 {
     condensed.emplace(laplacian, boundary_of(domain), Ordering::amd, best_grounded(domain.loops));
+}
+
+void AssembledDomain::reorder(const Domain& domain)
+{
+    if (condensed && !condensed->reorder_boundary(boundary_of(domain))) condensed.reset();
 }
 
 KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,

@@ -1,11 +1,11 @@
 // Where the Koebe iteration puts the loops of a domain, on more triangles where its own are too coarse.
 #pragma once
 
-#include "conformal/koebe_iteration.h"
 #include "core/execution.h"
-#include "geometry/condensed_laplacian.h"
-#include "geometry/intrinsic_metric.h"
+#include "iteration/koebe_outcome.h"
+#include "linear/condensed_laplacian.h"
 #include "pipeline/domain.h"
+#include "surface/intrinsic_metric.h"
 
 #include <optional>
 #include <vector>
@@ -21,12 +21,14 @@ struct AssembledDomain {
     void take_metric(const Domain& domain);
     /// @throws SolverError
     void factorize(const Domain& domain);
+    /// Of the same domain with its loops in another order: the factor is kept where that can be.
+    void reorder(const Domain& domain);
 };
 
 /// Runs the engine that the options name. Where the loops' images cannot be right (a circle that leaves the disk or
 /// meets another, a boundary vertex without flux, more boundary vertices than inner ones) it runs again on a refined
-/// domain (refined_domain), up to three times, as long as that has at most 20,000 faces. The mesh engine, which is slow,
-/// does so for unsound images alone, up to 4,000 faces.
+/// domain (refined_domain), up to three times, as long as that has at most 20,000 faces. The mesh engine, which is
+/// slow, does so for unsound images alone, up to 4,000 faces.
 /// @param assembled without a factor if the domain's matrix is singular
 /// @return the images of the domain's own loop vertices; no loops if nothing came of it
 KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,

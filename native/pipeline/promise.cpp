@@ -1,7 +1,8 @@
 #include "pipeline/promise.h"
 
-#include "conformal/stored_uv.h"
-#include "geometry/boundary_crossings.h"
+#include "circles/crowded_circles.h"
+#include "planar/boundary_crossings.h"
+#include "quality/stored_uv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,19 +11,6 @@ namespace koebe {
 namespace {
 
 constexpr double disk_tolerance = 1e-12;  // disk units: some roundings of a point of the unit circle
-
-std::vector<int> bad_circles(const std::vector<Circle>& circles)
-{
-    std::vector<int> bad;
-    for (std::size_t k = 1; k < circles.size(); ++k) {
-        const Circle& circle = circles[k];
-        bool good = circle.radius > 0.0 && std::abs(circle.center) + circle.radius <= 1.0;
-        for (std::size_t j = 1; j < circles.size() && good; ++j)
-            good = j == k || std::abs(circle.center - circles[j].center) >= circle.radius + circles[j].radius;
-        if (!good) bad.push_back(static_cast<int>(k));
-    }
-    return bad;
-}
 
 }  // namespace
 
@@ -38,9 +26,9 @@ Warning MapFaults::warning(const std::string& beginning, const std::vector<Index
     };
     add(not_finite.size(), "vertices without a place", not_finite.empty() ? 0 : original[not_finite.front()]);
     add(outside.size(), "vertices outside the disk", outside.empty() ? 0 : original[outside.front()]);
-    add(bad_circles.size(), "circles that meet another or leave the disk", bad_circles.empty() ? 0 : bad_circles.front());
-    add(crossings.size(), "crossings of loops, at vertices",
-        crossings.empty() ? 0 : original[crossings.front().first]);
+    add(bad_circles.size(), "circles that meet another or leave the disk",
+        bad_circles.empty() ? 0 : bad_circles.front());
+    add(crossings.size(), "crossings of loops, at vertices", crossings.empty() ? 0 : original[crossings.front().first]);
     if (flipped.empty()) return warning;
     for (const Index f : flipped) warning.elements.push_back(original_faces[f]);
     std::sort(warning.elements.begin(), warning.elements.end());
@@ -63,7 +51,8 @@ MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>&
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         if (const StoredFace face(triangles, uv, f); face.doubtful() && !face.below_resolution())
             faults.flipped.push_back(static_cast<Index>(f));
-    faults.bad_circles = bad_circles(circles);
+    for (std::size_t k = 1; k < circles.size(); ++k)
+        if (!is_apart(circles, k)) faults.bad_circles.push_back(static_cast<int>(k));
     if (faults.not_finite.empty()) faults.crossings = crossing_boundary_edges(loops, uv, 2.0 * uv_resolution);
     return faults;
 }

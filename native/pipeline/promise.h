@@ -1,7 +1,8 @@
 // What every map promises, checked at its end: finite, one to one, inside the disk, true to its circles.
 #pragma once
 
-#include "conformal/result.h"
+#include "circles/circle.h"
+#include "core/warning.h"
 
 #include <string>
 #include <utility>
@@ -14,7 +15,8 @@ struct MapFaults {
     std::vector<Index> not_finite;  ///< vertices
     std::vector<Index> outside;     ///< vertices outside the closed unit disk
     std::vector<Index> flipped;     ///< faces, as they are stored, those below resolution aside
-    std::vector<int> bad_circles;   ///< loops whose circle is not positive and finite, leaves the disk, or meets another's
+    std::vector<int>
+        bad_circles;  ///< loops whose circle is not positive and finite, leaves the disk, or meets another's
     std::vector<std::pair<Index, Index>> crossings;  ///< loop edges that meet, by the vertices they start from
 
     bool any() const

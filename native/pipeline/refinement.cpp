@@ -34,8 +34,7 @@ Domain refined_domain(const Domain& domain)
     surface.triangles.resize(4 * face_count, 3);
     for (Index f = 0; f < face_count; ++f) {
         const Index* m = &middle[3 * static_cast<std::size_t>(f)];
-        for (int k = 0; k < 3; ++k)
-            surface.triangles.row(4 * f + k) << coarse.triangles(f, k), m[k], m[(k + 2) % 3];
+        for (int k = 0; k < 3; ++k) surface.triangles.row(4 * f + k) << coarse.triangles(f, k), m[k], m[(k + 2) % 3];
         surface.triangles.row(4 * f + 3) << m[0], m[1], m[2];
     }
     surface.twin = pair_halfedges(surface.triangles, vertex_count);

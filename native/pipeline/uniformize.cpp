@@ -1,34 +1,33 @@
 #include "pipeline/uniformize.h"
 
-#include "conformal/boundary_angles.h"
-#include "conformal/circle_fit.h"
-#include "conformal/distortion.h"
-#include "conformal/circle_projection.h"
+#include "circles/boundary_angles.h"
+#include "circles/circle_projection.h"
+#include "circles/crowded_circles.h"
 #include "core/detachable_run.h"
-#include "core/peak_memory.h"
-#include "core/topology.h"
 #include "core/errors.h"
 #include "core/memory_limit.h"
+#include "core/peak_memory.h"
+#include "embedding/embedded_map.h"
 #include "foldover/angle_polish.h"
-#include "foldover/embedded_map.h"
-#include "foldover/flip_removal.h"
-#include "foldover/flip_report.h"
-#include "geometry/dense_spd.h"
+#include "linear/dense_spd.h"
 #include "pipeline/domain.h"
+#include "pipeline/flip_removal.h"
 #include "pipeline/loop_images.h"
-#include "pipeline/placement.h"
+#include "pipeline/map_from_loops.h"
+#include "pipeline/map_report.h"
+#include "pipeline/map_warnings.h"
+#include "pipeline/outer_loop.h"
 #include "pipeline/promise.h"
 
 #include <algorithm>
 #include <chrono>
 #include <numbers>
 #include <optional>
-#include <string>
+#include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr double delicate = 1e4;          // least height of a face in steps of the grid, for the grid not to show
 constexpr double bytes_per_face = 900.0;  // of everything but the factor; measured on 0.1 to 2.6 million faces
 
 class Stopwatch {
@@ -54,74 +53,96 @@ VectorXd least_steps(Eigen::Index count)
     return VectorXd::Constant(count, std::min(drawable, 0.3 * 2.0 * std::numbers::pi / static_cast<double>(count)));
 }
 
-void add_warnings(const Domain& domain, const KoebeOutcome& outcome, UniformizeResult& result)
+/// The domain of a run, and what it is mapped with.
+struct Problem {
+    Domain whole;
+    FlapCut cut;
+    std::optional<Domain> core;  ///< without the flaps, if there are flaps
+    AssembledDomain assembled;   ///< of domain()
+    KoebeOutcome outcome;
+
+    const Domain& domain() const { return core ? *core : whole; }
+    DomainSolver solver() const { return {*assembled.condensed, assembled.laplacian, domain()}; }
+};
+
+Problem prepare(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
 {
-    auto& warnings = result.warnings;
-    const auto plural = [](std::size_t n, const std::string& noun) {
-        return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-    };
-    if (const auto& unused = domain.surface.unused; !unused.empty())
-        warnings.push_back({WarningKind::unused_vertices,
-                            "vertices of no face, put at the centre: " + std::to_string(unused.size()), unused});
-    if (const auto& turned = domain.surface.reoriented; !turned.empty())
-        warnings.push_back(
-            {WarningKind::reoriented_faces, plural(turned.size(), "face") + " turned to the orientation of the others",
-             turned,
-             2 * turned.size() == static_cast<std::size_t>(domain.surface.triangles.rows())
-                 ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
-                 : ""});
-    if (outcome.raised_angles > 0)
-        warnings.push_back({WarningKind::no_flux,
-                            plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
-                                " without flux, kept apart by a least distance"});
-    if (domain.thinnest < delicate)
-        warnings.push_back({WarningKind::thin_faces,
-                            "faces so thin that the last digits of their coordinates show in the map: turned or scaled, "
-                            "the surface may get another one"});
-    if (!outcome.converged)
-        warnings.push_back({WarningKind::not_converged,
-                            "not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep")});
+    require_memory(bytes_per_face * static_cast<double>(triangles.rows()), "a mesh of so many faces");
+    Problem problem;
+    problem.whole = prepare_domain(vertices, triangles, options);
+    // A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
+    if (!is_polygon(problem.whole))
+        problem.cut = cut_flaps(problem.whole.vertices, problem.whole.surface, problem.whole.loops);
+    if (!problem.cut.flaps.empty()) problem.core = core_domain(problem.whole, problem.cut);
+    return problem;
+}
+
+/// Factor, iteration and the map they lead to, if any.
+/// @param from, until of the progress
+std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& options, double from, double until,
+                                 ExecutionContext& context, Stopwatch& stage, StageSeconds& seconds)
+{
+    const auto at = [&](double share) { return from + share * (until - from); };
+    if (!problem.assembled.condensed) {
+        context.begin_stage("factor", at(0.0), at(0.45));
+        try {
+            problem.assembled.factorize(problem.domain());
+        } catch (const OutOfMemory&) {
+            throw;
+        } catch (const SolverError&) {  // the map is made without it, and says so
+        }
+    }
+    seconds.factor += stage.lap();
+    context.begin_stage("iterate", at(0.45), at(0.95));
+    problem.outcome = loop_images(problem.domain(), problem.assembled, options, context);
+    seconds.iterate += stage.lap();
+    context.begin_stage("finish", at(0.95), at(1.0));
+    if (!problem.assembled.condensed || problem.outcome.loops.empty()) return {};
+    return map_from_loops(problem.solver(), problem.cut, problem.outcome);
 }
 
 /// The map that is one to one from the start (embedded_map), on the circles of the iteration if it has found any.
-/// @param failed the map that the iteration led to; null if it led to none @param circles of the loops, in and out
-UntangledMap embed(const Domain& whole, const FlapCut& cut, const UntangledMap* failed, std::vector<Circle>& circles,
-                   UniformizeResult& result, ExecutionContext& context)
+/// @param failed the map that the iteration led to, if it led to one
+CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<CircleMap>& failed,
+                ExecutionContext& context)
 {
     VectorXcd rim = unit_circle_points(arc_length_angles(whole.edges[0]));
-    if (failed) {
+    if (failed)
         for (Eigen::Index i = 0; i < rim.size(); ++i) {
             const Index v = whole.loops[0][i];
             rim[i] = {failed->uv(v, 0), failed->uv(v, 1)};
         }
-    } else {
-        circles.clear();
-        result.converged = false;
-        result.warnings.push_back({WarningKind::no_circles,
-                                   "the iteration led to no circles: these are such as fit a map of low angle error"});
-    }
     if (!rim.allFinite()) rim = unit_circle_points(arc_length_angles(whole.edges[0]));
     rim = project_onto_circle(Circle{}, rim, 1, least_steps(whole.edges[0].size()));
-    EmbeddedMap map = embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
-                                   failed && circles_apart(circles) ? circles : std::vector<Circle>{}, rim, context);
-    circles = map.circles;
-    std::vector<Index> others;
-    for (std::size_t k = 0; k < circles.size(); ++k) {
-        const Circle before = result.loops[k].circle;
-        if (before.center != circles[k].center || before.radius != circles[k].radius) {
-            others.push_back(static_cast<Index>(k));
-            result.loops[k].shrunk = true;
-        }
-        result.loops[k].circle = circles[k];
-        if (!failed) result.loops[k].roundness = map.roundness[k];
-    }
-    if (failed && !others.empty())
-        result.warnings.push_back(
-            {WarningKind::replaced_circles,
-             "loops on other circles than the iteration's, where on those faces would turn over: " +
-                 std::to_string(others.size()),
-             others});
-    return {std::move(map.uv), std::move(map.off_circle), {}};
+    CircleMap map =
+        embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
+                     failed && circles_apart(failed->circles) ? failed->circles : std::vector<Circle>{}, rim, context);
+    if (!failed) return map;
+    map.roundness = failed->roundness;
+    map.shrunk = failed->shrunk;
+    map.lost = failed->lost;
+    for (std::size_t k = 0; k < map.circles.size(); ++k)
+        if (failed->circles[k].center != map.circles[k].center || failed->circles[k].radius != map.circles[k].radius)
+            map.replaced.push_back(static_cast<Index>(k));
+    return map;
+}
+
+/// The map polished, unless that brings a fault: it looks after faces and circles, but a loop with vertices off its
+/// circle may still come to cross itself.
+void polish(const Domain& whole, CircleMap& map, MapFaults& faults, ExecutionContext& context)
+{
+    PlanarPoints before = map.uv;
+    polish_angles(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv, context);
+    MapFaults polished = find_faults(whole.surface.triangles, whole.loops, map.uv, map.circles);
+    if (polished.any() && !faults.any())
+        map.uv = std::move(before);
+    else
+        faults = std::move(polished);
+}
+
+void append(std::vector<Warning>& warnings, std::vector<Warning> more)
+{
+    std::move(more.begin(), more.end(), std::back_inserter(warnings));
 }
 
 UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
@@ -132,96 +153,72 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.engine = options.engine;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
+    const SerialDenseKernels serial;
     Stopwatch total, stage;
 
-    require_memory(bytes_per_face * static_cast<double>(triangles.rows()), "a mesh of so many faces");
     context.begin_stage("topology", 0.0, 0.05);
-    const Domain whole = prepare_domain(vertices, triangles, options);
-    // A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
-    FlapCut cut = is_polygon(whole) ? FlapCut{} : cut_flaps(whole.vertices, whole.surface, whole.loops);
-    std::optional<Domain> core;
-    if (!cut.flaps.empty()) core = core_domain(whole, cut);
-    const Domain& domain = core ? *core : whole;
-    result.outer_loop = domain.outer_rank;
+    Problem problem = prepare(vertices, triangles, options);
+    const Domain& whole = problem.whole;
     result.seconds.topology = stage.lap();
 
     context.begin_stage("metric", 0.05, 0.15);
-    AssembledDomain assembled;
-    assembled.take_metric(domain);
+    problem.assembled.take_metric(problem.domain());
     result.seconds.metric = stage.lap();
 
-    context.begin_stage("factor", 0.15, 0.5);
-    const SerialDenseKernels serial;
-    try {
-        assembled.factorize(domain);
-    } catch (const OutOfMemory&) {
-        throw;
-    } catch (const SolverError&) {  // the map is made without it, and says so
-    }
-    result.seconds.factor = stage.lap();
-
-    context.begin_stage("iterate", 0.5, 0.9);
-    const KoebeOutcome outcome = loop_images(domain, assembled, options, context);
-    result.converged = outcome.converged;
-    result.sweeps = outcome.sweeps;
-    result.steps = outcome.steps;
-    result.history = outcome.history;
-    result.seconds.iterate = stage.lap();
+    // With the outer loop to be chosen the map is perhaps made twice, first on the longest loop.
+    const bool choose =
+        options.balance == Balance::area && options.outer == OuterLoop::automatic && whole.loops.size() > 1;
+    std::optional<CircleMap> map = iterate(problem, options, 0.15, choose ? 0.5 : 0.9, context, stage, result.seconds);
+    if (map && options.balance == Balance::area)
+        result.unbalanced_area =
+            measure_distortion(problem.domain().vertices, problem.domain().surface.triangles, map->uv).area;
+    if (map && choose)
+        if (const int outer = better_outer_loop(problem.domain(), *map); outer != 0) {
+            put_outside(outer, problem.whole, problem.cut, problem.core);
+            problem.assembled.reorder(problem.domain());
+            result.seconds.finish += stage.lap();
+            map = iterate(problem, options, 0.5, 0.9, context, stage, result.seconds);
+        }
+    if (map && options.balance == Balance::area) map = with_area_balanced(problem.solver(), *map);
+    result.outer_loop = whole.outer_rank;
+    result.converged = problem.outcome.converged && map.has_value();
+    result.sweeps = problem.outcome.sweeps;
+    result.steps = problem.outcome.steps;
+    result.history = problem.outcome.history;
 
     context.begin_stage("finish", 0.9, 1.0);
-    int outer = 0;
-    std::optional<PlanarPoints> core_uv;
-    if (assembled.condensed && !outcome.loops.empty())
-        core_uv = finish_map(*assembled.condensed, assembled.laplacian, domain, cut, outcome, options, result, outer);
-    context.advance(0.5);
-    if (outer != 0) {
-        UniformizeOptions chosen = options;
-        chosen.outer = OuterLoop::vertex;
-        chosen.outer_vertex = domain.original[domain.loops[outer].front()];
-        UniformizeResult better = run_pipeline(vertices, triangles, chosen, context);
-        better.unbalanced_area = result.unbalanced_area;
-        result.seconds.finish = stage.lap();
-        better.seconds += result.seconds;
-        better.seconds.total = total.lap();
-        return better;
-    }
-    const NamedSurface named{whole.vertices, whole.surface, whole.loops, whole.original,
-                             whole.original_faces, whole.first_corners};
-    UntangledMap map;
-    std::vector<Circle> circles = reported_circles(result.loops);
+    UntangleReport untangled;
     MapFaults faults;
-    if (core_uv) {
-        map = remove_flips(named, cut, std::move(*core_uv), circles, context);
-        faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
+    if (map) {
+        map = hang_back(whole, problem.cut, std::move(*map), context);
+        context.advance(0.2);
+        untangled = remove_flips(whole, *map, context);
+        context.advance(0.5);
+        faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
     }
-    if (!core_uv || faults.any()) {
-        result.loops.resize(whole.loops.size());
-        map = embed(whole, cut, core_uv ? &map : nullptr, circles, result, context);
-        faults = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
+    const bool no_circles = !map;
+    if (!map || faults.any()) {
+        map = embed(whole, problem.cut, map, context);
+        untangled = {};
+        faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
     }
     if (options.polish) {
         context.begin_stage("polish", 0.97, 1.0);
         result.unpolished_angle_error_deg =
-            measure_distortion(whole.vertices, whole.surface.triangles, map.uv).angle_error_deg;
-        const PlanarPoints before = map.uv;
-        polish_angles(whole.vertices, whole.surface, whole.loops, circles, map.off_circle, map.uv, context);
-        // It looks after faces and circles; a loop with vertices off its circle may still come to cross itself.
-        MapFaults polished = find_faults(whole.surface.triangles, whole.loops, map.uv, circles);
-        if (polished.any() && !faults.any())
-            map.uv = before;
-        else
-            faults = std::move(polished);
+            measure_distortion(whole.vertices, whole.surface.triangles, map->uv).angle_error_deg;
+        polish(whole, *map, faults, context);
     }
-    report_map(named, map, result);
-    add_warnings(whole, outcome, result);
-    const auto of_flips = flip_warnings(named, map.uv, cut.flaps, map.report, result.distortion);
-    result.warnings.insert(result.warnings.end(), of_flips.begin(), of_flips.end());
+    report_map(whole, *map, result);
+    append(result.warnings, circle_warnings(*map));
+    append(result.warnings, input_warnings(whole));
+    append(result.warnings, iteration_warnings(problem.outcome, no_circles));
+    append(result.warnings, flip_warnings(whole, map->uv, problem.cut.flaps, untangled, result.distortion));
     if (faults.any()) {
         result.converged = false;
         result.warnings.push_back(
             faults.warning("no one-to-one map was found: ", whole.original, whole.original_faces));
     }
-    result.seconds.finish = stage.lap();
+    result.seconds.finish += stage.lap();
     result.seconds.total = total.lap();
     result.peak_memory_mb = peak_memory_mb();
     context.advance(1.0);

@@ -1,8 +1,8 @@
 // The main entry: a surface with holes to a circle domain.
 #pragma once
 
-#include "conformal/result.h"
 #include "core/execution.h"
+#include "pipeline/result.h"
 
 namespace koebe {
 

@@ -4,17 +4,17 @@
 
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
-#include "conformal/distortion.h"
 #include "core/topology.h"
-#include "geometry/dense_spd.h"
-#include "geometry/harmonic_map.h"
-#include "geometry/hole_fairing.h"
-#include "geometry/hole_filling.h"
+#include "holes/hole_fairing.h"
+#include "holes/hole_filling.h"
+#include "linear/dense_spd.h"
 #include "pipeline/uniformize.h"
+#include "quality/distortion.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
+#include "surface/harmonic_map.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>

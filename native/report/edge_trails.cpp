@@ -54,7 +54,8 @@ std::vector<std::vector<Index>> edge_trails(const std::vector<Edge>& edges, Inde
     for (Index v = 0; v < vertex_count; ++v)
         if (incidence.degree(v) % 2 == 1) walk_from(v);
     for (Index v = 0; v < vertex_count; ++v)
-        while (walk_from(v)) {}
+        while (walk_from(v)) {
+        }
     return trails;
 }
 

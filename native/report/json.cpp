@@ -67,10 +67,7 @@ Json to_json(const Distortion& distortion)
             {"below_resolution", distortion.below_resolution.size()}};
 }
 
-Json to_json(const std::vector<Warning>& warnings)
-{
-    return array_json(warnings, warning_json);
-}
+Json to_json(const std::vector<Warning>& warnings) { return array_json(warnings, warning_json); }
 
 Json to_json(const UniformizeResult& result)
 {
@@ -96,9 +93,6 @@ Json to_json(const UniformizeResult& result)
     return report;
 }
 
-std::string json_text(const Json& report)
-{
-    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string json_text(const Json& report) { return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace koebe

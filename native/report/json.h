@@ -1,7 +1,7 @@
 // The report as JSON: one form for the command and for Python.
 #pragma once
 
-#include "conformal/result.h"
+#include "pipeline/result.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,8 @@
 // A picture of the circle domain.
 #pragma once
 
-#include "conformal/result.h"
 #include "io/polygon_mesh.h"
+#include "pipeline/result.h"
 
 #include <string>
 

@@ -94,8 +94,7 @@ Solution solve(const Prices& cost, const std::vector<std::vector<int>>& rows_of)
     solution.row_price.resize(n);
     solution.column_price.resize(n);
     for (Graph::ArcIt arc(graph); arc != lemon::INVALID; ++arc)
-        if (simplex.flow(arc) > 0)
-            solution.column[graph.id(graph.source(arc))] = graph.id(graph.target(arc)) - n;
+        if (simplex.flow(arc) > 0) solution.column[graph.id(graph.source(arc))] = graph.id(graph.target(arc)) - n;
     for (int i = 0; i < n; ++i) {
         solution.row_price[i] = simplex.potential(row(i));
         solution.column_price[i] = simplex.potential(column(i));

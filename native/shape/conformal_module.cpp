@@ -1,6 +1,6 @@
 #include "shape/conformal_module.h"
 
-#include "conformal/circle_fit.h"
+#include "circles/circle_fit.h"
 #include "core/errors.h"
 
 #include <algorithm>
@@ -190,10 +190,11 @@ void require_own_circles(const std::vector<LoopReport>& loops)
     for (std::size_t k = 0; k < loops.size(); ++k)
         if (loops[k].shrunk) shrunk.push_back(static_cast<Index>(k));
     if (!shrunk.empty())
-        throw InputError("the circles of " + std::to_string(shrunk.size()) +
-                             " loops are not those of the surface, as the mesh is too coarse for them or they are lost in "
-                             "rounding: there is no conformal module (loops listed, the outer one is 0)",
-                         shrunk);
+        throw InputError(
+            "the circles of " + std::to_string(shrunk.size()) +
+                " loops are not those of the surface, as the mesh is too coarse for them or they are lost in "
+                "rounding: there is no conformal module (loops listed, the outer one is 0)",
+            shrunk);
 }
 
 }  // namespace koebe

@@ -1,9 +1,9 @@
 // The conformal module: the numbers that tell circle domains apart (paper, Fig. 13).
 #pragma once
 
-#include "conformal/moebius.h"
-#include "conformal/result.h"
+#include "circles/moebius.h"
 #include "core/types.h"
+#include "pipeline/result.h"
 
 #include <string>
 #include <vector>
@@ -47,8 +47,8 @@ double conformal_separation(const Circle& a, const Circle& b);
 /// @throws InputError the first circle is not the unit circle, circles meet or lie outside (their numbers listed)
 void require_circle_domain(const std::vector<Circle>& circles);
 
-/// A module tells about circles that the surface has; where the mesh was too coarse for the iteration's, and others took
-/// their place, there is none.
+/// A module tells about circles that the surface has; where the mesh was too coarse for the iteration's, and others
+/// took their place, there is none.
 /// @throws InputError with the loops of such circles
 void require_own_circles(const std::vector<LoopReport>& loops);
 

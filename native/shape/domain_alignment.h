@@ -1,7 +1,7 @@
 // One circle domain laid over another, as well as an automorphism of the disk can.
 #pragma once
 
-#include "conformal/moebius.h"
+#include "circles/moebius.h"
 #include "core/execution.h"
 
 #include <vector>

@@ -1,7 +1,7 @@
 // Which loops of two circle domains correspond.
 #pragma once
 
-#include "conformal/result.h"
+#include "circles/circle.h"
 #include "core/execution.h"
 
 #include <vector>

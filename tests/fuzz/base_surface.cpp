@@ -69,10 +69,7 @@ void punch_stars(Soup& soup, std::size_t count, Random& random)
     }
 }
 
-Soup grid(const BaseChoice& choice, Random& random)
-{
-    return lattice(choice.n, choice.m, false, random);
-}
+Soup grid(const BaseChoice& choice, Random& random) { return lattice(choice.n, choice.m, false, random); }
 
 Soup plate(const BaseChoice& choice, Random& random)
 {
@@ -88,10 +85,7 @@ Soup tube(const BaseChoice& choice, Random& random)
     return soup;
 }
 
-Soup strip(const BaseChoice& choice, Random& random)
-{
-    return lattice(choice.n * choice.m, 1, false, random);
-}
+Soup strip(const BaseChoice& choice, Random& random) { return lattice(choice.n * choice.m, 1, false, random); }
 
 Soup ring(const BaseChoice& choice, Random& random)
 {
@@ -225,10 +219,7 @@ void shape_points(Soup& soup, int shape, Random& random)
 
 }  // namespace
 
-int base_kind_count()
-{
-    return static_cast<int>(std::size(makers));
-}
+int base_kind_count() { return static_cast<int>(std::size(makers)); }
 
 Soup base_surface(const BaseChoice& choice)
 {

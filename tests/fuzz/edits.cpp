@@ -23,10 +23,7 @@ Corner corner_of(const Soup& soup, std::size_t number)
     return {number / 3 % soup.faces.size(), static_cast<int>(number % 3)};
 }
 
-Index vertex(const Soup& soup, Corner c, int next = 0)
-{
-    return soup.faces[c.face][(c.corner + next) % 3];
-}
+Index vertex(const Soup& soup, Corner c, int next = 0) { return soup.faces[c.face][(c.corner + next) % 3]; }
 
 /// The face on the other side of the edge that starts at a corner, by the corner it starts at there.
 std::optional<Corner> across(const Soup& soup, Corner c)
@@ -47,10 +44,7 @@ std::optional<Corner> rim_edge(const Soup& soup, std::size_t number)
     return std::nullopt;
 }
 
-bool has_vertex(const Soup& soup, Index v)
-{
-    return v >= 0 && v < static_cast<Index>(soup.points.size());
-}
+bool has_vertex(const Soup& soup, Index v) { return v >= 0 && v < static_cast<Index>(soup.points.size()); }
 
 Index add_point(Soup& soup, const std::array<double, 3>& p)
 {
@@ -70,10 +64,7 @@ std::array<double, 3> between(const Soup& soup, Index a, Index b, double part)
     return p;
 }
 
-double factor(int amount)
-{
-    return std::exp2(amount / 4.0);
-}
+double factor(int amount) { return std::exp2(amount / 4.0); }
 
 using Edit = void (*)(Soup&, const EditChoice&);
 
@@ -92,7 +83,8 @@ void flip_edge(Soup& soup, const EditChoice& e)
 
 void delete_face(Soup& soup, const EditChoice& e)
 {
-    if (soup.faces.size() > 1) soup.faces.erase(soup.faces.begin() + static_cast<std::ptrdiff_t>(e.a % soup.faces.size()));
+    if (soup.faces.size() > 1)
+        soup.faces.erase(soup.faces.begin() + static_cast<std::ptrdiff_t>(e.a % soup.faces.size()));
 }
 
 void delete_star(Soup& soup, const EditChoice& e)
@@ -175,10 +167,7 @@ void scale(Soup& soup, const EditChoice& e)
         for (double& x : p) x *= std::exp2(e.a % 8 == 0 ? 8.0 * e.amount : e.amount / 2.0);
 }
 
-void move_vertex(Soup& soup, const EditChoice& e)
-{
-    soup.points[e.a % soup.points.size()][e.b % 3] += e.amount / 64.0;
-}
+void move_vertex(Soup& soup, const EditChoice& e) { soup.points[e.a % soup.points.size()][e.b % 3] += e.amount / 64.0; }
 
 void rough(Soup& soup, const EditChoice& e)
 {
@@ -190,7 +179,8 @@ void rough(Soup& soup, const EditChoice& e)
 void coincide(Soup& soup, const EditChoice& e)
 {
     const std::size_t a = e.a % soup.points.size(), b = e.b % soup.points.size();
-    soup.points[a] = between(soup, static_cast<Index>(a), static_cast<Index>(b), e.amount == 0 ? 1.0 : 1.0 - factor(-std::abs(e.amount)));
+    soup.points[a] = between(soup, static_cast<Index>(a), static_cast<Index>(b),
+                             e.amount == 0 ? 1.0 : 1.0 - factor(-std::abs(e.amount)));
 }
 
 void flatten(Soup& soup, const EditChoice& e)
@@ -247,10 +237,7 @@ void glue_face(Soup& soup, const EditChoice& e)
     soup.faces.push_back({vertex(soup, c, 1), vertex(soup, c), v});
 }
 
-void duplicate_face(Soup& soup, const EditChoice& e)
-{
-    soup.faces.push_back(soup.faces[e.a % soup.faces.size()]);
-}
+void duplicate_face(Soup& soup, const EditChoice& e) { soup.faces.push_back(soup.faces[e.a % soup.faces.size()]); }
 
 /// A copy of a corner's vertex, which some of its faces take.
 void duplicate_vertex(Soup& soup, const EditChoice& e)
@@ -286,46 +273,43 @@ void second_component(Soup& soup, const EditChoice& e)
 void odd_coordinate(Soup& soup, const EditChoice& e)
 {
     using Limits = std::numeric_limits<double>;
-    constexpr double odd[] = {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(),
-                              Limits::denorm_min(), -0.0, 1e160, 1e-160, 1e20, 1e-20};
+    constexpr double odd[] = {Limits::quiet_NaN(),
+                              Limits::infinity(),
+                              -Limits::infinity(),
+                              Limits::max(),
+                              Limits::denorm_min(),
+                              -0.0,
+                              1e160,
+                              1e-160,
+                              1e20,
+                              1e-20};
     soup.points[e.a % soup.points.size()][e.b % 3] = odd[static_cast<unsigned>(e.amount + 128) % std::size(odd)];
 }
 
 void odd_index(Soup& soup, const EditChoice& e)
 {
     const Index count = static_cast<Index>(soup.points.size());
-    const Index odd[] = {-1, count, count - 1, std::numeric_limits<Index>::max(), std::numeric_limits<Index>::min(),
-                         0, -count, 65536};
+    const Index odd[] = {-1, count,  count - 1, std::numeric_limits<Index>::max(), std::numeric_limits<Index>::min(),
+                         0,  -count, 65536};
     soup.faces[e.a % soup.faces.size()][e.b % 3] = odd[static_cast<unsigned>(e.amount + 128) % std::size(odd)];
 }
 
-void cut_points(Soup& soup, const EditChoice& e)
-{
-    soup.points.resize(e.a % (soup.points.size() + 1));
-}
+void cut_points(Soup& soup, const EditChoice& e) { soup.points.resize(e.a % (soup.points.size() + 1)); }
 
-void cut_faces(Soup& soup, const EditChoice& e)
-{
-    soup.faces.resize(e.a % (soup.faces.size() + 1));
-}
+void cut_faces(Soup& soup, const EditChoice& e) { soup.faces.resize(e.a % (soup.faces.size() + 1)); }
 
-constexpr Edit keeping[] = {flip_edge,  delete_face,   delete_star,  glue_ear,  close_corner, stack_vertex,
-                            split_edge, collapse_edge, stretch,      scale,     move_vertex,  rough,
-                            coincide,   flatten,       renumber,     turn_corners, unused_vertex};
-constexpr Edit breaking[] = {reverse_face,   reverse_all,      glue_face,      duplicate_face, duplicate_vertex,
-                             merge_vertices, second_component, odd_coordinate, odd_index,      cut_points, cut_faces};
+constexpr Edit keeping[] = {flip_edge,  delete_face,   delete_star, glue_ear,     close_corner, stack_vertex,
+                            split_edge, collapse_edge, stretch,     scale,        move_vertex,  rough,
+                            coincide,   flatten,       renumber,    turn_corners, unused_vertex};
+constexpr Edit breaking[] = {reverse_face,     reverse_all,    glue_face,        duplicate_face,
+                             duplicate_vertex, merge_vertices, second_component, odd_coordinate,
+                             odd_index,        cut_points,     cut_faces};
 
 }  // namespace
 
-int first_breaking_edit()
-{
-    return static_cast<int>(std::size(keeping));
-}
+int first_breaking_edit() { return static_cast<int>(std::size(keeping)); }
 
-int edit_kind_count()
-{
-    return static_cast<int>(std::size(keeping) + std::size(breaking));
-}
+int edit_kind_count() { return static_cast<int>(std::size(keeping) + std::size(breaking)); }
 
 void edit(Soup& soup, const EditChoice& choice, const Limits& limits)
 {

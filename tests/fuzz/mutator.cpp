@@ -30,10 +30,7 @@ std::vector<std::uint8_t> bytes_of(const Records& records)
     return bytes;
 }
 
-std::uint8_t any_byte(Random& random)
-{
-    return static_cast<std::uint8_t>(random.next());
-}
+std::uint8_t any_byte(Random& random) { return static_cast<std::uint8_t>(random.next()); }
 
 Edit random_edit(Random& random)
 {
@@ -85,7 +82,8 @@ std::vector<std::uint8_t> cross_over(Bytes first, Bytes second, Random& random)
     const Records other = records_of(second);
     records.edits.resize(random.below(records.edits.size() + 1));
     const std::size_t from = random.below(other.edits.size() + 1);
-    records.edits.insert(records.edits.end(), other.edits.begin() + static_cast<std::ptrdiff_t>(from), other.edits.end());
+    records.edits.insert(records.edits.end(), other.edits.begin() + static_cast<std::ptrdiff_t>(from),
+                         other.edits.end());
     if (records.edits.size() > most_edits) records.edits.resize(most_edits);
     return bytes_of(records);
 }

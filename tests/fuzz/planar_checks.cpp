@@ -3,17 +3,17 @@
 
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
-#include "conformal/distortion.h"
 #include "core/errors.h"
 #include "core/topology.h"
-#include "geometry/boundary_crossings.h"
-#include "geometry/harmonic_map.h"
-#include "geometry/hole_filling.h"
-#include "geometry/planar_mesh.h"
+#include "holes/hole_filling.h"
+#include "planar/boundary_crossings.h"
+#include "planar/planar_mesh.h"
+#include "quality/distortion.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
+#include "surface/harmonic_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,28 +50,18 @@ void check_disk_map(const Program& program)
 void check_annulus(const Program& program, AnnulusBackend backend)
 {
     const Surface surface = surface_with_loops(program, 2);
-    const AnnulusMap map =
-        annulus_map(surface.triangles, edge_lengths(program.soup.vertices(), surface.triangles), surface.vertex_count,
-                    surface.loops[0], surface.loops[1], {.backend = backend});
+    const AnnulusMap map = annulus_map(surface.triangles, edge_lengths(program.soup.vertices(), surface.triangles),
+                                       surface.vertex_count, surface.loops[0], surface.loops[1], {.backend = backend});
     if (!map.converged) return;
     require_in_disk(map.positions);
     require(map.inner_radius >= 0.0 && map.inner_radius <= 1.0, "the inner circle is inside the outer one");
 }
 
-void check_annulus_map(const Program& program)
-{
-    check_annulus(program, AnnulusBackend::harmonic);
-}
+void check_annulus_map(const Program& program) { check_annulus(program, AnnulusBackend::harmonic); }
 
-void check_cylinder(const Program& program)
-{
-    check_annulus(program, AnnulusBackend::yamabe);
-}
+void check_cylinder(const Program& program) { check_annulus(program, AnnulusBackend::yamabe); }
 
-PlanarPoints flat_points(const Program& program)
-{
-    return program.soup.vertices().leftCols(2);
-}
+PlanarPoints flat_points(const Program& program) { return program.soup.vertices().leftCols(2); }
 
 void check_distortion(const Program& program)
 {
@@ -90,7 +80,8 @@ void check_embedding(const Program& program)
     const VertexLoop& loop = surface.loops[0];
     VectorXcd values(static_cast<Eigen::Index>(loop.size()));
     for (Eigen::Index i = 0; i < values.size(); ++i)
-        values[i] = std::polar(1.0, 2.0 * 3.141592653589793 * static_cast<double>(i) / static_cast<double>(values.size()));
+        values[i] =
+            std::polar(1.0, 2.0 * 3.141592653589793 * static_cast<double>(i) / static_cast<double>(values.size()));
     require_in_disk(harmonic_map(surface.triangles, EdgeLengths::Ones(surface.triangles.rows(), 3),
                                  surface.vertex_count, loop, values));
 }
@@ -169,7 +160,8 @@ void check_crossings(const Program& program)
 {
     if (program.soup.points.size() < 4) return;
     VertexLoop loop;
-    for (Index v = 0; v < static_cast<Index>(std::min<std::size_t>(program.soup.points.size(), 40)); ++v) loop.push_back(v);
+    for (Index v = 0; v < static_cast<Index>(std::min<std::size_t>(program.soup.points.size(), 40)); ++v)
+        loop.push_back(v);
     for (const auto& [a, b] : crossing_boundary_edges({loop}, flat_points(program), 1e-6))
         require(a != b && a >= 0 && b < static_cast<Index>(loop.size()), "crossing edges exist");
 }
@@ -201,9 +193,6 @@ constexpr ArrayCheck checks[] = {check_disk_map,  check_annulus_map, check_cylin
 
 }  // namespace
 
-std::span<const ArrayCheck> planar_checks()
-{
-    return checks;
-}
+std::span<const ArrayCheck> planar_checks() { return checks; }
 
 }  // namespace koebe::fuzz

@@ -1,8 +1,8 @@
 // A fuzzer's bytes as a program that makes a mesh: a base surface, edits of it, and options for the map.
 #pragma once
 
-#include "conformal/result.h"
 #include "core/types.h"
+#include "pipeline/result.h"
 
 #include <array>
 #include <cstdint>

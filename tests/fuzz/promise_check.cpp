@@ -6,10 +6,10 @@
 namespace koebe::fuzz {
 namespace {
 
-constexpr double rounding = 1e-12;     // disk units
-constexpr double on_circle = 1e-6;     // disk units: what is farther off is listed
-constexpr double resolution = 1e-6;    // UV units
-constexpr double shortest_edge = 2e-6; // disk units: shorter loop edges may cross
+constexpr double rounding = 1e-12;      // disk units
+constexpr double on_circle = 1e-6;      // disk units: what is farther off is listed
+constexpr double resolution = 1e-6;     // UV units
+constexpr double shortest_edge = 2e-6;  // disk units: shorter loop edges may cross
 
 struct Stored {
     double u, v;
@@ -21,10 +21,7 @@ Stored stored(const UniformizeResult& result, Index vertex)
     return {to_float(result.uv(vertex, 0)), to_float(result.uv(vertex, 1))};
 }
 
-double twice_area(Stored a, Stored b, Stored c)
-{
-    return (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
-}
+double twice_area(Stored a, Stored b, Stored c) { return (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v); }
 
 /// The faces without positive area, and those of them that are too small to be drawn.
 struct Flips {
@@ -75,10 +72,7 @@ void check_loops(const SurfaceFacts& facts, const UniformizeResult& result)
     require(edges == facts.boundary, "the loops are the boundary");
 }
 
-Complex place(const UniformizeResult& result, Index v)
-{
-    return {result.uv(v, 0), result.uv(v, 1)};
-}
+Complex place(const UniformizeResult& result, Index v) { return {result.uv(v, 0), result.uv(v, 1)}; }
 
 void check_circles(const UniformizeResult& result)
 {

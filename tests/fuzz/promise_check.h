@@ -3,7 +3,7 @@
 
 #include "surface_facts.h"
 
-#include "conformal/result.h"
+#include "pipeline/result.h"
 
 #include <stdexcept>
 #include <string>
@@ -21,8 +21,8 @@ inline void require(bool kept, const std::string& promise)
     if (!kept) throw PromiseBroken(promise);
 }
 
-/// In any case: what the report says of flips and loops is so. If it says converged: finite, in the closed disk, circles
-/// positive, inside and apart, loops on them and simple, no face flipped that could be drawn.
+/// In any case: what the report says of flips and loops is so. If it says converged: finite, in the closed disk,
+/// circles positive, inside and apart, loops on them and simple, no face flipped that could be drawn.
 /// @throws PromiseBroken
 void check_map(const Soup& soup, const SurfaceFacts& facts, const UniformizeResult& result);
 

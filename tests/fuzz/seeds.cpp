@@ -15,7 +15,8 @@ using Byte = std::uint8_t;
 std::vector<Byte> program(int kind, int shape, int choice, const std::vector<std::array<Byte, edit_bytes>>& edits = {})
 {
     std::vector<Byte> bytes(header_bytes, 0);
-    const Byte base[] = {static_cast<Byte>(kind), 3, 2, 2, static_cast<Byte>(shape), static_cast<Byte>(7 * kind + shape)};
+    const Byte base[] = {
+        static_cast<Byte>(kind), 3, 2, 2, static_cast<Byte>(shape), static_cast<Byte>(7 * kind + shape)};
     std::ranges::copy(base, bytes.begin());
     bytes[header_bytes - 1] = static_cast<Byte>(choice);
     for (const auto& edit : edits) bytes.insert(bytes.end(), edit.begin(), edit.end());
@@ -32,8 +33,8 @@ std::vector<Seed> programs(Target target)
                 seeds.push_back({"base-" + std::to_string(kind) + "-" + std::to_string(choice),
                                  program(kind, kind + choice, choice)});
     for (int kind = 0; kind < edit_kind_count(); ++kind)
-        seeds.push_back({"edit-" + std::to_string(kind),
-                         program(kind, kind, 0, {{static_cast<Byte>(kind), 5, 0, 3, 0, 12}})});
+        seeds.push_back(
+            {"edit-" + std::to_string(kind), program(kind, kind, 0, {{static_cast<Byte>(kind), 5, 0, 3, 0, 12}})});
     for (Byte options = 1; options < 8 && target == fuzz_uniformize; ++options) {
         seeds.push_back({"options-" + std::to_string(options), program(1, 1, 0)});
         seeds.back().bytes[base_bytes] = options;
@@ -95,13 +96,15 @@ std::vector<Seed> files()
     add_text("obj-pentagon", obj, "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 .5 0\nv 0 2 0\nf 1 2 3 4 5\n");
     add_text("off", off, "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
     add_text("off-colours", off, "COFF\n3 1 3\n0 0 0 255 0 0 255\n1 0 0 0 0 0 1\n1 1 0 1 1 1 1\n3 0 1 2 9 9 9\n");
-    add_text("ply", ply,
-             "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty double x\nproperty float y\nproperty float z\n"
-             "property uchar red\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
-             "0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n");
-    add_text("stl", stl,
-             "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 -0\nendloop\nendfacet\n"
-             "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n");
+    add_text(
+        "ply", ply,
+        "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty double x\nproperty float y\nproperty float z\n"
+        "property uchar red\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+        "0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n");
+    add_text(
+        "stl", stl,
+        "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 -0\nendloop\nendfacet\n"
+        "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n");
     seeds.push_back({"ply-little", binary_ply(ply, std::endian::little)});
     seeds.push_back({"ply-big", binary_ply(ply, std::endian::big)});
     seeds.push_back({"stl-binary", binary_stl(stl)});
@@ -110,9 +113,6 @@ std::vector<Seed> files()
 
 }  // namespace
 
-std::vector<Seed> seeds_of(Target target)
-{
-    return takes_a_program(target) ? programs(target) : files();
-}
+std::vector<Seed> seeds_of(Target target) { return takes_a_program(target) ? programs(target) : files(); }
 
 }  // namespace koebe::fuzz

@@ -6,11 +6,11 @@
 #include "core/errors.h"
 #include "core/halfedge_mesh.h"
 #include "core/topology.h"
-#include "geometry/flaps.h"
-#include "geometry/hole_fairing.h"
-#include "geometry/hole_filling.h"
-#include "geometry/intrinsic_metric.h"
+#include "flaps/flaps.h"
+#include "holes/hole_fairing.h"
+#include "holes/hole_filling.h"
 #include "pipeline/canonical_form.h"
+#include "surface/intrinsic_metric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,10 +110,7 @@ void check_filling(const Program& program, bool fair)
     require(again.vertices == filled.vertices && again.triangles == filled.triangles, "a patch is the same each time");
 }
 
-void check_fans(const Program& program)
-{
-    check_filling(program, false);
-}
+void check_fans(const Program& program) { check_filling(program, false); }
 
 void check_fairing(const Program& program)
 {
@@ -128,7 +125,8 @@ void check_metric(const Program& program)
     require(metric.triangles.rows() == form.surface.triangles.rows(), "flips keep the number of faces");
     for (Eigen::Index f = 0; f < metric.lengths.rows(); ++f)
         for (int k = 0; k < 3; ++k) {
-            const double a = metric.lengths(f, k), b = metric.lengths(f, (k + 1) % 3), c = metric.lengths(f, (k + 2) % 3);
+            const double a = metric.lengths(f, k), b = metric.lengths(f, (k + 1) % 3),
+                         c = metric.lengths(f, (k + 2) % 3);
             require(std::isfinite(a) && a > 0.0, "lengths are positive");
             require(b + c >= a * (1.0 - 1e-12), "the triangle inequality holds");
         }
@@ -153,9 +151,6 @@ constexpr ArrayCheck checks[] = {check_topology, check_canonical_form, check_fla
 
 }  // namespace
 
-std::span<const ArrayCheck> surface_checks()
-{
-    return checks;
-}
+std::span<const ArrayCheck> surface_checks() { return checks; }
 
 }  // namespace koebe::fuzz

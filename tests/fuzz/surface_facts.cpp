@@ -9,7 +9,10 @@ namespace {
 
 class UnionFind {
 public:
-    explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    explicit UnionFind(std::size_t count) : parent_(count)
+    {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
 
     std::size_t root(std::size_t x)
     {
@@ -22,10 +25,7 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-Edge edge_of(Index a, Index b)
-{
-    return {std::min(a, b), std::max(a, b)};
-}
+Edge edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 struct Side {
     std::size_t face;
@@ -72,12 +72,11 @@ bool every_star_is_one(const Soup& soup, const Sides& sides)
 bool arrays_are_a_mesh(const Soup& soup)
 {
     const auto is_vertex = [&](Index v) { return v >= 0 && v < static_cast<Index>(soup.points.size()); };
-    return !soup.faces.empty() &&
-           std::ranges::all_of(soup.points, [](const auto& p) { return std::ranges::all_of(p, [](double x) { return std::isfinite(x); }); }) &&
-           std::ranges::all_of(soup.faces, [&](const auto& face) {
-               return std::ranges::all_of(face, is_vertex) && face[0] != face[1] && face[1] != face[2] &&
-                      face[2] != face[0];
-           });
+    return !soup.faces.empty() && std::ranges::all_of(soup.points, [](const auto& p) {
+        return std::ranges::all_of(p, [](double x) { return std::isfinite(x); });
+    }) && std::ranges::all_of(soup.faces, [&](const auto& face) {
+        return std::ranges::all_of(face, is_vertex) && face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+    });
 }
 
 std::optional<SurfaceFacts> surface_facts(const Soup& soup)

@@ -30,7 +30,8 @@ void check_triangulation(const PolygonMesh& mesh, const Triangulation& cut)
     for (Eigen::Index t = 0; t < cut.triangles.rows(); ++t) {
         const auto face = mesh.face(cut.face[t]);
         for (int k = 0; k < 3; ++k)
-            require(std::ranges::find(face, cut.triangles(t, k)) != face.end(), "a triangle is made of its face's corners");
+            require(std::ranges::find(face, cut.triangles(t, k)) != face.end(),
+                    "a triangle is made of its face's corners");
     }
     require(std::ranges::is_sorted(cut.face), "triangles follow the order of the faces");
 }

@@ -10,9 +10,6 @@ Target target_of(std::string_view name)
     return nullptr;
 }
 
-bool takes_a_program(Target target)
-{
-    return target != fuzz_read;
-}
+bool takes_a_program(Target target) { return target != fuzz_read; }
 
 }  // namespace koebe::fuzz

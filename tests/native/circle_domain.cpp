@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 
-#include "conformal/circle_fit.h"
-#include "geometry/planar_mesh.h"
+#include "circles/circle_fit.h"
+#include "planar/planar_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
-// Circle domains with known circles, triangulated, and conformal lifts of them (docs/benchmarks.md, "Accuracy on exact domains").
+// Circle domains with known circles, triangulated, and conformal lifts of them (docs/benchmarks.md, "Accuracy on exact
+// domains").
 #pragma once
 
-#include "conformal/result.h"
+#include "circles/circle.h"
 #include "core/types.h"
 
 #include <string>

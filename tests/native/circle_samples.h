@@ -1,7 +1,7 @@
 // Circle domains as lists of circles, and Moebius images of them.
 #pragma once
 
-#include "conformal/moebius.h"
+#include "circles/moebius.h"
 
 #include <random>
 #include <vector>

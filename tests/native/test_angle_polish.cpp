@@ -1,7 +1,7 @@
 #include "circle_domain.h"
-#include "conformal/distortion.h"
 #include "foldover/angle_polish.h"
 #include "pipeline/uniformize.h"
+#include "quality/distortion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "circle_domain.h"
+#include "circles/circle_fit.h"
+#include "circles/moebius.h"
 #include "conformal/annulus_map.h"
-#include "conformal/circle_fit.h"
-#include "conformal/moebius.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 

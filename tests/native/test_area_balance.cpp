@@ -1,6 +1,6 @@
+#include "balance/area_balance.h"
 #include "circle_domain.h"
-#include "conformal/area_balance.h"
-#include "conformal/circle_fit.h"
+#include "circles/circle_fit.h"
 #include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,7 @@ TEST(AreaBalance, finds_the_outer_loop_of_a_flat_domain_again)
     const CircleDomain domain = make_circle_domain(five_circles(), 4000);
     const Vertices flat = lift(domain.points, Lift::plane);
     const auto chosen = [&](const VectorXcd& points, const std::vector<Circle>& circles) {
-        return balanced_outer_loop(face_scales(flat, domain.triangles, planar(points), 2000), circles,
-                                   {0, 1, 2, 3, 4});
+        return balanced_outer_loop(face_scales(flat, domain.triangles, planar(points), 2000), circles, {0, 1, 2, 3, 4});
     };
     EXPECT_EQ(chosen(domain.points, domain.circles), 0);
 

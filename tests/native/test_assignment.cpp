@@ -92,8 +92,8 @@ TEST(Assignment, finds_a_hidden_permutation_of_many_points)
     for (int i = 0; i < n; ++i) EXPECT_EQ(found[i], hidden(i));
 }
 
-// More rows than the few pairs that each starts with, and costs that make the cheap ones wrong: the prices must find the
-// others.
+// More rows than the few pairs that each starts with, and costs that make the cheap ones wrong: the prices must find
+// the others.
 TEST(Assignment, costs_as_little_as_a_dense_method_of_another_kind)
 {
     std::mt19937 random(11);
@@ -102,11 +102,11 @@ TEST(Assignment, costs_as_little_as_a_dense_method_of_another_kind)
         const VectorXd a = VectorXd::NullaryExpr(n, [&] { return uniform(random); });
         const VectorXd b = VectorXd::NullaryExpr(n, [&] { return uniform(random); });
         const MatrixXd noise = MatrixXd::NullaryExpr(n, n, [&] { return uniform(random); });
-        for (const MatrixXd& cost : {
-                 noise, MatrixXd(a * b.transpose()), MatrixXd(a * b.transpose() + 1e-3 * noise),
-                 MatrixXd((a.replicate(1, n) + b.transpose().replicate(n, 1)).array() + 1e-6 * noise.array()),
-                 MatrixXd((noise.array() < 0.5).cast<double>()), MatrixXd(1e300 * noise.array() - 5e299),
-                 MatrixXd(MatrixXd::Constant(n, n, 7.0))}) {
+        for (const MatrixXd& cost :
+             {noise, MatrixXd(a * b.transpose()), MatrixXd(a * b.transpose() + 1e-3 * noise),
+              MatrixXd((a.replicate(1, n) + b.transpose().replicate(n, 1)).array() + 1e-6 * noise.array()),
+              MatrixXd((noise.array() < 0.5).cast<double>()), MatrixXd(1e300 * noise.array() - 5e299),
+              MatrixXd(MatrixXd::Constant(n, n, 7.0))}) {
             const std::vector<int> found = least_cost_assignment(cost);
             std::vector<int> order(n);
             std::iota(order.begin(), order.end(), 0);

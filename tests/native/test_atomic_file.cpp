@@ -100,8 +100,8 @@ TEST(AtomicFile, WhatAKilledProcessLeftIsPassedOver)
     for (int i = 0; i < 3; ++i) {  // the names that come next, as a process of the same number would have had
         const std::string name = io::temporary_name(folder.path()).filename().string();
         const std::size_t number = name.rfind('-') + 1;
-        left.push_back(folder.write(name.substr(0, number) + std::to_string(std::stoi(name.substr(number)) + 3) + ".tmp",
-                                    "left"));
+        left.push_back(
+            folder.write(name.substr(0, number) + std::to_string(std::stoi(name.substr(number)) + 3) + ".tmp", "left"));
     }
     AtomicFile file(folder.path() / "out");
     file.write("new");

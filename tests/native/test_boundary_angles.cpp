@@ -1,5 +1,5 @@
-#include "conformal/boundary_angles.h"
-#include "conformal/moebius.h"
+#include "circles/boundary_angles.h"
+#include "circles/moebius.h"
 #include "core/errors.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,9 @@ TEST(BoundaryAngles, a_smooth_density_is_integrated_to_second_order)
         double error = 0.0;
         for (Index b = 0; b < m; ++b)
             error = std::max(error, std::abs(angles[b] - (s[b] - s[0] + 0.3 * (std::sin(s[b]) - std::sin(s[0])))));
-        if (m > 40) { EXPECT_LT(error, last / 3.3); }
+        if (m > 40) {
+            EXPECT_LT(error, last / 3.3);
+        }
         last = error;
     }
 }

@@ -65,20 +65,24 @@ TEST(CanonicalForm, is_the_same_surface)
     ASSERT_EQ(form.surface.triangles.rows(), mesh.triangles.rows());
     for (Eigen::Index f = 0; f < form.surface.triangles.rows(); ++f) {
         const auto original = mesh.triangles.row(form.original_faces[f]);
-        const int corner = static_cast<int>(std::find(original.begin(), original.end(),
-                                       form.original_vertices[form.surface.triangles(f, 0)]) - original.begin());
+        const int corner = static_cast<int>(
+            std::find(original.begin(), original.end(), form.original_vertices[form.surface.triangles(f, 0)]) -
+            original.begin());
         for (int k = 0; k < 3; ++k)
             EXPECT_EQ(form.original_vertices[form.surface.triangles(f, k)], original[(corner + k) % 3]);
     }
     const Surface again = analyze_surface(form.surface.triangles, form.surface.vertex_count);
     EXPECT_EQ(form.surface.twin, again.twin);
     EXPECT_EQ(form.surface.loops, again.loops);
-    const double scale = (form.vertices.row(0) - form.vertices.row(1)).norm() /
-                         (mesh.vertices.row(form.original_vertices[0]) - mesh.vertices.row(form.original_vertices[1])).norm();
+    const double scale =
+        (form.vertices.row(0) - form.vertices.row(1)).norm() /
+        (mesh.vertices.row(form.original_vertices[0]) - mesh.vertices.row(form.original_vertices[1])).norm();
     for (Eigen::Index v = 1; v < form.vertices.rows(); ++v)
-        EXPECT_NEAR((form.vertices.row(0) - form.vertices.row(v)).norm(),
-                    scale * (mesh.vertices.row(form.original_vertices[0]) -
-                             mesh.vertices.row(form.original_vertices[v])).norm(), 1e-9);
+        EXPECT_NEAR(
+            (form.vertices.row(0) - form.vertices.row(v)).norm(),
+            scale *
+                (mesh.vertices.row(form.original_vertices[0]) - mesh.vertices.row(form.original_vertices[v])).norm(),
+            1e-9);
 }
 
 TEST(CanonicalForm, does_not_depend_on_numbers)

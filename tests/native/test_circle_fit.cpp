@@ -1,5 +1,5 @@
-#include "conformal/circle_fit.h"
-#include "conformal/moebius.h"
+#include "circles/circle_fit.h"
+#include "circles/moebius.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "conformal/circle_projection.h"
+#include "circles/circle_projection.h"
 
 #include <gtest/gtest.h>
 

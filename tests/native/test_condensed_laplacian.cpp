@@ -1,6 +1,6 @@
 #include "circle_domain.h"
-#include "geometry/condensed_laplacian.h"
-#include "geometry/laplacian.h"
+#include "linear/condensed_laplacian.h"
+#include "surface/laplacian.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@ namespace {
 
 struct Sample {
     explicit Sample(Index face_count = 3000)
-        : domain(make_circle_domain(five_circles(), face_count)), plane(lift(domain.points, Lift::plane)),
+        : domain(make_circle_domain(five_circles(), face_count)),
+          plane(lift(domain.points, Lift::plane)),
           laplacian(cotan_laplacian(domain.triangles, half_cotangents(edge_lengths(plane, domain.triangles)),
                                     static_cast<Index>(plane.rows())))
     {

@@ -1,6 +1,6 @@
 #include "circle_domain.h"
 #include "circle_samples.h"
-#include "conformal/circle_fit.h"
+#include "circles/circle_fit.h"
 #include "core/errors.h"
 #include "pipeline/uniformize.h"
 #include "shape/conformal_module.h"

@@ -1,6 +1,6 @@
-#include "conformal/boundary_angles.h"
-#include "conformal/stored_uv.h"
-#include "foldover/convex_embedding.h"
+#include "circles/boundary_angles.h"
+#include "embedding/convex_embedding.h"
+#include "quality/stored_uv.h"
 #include "random_disks.h"
 
 #include <gtest/gtest.h>
@@ -37,8 +37,7 @@ PlanarPoints expect_embedded(const FaceList& faces)
     EXPECT_EQ(folded, 0);
     EXPECT_EQ(lost, 0) << "as stored";
     EXPECT_GT(least, 1e-7) << "the least height of a face";
-    for (std::size_t i = 0; i < outer.size(); ++i)
-        EXPECT_EQ(Complex(points(outer[i], 0), points(outer[i], 1)), rim[i]);
+    for (std::size_t i = 0; i < outer.size(); ++i) EXPECT_EQ(Complex(points(outer[i], 0), points(outer[i], 1)), rim[i]);
     return points;
 }
 

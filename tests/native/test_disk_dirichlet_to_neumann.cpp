@@ -1,4 +1,4 @@
-#include "conformal/disk_dirichlet_to_neumann.h"
+#include "iteration/disk_dirichlet_to_neumann.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,9 @@ MatrixXd by_definition(const VectorXd& angles)
     MatrixXd g(m, m), c = MatrixXd::Zero(m, m);
     for (Index a = 0; a < m; ++a) {
         for (Index b = 0; b < m; ++b) g(a, b) = clausen_cosine_3(angles[a] - angles[b]) / pi;
-        const auto gap = [&](Index e) { return e + 1 < m ? angles[e + 1] - angles[e] : angles[0] + 2 * pi - angles[e]; };
+        const auto gap = [&](Index e) {
+            return e + 1 < m ? angles[e + 1] - angles[e] : angles[0] + 2 * pi - angles[e];
+        };
         const Index before = (a + m - 1) % m, after = (a + 1) % m;
         c(a, before) += 1.0 / gap(before);
         c(a, a) -= 1.0 / gap(before) + 1.0 / gap(a);
@@ -72,7 +74,9 @@ TEST(DiskDirichletToNeumann, has_the_energy_of_harmonic_polynomials)
             const VectorXd angles = equal_angles(m);
             const VectorXd u = (k * angles.array()).cos();
             const double error = std::abs(u.dot(disk_dirichlet_to_neumann(angles) * u) / (k * pi) - 1.0);
-            if (m > 100) { EXPECT_LT(error, last / 3.5) << "k " << k << ", m " << m; }
+            if (m > 100) {
+                EXPECT_LT(error, last / 3.5) << "k " << k << ", m " << m;
+            }
             last = error;
         }
         EXPECT_LT(last, 2e-3 * k * k);

@@ -1,6 +1,6 @@
 #include "circle_domain.h"
+#include "circles/moebius.h"
 #include "conformal/disk_map.h"
-#include "conformal/moebius.h"
 #include "core/errors.h"
 #include "core/topology.h"
 #include "random_disks.h"

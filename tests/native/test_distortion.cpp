@@ -1,5 +1,5 @@
 #include "circle_domain.h"
-#include "conformal/distortion.h"
+#include "quality/distortion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
-#include "conformal/circle_fit.h"
-#include "conformal/stored_uv.h"
-#include "foldover/embedded_map.h"
-#include "geometry/boundary_crossings.h"
+#include "circles/circle_fit.h"
+#include "circles/crowded_circles.h"
+#include "embedding/embedded_map.h"
+#include "planar/boundary_crossings.h"
+#include "quality/stored_uv.h"
 #include "random_disks.h"
 
 #include <gtest/gtest.h>
@@ -41,8 +42,8 @@ Vertices random_positions(Index count, std::mt19937& random)
 }
 
 /// Maps a surface, and checks what is promised of every face, loop and circle.
-EmbeddedMap expect_one_to_one(const FaceList& faces, const Vertices& vertices, const std::vector<Circle>& wanted,
-                              bool crowded_rim = false)
+CircleMap expect_one_to_one(const FaceList& faces, const Vertices& vertices, const std::vector<Circle>& wanted,
+                            bool crowded_rim = false)
 {
     const Triangles triangles = as_triangles(faces);
     const Surface surface = require_bordered_genus_zero(triangles, triangles.maxCoeff() + 1);
@@ -50,7 +51,7 @@ EmbeddedMap expect_one_to_one(const FaceList& faces, const Vertices& vertices, c
     VectorXcd rim(outer.size());
     for (std::size_t i = 0; i < outer.size(); ++i)
         rim[i] = std::polar(1.0, (crowded_rim ? 2e-3 : 2.0 * std::numbers::pi / outer.size()) * static_cast<double>(i));
-    const EmbeddedMap map = embedded_map(vertices, surface, surface.loops, {}, wanted, rim, {});
+    const CircleMap map = embedded_map(vertices, surface, surface.loops, {}, wanted, rim, {});
 
     EXPECT_TRUE(map.uv.allFinite());
     EXPECT_TRUE(circles_apart(map.circles));
@@ -85,9 +86,8 @@ TEST(EmbeddedMap, is_one_to_one_and_round_on_its_own_circles)
         const FaceList disk = i % 3 == 0   ? stacked_disk(150, 0, random)
                               : i % 3 == 1 ? limb(30, 6)
                                            : stacked_disk(60, 2, random);
-        const FaceList faces =
-            with_holes(flipped_at_random(disk, 500, random), i % 3 == 1 ? 6 : 3, 1 + i / 2, random);
-        const EmbeddedMap map = expect_one_to_one(faces, random_positions(200, random), {});
+        const FaceList faces = with_holes(flipped_at_random(disk, 500, random), i % 3 == 1 ? 6 : 3, 1 + i / 2, random);
+        const CircleMap map = expect_one_to_one(faces, random_positions(200, random), {});
         off += map.off_circle.size();
         on += 3 * (map.circles.size() - 1);
     }
@@ -98,8 +98,7 @@ TEST(EmbeddedMap, wanted_circles_that_cannot_be_reached_cost_no_face)
 {
     std::mt19937 random(2);
     for (int i = 0; i < 8; ++i) {
-        const FaceList faces =
-            with_holes(flipped_at_random(stacked_disk(100, 0, random), 500, random), 3, 3, random);
+        const FaceList faces = with_holes(flipped_at_random(stacked_disk(100, 0, random), 500, random), 3, 3, random);
         // Tiny ones side by side, at the rim; then ones as large as there is room for.
         std::vector<Circle> wanted{Circle{}};
         const std::size_t loops = require_bordered_genus_zero(as_triangles(faces), 103).loops.size();
@@ -128,7 +127,7 @@ TEST(EmbeddedMap, circles_within_reach_are_kept)
         rings.row(v) << place.real(), place.imag(), 0.0;
     }
     const std::vector<Circle> wanted{Circle{}, {{0.2, 0.1}, 0.3}};
-    const EmbeddedMap map = expect_one_to_one(faces, rings, wanted);
+    const CircleMap map = expect_one_to_one(faces, rings, wanted);
     EXPECT_EQ(map.circles[1].center, wanted[1].center);
     EXPECT_EQ(map.circles[1].radius, wanted[1].radius);
     EXPECT_TRUE(map.off_circle.empty());

@@ -26,7 +26,8 @@ TEST(FileIdentity, ManyNamesOfOneFile)
     fs::create_symlink("file", folder.path() / "link");
     fs::create_symlink("../link", folder.path() / "sub" / "link_to_link");
     fs::create_hard_link(file, folder.path() / "hard");
-    for (const char* name : {"file", "./file", "sub/../file", "link", "sub/link_to_link", "sub_link/link_to_link", "hard"}) {
+    for (const char* name :
+         {"file", "./file", "sub/../file", "link", "sub/link_to_link", "sub_link/link_to_link", "hard"}) {
         EXPECT_TRUE(same_file(file, folder.path() / name)) << name;
         EXPECT_TRUE(same_file(folder.path() / name, file)) << name;
         EXPECT_FALSE(same_file(other, folder.path() / name)) << name;

@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 #include "flap_domain.h"
-#include "geometry/planar_predicates.h"
 #include "pipeline/uniformize.h"
+#include "planar/planar_predicates.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,8 @@ TEST(FlapMap, an_ear_hangs_into_its_hole_in_its_own_shape)
     const Complex wanted = (domain.points[tip] - domain.points[a]) / (domain.points[b] - domain.points[a]);
     EXPECT_LT(std::abs(shape - wanted), 1e-9);
     ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_NE(result.warnings[0].text().find("the first " + std::to_string(tip)), std::string::npos) << result.warnings[0].text();
+    EXPECT_NE(result.warnings[0].text().find("the first " + std::to_string(tip)), std::string::npos)
+        << result.warnings[0].text();
 }
 
 TEST(FlapMap, ears_that_would_meet_across_the_hole_are_made_flatter)

@@ -1,6 +1,6 @@
 #include "circle_domain.h"
 #include "flap_domain.h"
-#include "geometry/flaps.h"
+#include "flaps/flaps.h"
 
 #include <gtest/gtest.h>
 

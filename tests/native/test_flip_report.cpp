@@ -24,7 +24,8 @@ TEST(FlipReport, a_limb_below_resolution_is_named_with_its_place)
     EXPECT_FALSE(result.distortion.below_resolution.empty());
     EXPECT_EQ(result.distortion.flipped, result.distortion.below_resolution);
     ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_TRUE(says(result, "nearest to loop 1, shrank below the resolution of 32-bit UVs")) << result.warnings[0].text();
+    EXPECT_TRUE(says(result, "nearest to loop 1, shrank below the resolution of 32-bit UVs"))
+        << result.warnings[0].text();
     EXPECT_TRUE(says(result, std::to_string(result.distortion.below_resolution.size()) + " faces of them"))
         << result.warnings[0].text();
 }

@@ -1,8 +1,8 @@
+#include "balance/flux_balance.h"
 #include "circle_domain.h"
-#include "conformal/distortion.h"
-#include "conformal/flux_balance.h"
-#include "conformal/moebius.h"
-#include "geometry/laplacian.h"
+#include "circles/moebius.h"
+#include "quality/distortion.h"
+#include "surface/laplacian.h"
 
 #include <gtest/gtest.h>
 

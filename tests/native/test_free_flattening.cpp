@@ -1,5 +1,5 @@
 #include "circle_domain.h"
-#include "geometry/free_flattening.h"
+#include "surface/free_flattening.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

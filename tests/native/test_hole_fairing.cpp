@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 #include "core/errors.h"
 #include "core/topology.h"
-#include "geometry/hole_fairing.h"
+#include "holes/hole_fairing.h"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +15,9 @@ using namespace koebe::test;
 namespace {
 
 /// The unit disk with a hole of radius 0.4 that is not in its middle.
-CircleDomain one_hole()
-{
-    return make_circle_domain({{{0.0, 0.0}, 1.0}, {{0.2, 0.1}, 0.4}}, 2000);
-}
+CircleDomain one_hole() { return make_circle_domain({{{0.0, 0.0}, 1.0}, {{0.2, 0.1}, 0.4}}, 2000); }
 
-Index count(const Vertices& vertices)
-{
-    return static_cast<Index>(vertices.rows());
-}
+Index count(const Vertices& vertices) { return static_cast<Index>(vertices.rows()); }
 
 /// Rank of the hole of `one_hole`: the loop that is not on the unit circle.
 Index rank_of_hole(const CircleDomain& domain)

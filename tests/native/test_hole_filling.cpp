@@ -1,8 +1,8 @@
 #include "circle_domain.h"
 #include "core/errors.h"
 #include "core/topology.h"
-#include "geometry/hole_filling.h"
-#include "geometry/laplacian.h"
+#include "holes/hole_filling.h"
+#include "surface/laplacian.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

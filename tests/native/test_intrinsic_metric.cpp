@@ -1,6 +1,6 @@
 #include "circle_domain.h"
 #include "core/connectivity.h"
-#include "geometry/intrinsic_metric.h"
+#include "surface/intrinsic_metric.h"
 
 #include <gtest/gtest.h>
 
@@ -64,10 +64,10 @@ TEST(IntrinsicMetric, flips_keep_the_area_and_make_inner_weights_nonnegative)
     // Flat, so each length is still the distance of its ends.
     for (Eigen::Index f = 0; f < after.lengths.rows(); ++f)
         for (int k = 0; k < 3; ++k)
-            ASSERT_NEAR(after.lengths(f, k),
-                        (mesh.vertices.row(after.triangles(f, k)) - mesh.vertices.row(after.triangles(f, (k + 1) % 3)))
-                            .norm(),
-                        1e-9);
+            ASSERT_NEAR(
+                after.lengths(f, k),
+                (mesh.vertices.row(after.triangles(f, k)) - mesh.vertices.row(after.triangles(f, (k + 1) % 3))).norm(),
+                1e-9);
     // Left as they are only where the new edge would join two vertices of the loop.
     const std::vector<char> rim = boundary_mask(surface);
     const auto flippable = [&](const IntrinsicMetric& metric) {

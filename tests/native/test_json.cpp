@@ -53,9 +53,11 @@ TEST(Json, HasTheKeysOfTheContractInItsOrder)
 {
     const auto report = to_json(sample_result());
     EXPECT_EQ(keys_of(report),
-              (Keys{"version", "input", "vertices", "faces", "method", "engine", "outer_loop", "converged", "sweeps",
-                    "steps", "history", "loops", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy",
-                    "flipped", "below_resolution", "seconds", "peak_memory_mb", "warnings"}));
+              (Keys{"version",          "input",      "vertices",         "faces",    "method",
+                    "engine",           "outer_loop", "converged",        "sweeps",   "steps",
+                    "history",          "loops",      "angle_error_deg",  "beltrami", "area_distortion",
+                    "conformal_energy", "flipped",    "below_resolution", "seconds",  "peak_memory_mb",
+                    "warnings"}));
     EXPECT_EQ(keys_of(report["history"][0]), (Keys{"step", "pair", "change", "mean_roundness"}));
     EXPECT_EQ(keys_of(report["loops"][0]),
               (Keys{"vertices", "center", "radius", "roundness", "roundness_projected", "off_circle"}));

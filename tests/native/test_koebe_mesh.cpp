@@ -1,7 +1,7 @@
 #include "circle_domain.h"
-#include "conformal/circle_fit.h"
-#include "conformal/koebe_mesh.h"
-#include "conformal/moebius.h"
+#include "circles/circle_fit.h"
+#include "circles/moebius.h"
+#include "iteration/koebe_mesh.h"
 #include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 #include "core/errors.h"
-#include "geometry/laplacian.h"
-#include "geometry/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
+#include "surface/laplacian.h"
 
 #include <gtest/gtest.h>
 

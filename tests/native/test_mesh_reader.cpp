@@ -150,8 +150,8 @@ TEST(MeshReader, StlFacetsShareVerticesNumberedByFirstAppearance)
 TEST(MeshReader, TextNumbersAreReadToTheLastBit)
 {
     std::mt19937_64 random(1);
-    std::vector<std::string> words{"0",     "-0.0",   "1e-310", "4.9e-324", "1.7976931348623157e308",
-                                   "+2.5",  ".5",     "5.",     "1E3",      "0.1000000000000000055511151231257827",
+    std::vector<std::string> words{"0",     "-0.0", "1e-310", "4.9e-324", "1.7976931348623157e308",
+                                   "+2.5",  ".5",   "5.",     "1E3",      "0.1000000000000000055511151231257827",
                                    "1e-400"};
     for (int i = 0; i < 3000; ++i) {
         char word[64];
@@ -163,7 +163,8 @@ TEST(MeshReader, TextNumbersAreReadToTheLastBit)
     }
     while (words.size() % 3 != 0) words.emplace_back("1");
     std::string lines;
-    for (std::size_t i = 0; i < words.size(); i += 3) lines += words[i] + ' ' + words[i + 1] + ' ' + words[i + 2] + '\n';
+    for (std::size_t i = 0; i < words.size(); i += 3)
+        lines += words[i] + ' ' + words[i + 1] + ' ' + words[i + 2] + '\n';
     const std::string count = std::to_string(words.size() / 3);
     std::string obj;
     for (std::size_t begin = 0, end; begin < lines.size(); begin = end + 1) {
@@ -171,13 +172,11 @@ TEST(MeshReader, TextNumbersAreReadToTheLastBit)
         obj += "v " + lines.substr(begin, end + 1 - begin);
     }
     const std::vector<PolygonMesh> meshes{
-        parse("a.obj", obj + "f 1 2 3\n"),
-        parse("a.off", "OFF\n" + count + " 1 0\n" + lines + "3 0 1 2\n"),
-        parse("a.ply",
-                  "ply\nformat ascii 1.0\nelement vertex " + count +
-                      "\nproperty double x\nproperty double y\nproperty double z\nelement face 1\n"
-                      "property list uchar int vertex_indices\nend_header\n" +
-                      lines + "3 0 1 2\n")};
+        parse("a.obj", obj + "f 1 2 3\n"), parse("a.off", "OFF\n" + count + " 1 0\n" + lines + "3 0 1 2\n"),
+        parse("a.ply", "ply\nformat ascii 1.0\nelement vertex " + count +
+                           "\nproperty double x\nproperty double y\nproperty double z\nelement face 1\n"
+                           "property list uchar int vertex_indices\nend_header\n" +
+                           lines + "3 0 1 2\n")};
     for (const PolygonMesh& mesh : meshes) {
         ASSERT_EQ(mesh.vertices.size(), static_cast<Eigen::Index>(words.size()));
         for (std::size_t i = 0; i < words.size(); ++i) {
@@ -213,14 +212,14 @@ TEST(MeshReader, LineEndsBlanksAndCommentsChangeNothing)
 
 TEST(MeshReader, ObjFacesInAllTheirForms)
 {
-    const PolygonMesh mesh = parse("forms.obj",
-                                       "mtllib C:\\missing\\\n# C:\\none\\\n"
-                                       "v 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\n"
-                                       "v 0 1 0\ng a b\nusemtl\ns off\n"
-                                       "f 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\n"
-                                       "f -3 -2 -1\nv 5 5 5\nf -4/-1/-1 -3/-1/-1 \\\n -2/-1/-1\nl 1 2\np 1\nf 5 4 3\n"
-                                       "f\t1/1\t2/1\t3/1\nf  1 2  3 # 4\n  f 1 2 \\\r\n3\n"
-                                       "\tv\t6 6 6 # used above, unused vertex below\nv 7 7 7\n");
+    const PolygonMesh mesh =
+        parse("forms.obj", "mtllib C:\\missing\\\n# C:\\none\\\n"
+                           "v 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\n"
+                           "v 0 1 0\ng a b\nusemtl\ns off\n"
+                           "f 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\n"
+                           "f -3 -2 -1\nv 5 5 5\nf -4/-1/-1 -3/-1/-1 \\\n -2/-1/-1\nl 1 2\np 1\nf 5 4 3\n"
+                           "f\t1/1\t2/1\t3/1\nf  1 2  3 # 4\n  f 1 2 \\\r\n3\n"
+                           "\tv\t6 6 6 # used above, unused vertex below\nv 7 7 7\n");
     ASSERT_EQ(mesh.vertices.rows(), 6);
     ASSERT_EQ(mesh.face_count(), 9);
     for (Index f : {0, 1, 2, 3, 4, 6, 7, 8}) EXPECT_EQ(corners_of(mesh, f), (std::vector<Index>{0, 1, 2})) << f;
@@ -247,12 +246,12 @@ TEST(MeshReader, PlyElementsAndPropertiesInAnyOrderAndType)
 {
     const PolygonMesh mesh =
         parse("a.ply", "ply\r\nformat ascii 1.0\r\ncomment # and more\r\nobj_info none\r\n"
-                                   "element material 1\r\nproperty list uchar float shades\r\n"
-                                   "element face 2\r\nproperty uchar red\r\nproperty list int16 uint vertex_index\r\n"
-                                   "element vertex 4\r\nproperty float64 z\r\nproperty int x\r\nproperty uchar y\r\n"
-                                   "property list uchar int weights\r\nend_header\r\n"
-                                   "2 0.5 0.5\r\n255 3 0 1 2\r\n0 4 0 2 1\r\n3\r\n"
-                                   "0.5 -1 2 0\r\n0 1 2 1 7\r\n0 1 1 2 7 7\r\n9 9 9 0\r\n");
+                       "element material 1\r\nproperty list uchar float shades\r\n"
+                       "element face 2\r\nproperty uchar red\r\nproperty list int16 uint vertex_index\r\n"
+                       "element vertex 4\r\nproperty float64 z\r\nproperty int x\r\nproperty uchar y\r\n"
+                       "property list uchar int weights\r\nend_header\r\n"
+                       "2 0.5 0.5\r\n255 3 0 1 2\r\n0 4 0 2 1\r\n3\r\n"
+                       "0.5 -1 2 0\r\n0 1 2 1 7\r\n0 1 1 2 7 7\r\n9 9 9 0\r\n");
     ASSERT_EQ(mesh.vertices.rows(), 4);
     EXPECT_TRUE(mesh.vertices.row(0) == Eigen::RowVector3d(-1.0, 2.0, 0.5));
     EXPECT_TRUE(mesh.vertices.row(3) == Eigen::RowVector3d(9.0, 9.0, 9.0));
@@ -266,7 +265,8 @@ TEST(MeshReader, PlyTextsHave64BitsWhateverTheirTypesSay)
     const std::string text =
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty int z\n"
         "element face 2\nproperty list int ushort vertex_indices\nproperty list uchar float texcoord\nend_header\n"
-        "0.1 0.123456789012345 2\n1 0 0.25\n0 1 0\n3 0 1 2 1 0.5\n300" + corners + " 0\n";
+        "0.1 0.123456789012345 2\n1 0 0.25\n0 1 0\n3 0 1 2 1 0.5\n300" +
+        corners + " 0\n";
     const PolygonMesh mesh = parse("a.ply", text);
     EXPECT_TRUE(mesh.vertices.row(0) == Eigen::RowVector3d(0.1, 0.123456789012345, 2.0));
     EXPECT_EQ(mesh.vertices(1, 2), 0.25);
@@ -386,17 +386,24 @@ TEST(MeshReader, RefusesWhatIsNoMeshAndSaysWhere)
         {"a.ply", "", "does not start with 'ply'", {}},
         {"a.ply", "ply\nformat ascii 1.0\n", "no 'end_header'", {}},
         {"a.ply", "ply\nformat utf8 1.0\nend_header\n", "format or a count is not one of PLY", {}},
-        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\r\nend_header\n",
-         "line 4 of the header is not supported", {}},
+        {"a.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\r\nend_header\n",
+         "line 4 of the header is not supported",
+         {}},
         {"a.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n", "line 3 of the header", {}},
         {"a.ply", "ply\nelement ascii 1.0\nproperty float x\nend_header\n", "line 2 of the header", {}},
         {"a.ply", "plywood\nformat ascii 1.0\nend_header\n", "line 1 of the header", {}},
         {"a.ply", ply + "end_header\n0 0\n0 0\n0 0\n", "no float or double z", {}},
-        {"a.ply", ply + "property float z\nelement face 1\nproperty int vertex_indices\nend_header\n0 0 0 0 0 0 0 0 0 0",
-         "no list of int or uint vertex_indices", {}},
+        {"a.ply",
+         ply + "property float z\nelement face 1\nproperty int vertex_indices\nend_header\n0 0 0 0 0 0 0 0 0 0",
+         "no list of int or uint vertex_indices",
+         {}},
         {"a.ply", binary_ply("property int x\nproperty float y\nproperty float z\n", ""), "no float or double x", {}},
-        {"a.ply", binary_ply(float_xyz, "property list int int vertex_indices\n") + raw(std::array<float, 9>{}) +
-                      raw<std::int32_t>(0x7fffffff), "line 9 of the header is not supported", {}},
+        {"a.ply",
+         binary_ply(float_xyz, "property list int int vertex_indices\n") + raw(std::array<float, 9>{}) +
+             raw<std::int32_t>(0x7fffffff),
+         "line 9 of the header is not supported",
+         {}},
         {"a.ply", huge + float_xyz + list, "number of element vertex does not fit", {}},
         {"a.ply", "ply\nformat ascii 1.0\nelement nothing 1000000000000\nend_header\n", "nothing does not fit", {}},
         {"a.ply", "ply\nformat ascii 1.0\nelement vertex -1\nend_header\n", "vertex does not fit", {}},
@@ -405,11 +412,16 @@ TEST(MeshReader, RefusesWhatIsNoMeshAndSaysWhere)
         {"a.ply", ply + "property float z\n" + list + "0 0 0\n1 0 0\n0 1 0\n", "face 0 is missing", {0}},
         {"a.ply", ply + "property float z\n" + list + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", "face 0 is missing", {0}},
         {"a.ply", ply + "property float z\n" + list + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "name a vertex", {0}},
-        {"a.ply", ply + "property float z\nelement face 1\nproperty list int float vertex_indices\nend_header\n"
-                        "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n", "no list of int or uint", {}},
-        {"a.ply", binary_ply(float_xyz, "property list uchar int vertex_indices\n") +
-                      raw(std::array<float, 9>{0, 0, 0, 1, nan, 0, 0, 1, 0}) + '\3' + raw(std::array<int, 3>{0, 1, 2}),
-         "NaN or infinite", {1}},
+        {"a.ply",
+         ply + "property float z\nelement face 1\nproperty list int float vertex_indices\nend_header\n"
+               "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n",
+         "no list of int or uint",
+         {}},
+        {"a.ply",
+         binary_ply(float_xyz, "property list uchar int vertex_indices\n") +
+             raw(std::array<float, 9>{0, 0, 0, 1, nan, 0, 0, 1, 0}) + '\3' + raw(std::array<int, 3>{0, 1, 2}),
+         "NaN or infinite",
+         {1}},
         {"a.stl", "", "neither a text STL", {}},
         {"a.stl", "SOLID a\n", "neither a text STL", {}},
         {"a.stl", "solid empty\nendsolid empty\n", "no vertex", {}},
@@ -446,7 +458,8 @@ TEST(MeshReader, FilesThatCannotBeReadAreFileErrors)
 std::vector<std::pair<std::string, std::string>> sample_files(const TemporaryFolder& folder)
 {
     std::vector<std::pair<std::string, std::string>> files;
-    for (const Format& format : formats()) files.emplace_back(format.file, openmesh_bytes(folder, sample_mesh(), format));
+    for (const Format& format : formats())
+        files.emplace_back(format.file, openmesh_bytes(folder, sample_mesh(), format));
     std::vector<std::array<float, 3>> points;
     for (float t = 0; t < 4; ++t) points.insert(points.end(), {{t, 0, 0}, {t + 1, 0, 0}, {t, 1, 0}});
     files.emplace_back("mesh.stl", binary_stl("", points));
@@ -491,7 +504,8 @@ TEST(MeshReader, DamagedFilesAreReadOrRefused)
             std::string damaged = bytes;
             for (int hit = 0; hit < 1 + round % 4; ++hit) {
                 // Half of the hits in the first hundred bytes, where headers are.
-                const std::size_t at = random() % (random() % 2 ? damaged.size() : std::min<std::size_t>(damaged.size(), 100));
+                const std::size_t at =
+                    random() % (random() % 2 ? damaged.size() : std::min<std::size_t>(damaged.size(), 100));
                 damaged[at] = static_cast<char>(random());
             }
             is_read(name, damaged);

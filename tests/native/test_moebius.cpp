@@ -1,5 +1,5 @@
-#include "conformal/circle_fit.h"
-#include "conformal/moebius.h"
+#include "circles/circle_fit.h"
+#include "circles/moebius.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,8 @@ using namespace koebe;
 
 namespace {
 
-const Moebius samples[] = {{{0.0, 0.0}, std::polar(1.0, 1.0)}, {{0.3, -0.5}, {1.0, 0.0}}, {{-0.7, 0.6}, std::polar(1.0, -2.0)}};
+const Moebius samples[] = {
+    {{0.0, 0.0}, std::polar(1.0, 1.0)}, {{0.3, -0.5}, {1.0, 0.0}}, {{-0.7, 0.6}, std::polar(1.0, -2.0)}};
 const Circle circles[] = {{{0.2, 0.1}, 0.3}, {{-0.5, 0.4}, 0.2}, {{0.0, 0.0}, 0.5}, {{0.6, -0.3}, 1e-9}};
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include "circle_domain.h"
-#include "geometry/one_form.h"
+#include "surface/one_form.h"
 
 #include <gtest/gtest.h>
 

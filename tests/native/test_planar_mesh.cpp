@@ -1,6 +1,6 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
-#include "geometry/planar_mesh.h"
+#include "planar/planar_mesh.h"
 
 #include <gtest/gtest.h>
 

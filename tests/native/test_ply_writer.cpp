@@ -80,12 +80,12 @@ TEST(PlyWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquareUnderBothNames
     const TemporaryFolder folder;
     PlanarPoints points = PlanarPoints::Random(400, 2) * 0.7;
     points.topRows(3) << 1.0 + 1e-12, 0.0, 0.0, -1.0 - 1e-12, 1.0 / 3.0, -1.0 / 7.0;
-    const std::string text = written(folder, [&](AtomicFile& file) {
-        write_ply_with_uvs(file, random_polygons(400, 2), points);
-    });
-    EXPECT_NE(text.find("property double z\nproperty double s\nproperty double t\nproperty double texture_u\n"
-                        "property double texture_v\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"),
-              std::string::npos)
+    const std::string text =
+        written(folder, [&](AtomicFile& file) { write_ply_with_uvs(file, random_polygons(400, 2), points); });
+    EXPECT_NE(
+        text.find("property double z\nproperty double s\nproperty double t\nproperty double texture_u\n"
+                  "property double texture_v\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"),
+        std::string::npos)
         << text.substr(0, 400);
     const auto values = rows(text);
     for (std::size_t v = 0; v < 400; ++v) {
@@ -100,8 +100,7 @@ TEST(PlyWriter, PatchesAreAPropertyOfTheFaces)
     PolygonMesh mesh = random_polygons(4, 0);
     mesh.corners = {0, 1, 2, 3, 1, 2, 0};
     mesh.face_begin = {0, 4, 7};
-    const std::string text =
-        written(folder, [&](AtomicFile& file) { write_ply_with_patches(file, mesh, {-1, 2}); });
+    const std::string text = written(folder, [&](AtomicFile& file) { write_ply_with_patches(file, mesh, {-1, 2}); });
     EXPECT_NE(text.find("vertex_indices\nproperty int patch\nend_header\n"), std::string::npos) << text;
     EXPECT_TRUE(text.ends_with("\n4 0 1 2 3 -1\n3 1 2 0 2\n")) << text;
 }

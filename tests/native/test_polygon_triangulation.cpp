@@ -156,8 +156,8 @@ TEST(PolygonTriangulation, BentPolygonsAreCutToo)
 TEST(PolygonTriangulation, RepeatedCornersCountOnceAndCollapsedFacesAreListed)
 {
     const Vertices vertices = flat({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-    const Triangulation cut = triangulate(
-        mesh_of(vertices, {{0, 1, 1, 2}, {0, 0, 2, 3, 3, 0}, {0, 1, 0}, {1, 1, 1}, {2}, {}, {0, 1, 2}}));
+    const Triangulation cut =
+        triangulate(mesh_of(vertices, {{0, 1, 1, 2}, {0, 0, 2, 3, 3, 0}, {0, 1, 0}, {1, 1, 1}, {2}, {}, {0, 1, 2}}));
     ASSERT_EQ(cut.triangles.rows(), 3);
     EXPECT_TRUE(cut.triangles.row(0) == Eigen::RowVector3i(0, 1, 2));
     EXPECT_TRUE(cut.triangles.row(1) == Eigen::RowVector3i(0, 2, 3));

@@ -1,10 +1,10 @@
 #include "circle_domain.h"
 #include "core/errors.h"
 #include "core/memory_limit.h"
-#include "geometry/boundary_crossings.h"
 #include "pipeline/promise.h"
 #include "pipeline/refinement.h"
 #include "pipeline/uniformize.h"
+#include "planar/boundary_crossings.h"
 
 #include <gtest/gtest.h>
 
@@ -103,8 +103,7 @@ TEST(RefinedDomain, has_the_same_metric_and_every_second_loop_vertex)
     EXPECT_TRUE(checked.reoriented.empty());
     for (std::size_t k = 0; k < coarse.loops.size(); ++k) {
         EXPECT_NEAR(fine.edges[k].sum(), coarse.edges[k].sum(), 1e-12);
-        for (std::size_t i = 0; i < coarse.loops[k].size(); ++i)
-            EXPECT_EQ(fine.loops[k][2 * i], coarse.loops[k][i]);
+        for (std::size_t i = 0; i < coarse.loops[k].size(); ++i) EXPECT_EQ(fine.loops[k][2 * i], coarse.loops[k][i]);
     }
 }
 

@@ -2,11 +2,11 @@
 #include "baselines/ricci_flow.h"
 #include "baselines/ricci_uniformize.h"
 #include "circle_domain.h"
-#include "conformal/circle_fit.h"
+#include "circles/circle_fit.h"
 #include "core/connectivity.h"
 #include "flow/curvature.h"
 #include "flow/flat_layout.h"
-#include "geometry/edge_flip.h"
+#include "surface/edge_flip.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "flap_domain.h"
-#include "foldover/rim_room.h"
+#include "flaps/rim_room.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "foldover/roomy_rim.h"
+#include "embedding/roomy_rim.h"
 #include "random_disks.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "geometry/sparse_cholesky.h"
+#include "linear/sparse_cholesky.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "circle_domain.h"
-#include "conformal/circle_fit.h"
-#include "conformal/koebe_condensed.h"
-#include "geometry/laplacian.h"
+#include "circles/circle_fit.h"
+#include "iteration/koebe_condensed.h"
+#include "surface/laplacian.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
     const Index grounded = best_grounded(domain.loops);
     const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, grounded, most_condensed);
     EXPECT_EQ(condensed.has_sigma(), boundary.size() - grounded <= most_condensed);
-    UniformizeOptions options;
+    IterationOptions options;
     options.method = method;
     options.tolerance = 1e-9;
     ExecutionContext context;

@@ -1,5 +1,5 @@
-#include "foldover/star_centre.h"
-#include "geometry/planar_predicates.h"
+#include "planar/planar_predicates.h"
+#include "planar/star_centre.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(StarCentre, a_fan_round_a_corner_has_room_for_a_vertex)
 TEST(StarCentre, a_polygon_without_a_kernel_has_none)
 {
     // An S: its two ends do not see each other.
-    const std::vector<Complex> polygon{{0, 0},   {3, 0}, {3, 2}, {1, 2}, {1, 3}, {3, 3},
+    const std::vector<Complex> polygon{{0, 0}, {3, 0}, {3, 2}, {1, 2}, {1, 3},   {3, 3},
                                        {3, 4}, {0, 4}, {0, 1}, {2, 1}, {2, 0.5}, {0, 0.5}};
     EXPECT_FALSE(star_centre(polygon, std::vector<double>(polygon.size(), 1.0)));
 }

@@ -4,9 +4,9 @@
 
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
-#include "conformal/distortion.h"
-#include "geometry/hole_fairing.h"
+#include "holes/hole_fairing.h"
 #include "pipeline/uniformize.h"
+#include "quality/distortion.h"
 #include "shape/loop_matching.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "circle_domain.h"
-#include "conformal/circle_fit.h"
-#include "conformal/distortion.h"
+#include "circles/circle_fit.h"
 #include "pipeline/uniformize.h"
+#include "quality/distortion.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -175,8 +175,7 @@ TEST(Uniformize, gk_needs_fewer_steps_than_ck_to_the_same_roundness)
         options.method = Method::ck;
         const UniformizeResult ck = run(lift(domain.points, kind), domain.triangles, options);
         ASSERT_TRUE(gk.converged && ck.converged);
-        const double wanted =
-            1.2 * std::max(gk.history.back().mean_roundness, ck.history.back().mean_roundness);
+        const double wanted = 1.2 * std::max(gk.history.back().mean_roundness, ck.history.back().mean_roundness);
         const auto steps_to = [wanted](const UniformizeResult& result) {
             return std::find_if(result.history.begin(), result.history.end(),
                                 [&](const KoebeStep& step) { return step.mean_roundness <= wanted; })

@@ -1,6 +1,6 @@
 #include "circle_domain.h"
-#include "conformal/distortion.h"
 #include "foldover/untangle.h"
+#include "quality/distortion.h"
 
 #include <gtest/gtest.h>
 

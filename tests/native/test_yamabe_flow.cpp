@@ -1,6 +1,6 @@
 #include "circle_domain.h"
+#include "circles/circle_fit.h"
 #include "conformal/annulus_map.h"
-#include "conformal/circle_fit.h"
 #include "core/errors.h"
 #include "core/topology.h"
 #include "flow/curvature.h"

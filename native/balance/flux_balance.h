@@ -1,0 +1,30 @@
+// Small holes placed where the harmonic extension wants them.
+#pragma once
+
+#include "circles/circle.h"
+#include "linear/condensed_laplacian.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// Whether two loops stay concentric.
+enum class AnnulusPosition { concentric, free };
+
+/// Moves, turns and scales small circles, as circles, to the least conformal energy of the harmonic extension,
+/// E = 1/2 z* Sigma z - area. Then no net flux runs through them, as in a conformal map none does. Where their centres
+/// come from a fit, or from a Moebius map, which commutes with the extension up to the resolution of the mesh only,
+/// they are off by an absolute amount; a hole at the end of a long limb is smaller than that, and the flux to it would
+/// drag the limb across the map. E is quadratic in a centre and a complex radius, so this is one small linear system.
+/// Circles that would move little, or meet, stay.
+///
+/// With two loops that are to be concentric the inner circle is moved alone and the pair made concentric again, and so
+/// on until they are both: concentric and without flux.
+/// @param laplacian of the same surface as `condensed`
+/// @param loops the outer one first, `boundary` (m, 2) their images in that order, on the circles
+/// @return (V, 2) the harmonic extension of the boundary
+PlanarPoints balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
+                          const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
+                          AnnulusPosition annulus);
+
+}  // namespace koebe

@@ -1,0 +1,36 @@
+// Circles through the image of a boundary loop, and how round that image is (paper, section 5).
+#pragma once
+
+#include "circles/circle.h"
+#include "core/types.h"
+
+namespace koebe {
+
+/// The points of a loop, in its order.
+VectorXcd gather_loop(const VectorXcd& positions, const VertexLoop& loop);
+
+/// (n) share of each vertex in the length of the closed polygon: half of its two edges over the whole; sums to 1.
+/// The paper's w_i (section 5) are the two whole edges over the length and so sum to 2: these are w_i / sum(w).
+/// Points that all coincide share evenly.
+VectorXd length_weights(const VectorXcd& points);
+
+/// The paper's circle (section 5): centre c = sum(w_i v_i) / sum(w_i), radius r = sum(w_i |v_i - c|) / sum(w_i).
+/// The print divides the centre by n once more, which cannot be meant. Exact for equally spaced points of a
+/// circle; off by O(h^2) for uneven ones.
+/// @param points (n) closed polygon in order, n >= 1
+Circle fit_circle_paper(const VectorXcd& points);
+
+/// The circle of least squared distance: minimizes sum (|v_i - c| - r)^2 over c and r, every point alike. Algebraic
+/// start (Kasa 1976), then Gauss-Newton on the distances. Exact for points of a circle, however they are spaced.
+/// Points of a line, within an eighth of a turn, or fewer than three, fall back to fit_circle_paper: a loop that has
+/// collapsed for want of flux is no part of a large circle.
+Circle fit_circle_least_squares(const VectorXcd& points);
+
+/// e(gamma_k) of the paper (section 5), read as the root of the length-weighted mean square of the relative
+/// deviation of the radius: sqrt(sum w_i (|v_i - c| - r)^2 / sum w_i) / r. Dimensionless, 0 for a circle.
+double roundness(const VectorXcd& points, const Circle& circle);
+
+/// Intersection of two circles, free of Moebius maps: |r_a^2 + r_b^2 - |c_a - c_b|^2| / (2 r_a r_b).
+double inversive_distance(const Circle& a, const Circle& b);
+
+}  // namespace koebe

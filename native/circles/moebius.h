@@ -1,0 +1,28 @@
+// Automorphisms of the unit disk, and the choices they leave.
+#pragma once
+
+#include "circles/circle.h"
+#include "core/types.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// z -> turn (z - a) / (1 - conj(a) z), |a| < 1, |turn| = 1: every automorphism of the unit disk.
+struct Moebius {
+    Complex a{0.0, 0.0};
+    Complex turn{1.0, 0.0};
+
+    Complex operator()(Complex z) const { return turn * (z - a) / (1.0 - std::conj(a) * z); }
+    VectorXcd operator()(const VectorXcd& z) const;
+    /// Image of a circle inside the disk; circles go to circles.
+    Circle operator()(const Circle& circle) const;
+    /// This map after another.
+    Moebius operator*(const Moebius& first) const;
+    Moebius inverse() const { return {-a * turn, std::conj(turn)}; }
+};
+
+/// The automorphism that makes a circle inside the disk concentric with it.
+Moebius center_circle(const Circle& circle);
+
+}  // namespace koebe

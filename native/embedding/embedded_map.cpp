@@ -1,0 +1,161 @@
+#include "embedding/embedded_map.h"
+
+#include "embedding/filled_map.h"
+#include "embedding/hole_circle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace koebe {
+namespace {
+
+constexpr int free_rounds = 3, path_steps = 4, snap_rounds = 4, refits = 2;
+constexpr double open_holes = 0.3;    // weight of the holes' fans against faces, where no circle keeps holes open
+constexpr Index drawn_faces = 60000;  // how many faces may be drawn to circles again before what is off stays off
+
+class Embedding {
+public:
+    Embedding(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+              const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context)
+        : loops_(loops),
+          map_(vertices, surface, loops, flaps, rim, context),
+          off_(loops.size(), 0),
+          roundness_(loops.size(), 0.0),
+          most_drawings_(std::max<int>(1, drawn_faces / static_cast<int>(surface.triangles.rows())))
+    {
+    }
+
+    CircleMap run(const std::vector<Circle>& wanted, const ExecutionContext& context)
+    {
+        // Conformal maps of a ring to a ring are many: the rim tells which one is meant.
+        map_.let_rim_slide(false);
+        for (int round = 0; round < free_rounds; ++round) map_.relax({.regular = open_holes}, 12, context);
+        CircleMap result;
+        result.roundness = roundness_;
+        if (loops_.size() == 1) {
+            map_.let_rim_slide(true);
+            map_.relax({}, 12, context);
+        } else {
+            const FilledMap::State free = map_.state();
+            Attempt best;
+            if (!wanted.empty()) {
+                refit(std::vector<char>(loops_.size(), 1), HoleCircle::through);
+                lead_to(wanted, context);
+                draw_and_mend(best, context);
+            }
+            for (const HoleCircle kind : {HoleCircle::through, HoleCircle::inside}) {
+                if (best.off == 0 || (best.off > 0 && drawings_ >= most_drawings_)) break;
+                map_.return_to(free);
+                if (!refit(std::vector<char>(loops_.size(), 1), kind) && best.off >= 0) continue;
+                draw_and_mend(best, context);
+            }
+            map_.return_to(std::move(best.state));
+            result.roundness = std::move(best.roundness);
+            map_.relax({}, 12, context);
+            map_.snap();
+        }
+        result.circles = map_.circles();
+        result.uv = map_.surface_points();
+        for (std::size_t k = 1; k < loops_.size(); ++k) {
+            const std::vector<Index> off = map_.off_circle(k, false);
+            result.off_circle.insert(result.off_circle.end(), off.begin(), off.end());
+        }
+        std::sort(result.off_circle.begin(), result.off_circle.end());
+        return result;
+    }
+
+private:
+    struct Attempt {
+        int off = -1;  // vertices that should be on their circles and are not
+        FilledMap::State state;
+        std::vector<double> roundness;
+    };
+
+    /// Draws the loops to their circles, and those of them that stay off to others nearby.
+    void draw_and_mend(Attempt& best, const ExecutionContext& context)
+    {
+        draw(context);
+        note(best);
+        for (int round = 0; round < refits && best.off > 0 && note_off() > 0 && drawings_ < most_drawings_; ++round) {
+            for (std::size_t k = 1; k < loops_.size(); ++k)
+                if (off_[k]) map_.release(k);
+            map_.relax({.regular = open_holes}, 12, context);
+            if (!refit(off_, HoleCircle::inside)) break;
+            draw(context);
+            note(best);
+        }
+    }
+
+    /// Keeps the map as it is if fewer vertices are off their circles.
+    void note(Attempt& best)
+    {
+        const int off = note_off();
+        if (best.off < 0 || off < best.off) best = {off, map_.state(), roundness_};
+    }
+
+    /// Circles that fit the loops as they are. @return whether they are apart
+    bool refit(const std::vector<char>& which, HoleCircle kind)
+    {
+        std::vector<VectorXcd> images;
+        std::vector<Complex> centres;
+        for (std::size_t k = 0; k < loops_.size(); ++k) {
+            images.push_back(map_.image_of(k));
+            centres.push_back(k > 0 ? map_.at(map_.fan_centre(k)) : Complex());
+            if (k > 0 && which[k]) map_.release(k);
+        }
+        return fit_hole_circles(images, centres, which, kind, map_.circles());
+    }
+
+    /// Loops and fans follow circles that go from those that fit to the wanted ones.
+    void lead_to(const std::vector<Circle>& wanted, const ExecutionContext& context)
+    {
+        const std::vector<Circle> from = map_.circles();
+        for (int step = 0; step <= path_steps; ++step) {
+            const double t = static_cast<double>(step) / path_steps;
+            for (std::size_t k = 1; k < loops_.size(); ++k)
+                map_.circles()[k] = {(1.0 - t) * from[k].center + t * wanted[k].center,
+                                     std::pow(from[k].radius, 1.0 - t) * std::pow(wanted[k].radius, t)};
+            map_.relax({30.0, 30.0, 0.1}, 10, context);
+        }
+        map_.circles() = wanted;
+    }
+
+    /// Pulls the loops to their circles, harder and harder, and puts them there.
+    void draw(const ExecutionContext& context)
+    {
+        ++drawings_;
+        map_.let_rim_slide(true);
+        for (const double pull : {1.0, 30.0, 1e3, 1e5}) map_.relax({pull, std::max(pull, 30.0)}, 25, context);
+        for (std::size_t k = 1; k < loops_.size(); ++k) roundness_[k] = map_.roundness_of(k);
+        for (int round = 0; round < snap_rounds && map_.snap() > 0; ++round) map_.relax({1e5, 1e3}, 12, context);
+    }
+
+    /// Notes the loops with vertices that should be on their circles and are not.
+    int note_off()
+    {
+        int count = 0;
+        for (std::size_t k = 1; k < loops_.size(); ++k) {
+            const std::size_t off = map_.off_circle(k, true).size();
+            off_[k] = off > 0;
+            count += static_cast<int>(off);
+        }
+        return count;
+    }
+
+    const std::vector<VertexLoop>& loops_;
+    FilledMap map_;
+    std::vector<char> off_;  // per loop
+    std::vector<double> roundness_;
+    int drawings_ = 0, most_drawings_;
+};
+
+}  // namespace
+
+CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                       const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
+                       const ExecutionContext& context)
+{
+    return Embedding(vertices, surface, loops, flaps, rim, context).run(wanted, context);
+}
+
+}  // namespace koebe

@@ -1,0 +1,253 @@
+#include "embedding/filled_map.h"
+
+#include "circles/circle_fit.h"
+#include "core/resolution.h"
+#include "embedding/roomy_rim.h"
+#include "foldover/patch_shapes.h"
+#include "planar/planar_predicates.h"
+#include "quality/stored_uv.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace koebe {
+namespace {
+
+constexpr double rounding = 3e-7;  // twice the area a face can lose by rounding, over its longest edge, disk units
+constexpr double roomy = 1e-4;     // of the mean area: a face as large has room
+constexpr int most_cautions = 4;
+
+}  // namespace
+
+FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                     const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context)
+    : vertices_(vertices),
+      surface_(surface),
+      loops_(loops),
+      filled_(fill_with_fans(surface, loops)),
+      around_(filled_.vertex_count),
+      loop_of_(filled_.vertex_count, -1),
+      pulled_(filled_.vertex_count, 0),
+      caution_(filled_.triangles.rows(), 1.0),
+      now_{{}, std::vector(filled_.vertex_count, Mobility::free), std::vector<Circle>(loops.size())},
+      faces_(surface.triangles.rows())
+{
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        for (const Index v : loops[k]) {
+            loop_of_[v] = static_cast<int>(k);
+            pulled_[v] = k > 0;
+            if (k == 0) now_.mobility[v] = Mobility::sliding;
+        }
+    for (const Flap& flap : flaps)
+        for (const Index v : flap.rim) pulled_[v] = 0;
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
+        for (const Index v : filled_.triangles.row(f)) around_[v].push_back(static_cast<Index>(f));
+    std::iota(faces_.begin(), faces_.end(), 0);
+    start(rim, context);
+}
+
+void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)
+{
+    PlanarPoints best;
+    Eigen::Index fewest = filled_.triangles.rows() + 1;
+    for (const double share : {0.0, 0.3, 1.0}) {
+        const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share) : rim;
+        now_.points = convex_embedding(filled_, loops_[0], wider, context);
+        const double least = roomy * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
+        Eigen::Index poor = 0;
+        for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) poor += !right(f) || !(area(f) > least);
+        if (poor < fewest) {
+            fewest = poor;
+            best = now_.points;
+        }
+        if (poor == 0) break;
+    }
+    now_.points = std::move(best);
+}
+
+double FilledMap::area(Eigen::Index f) const
+{
+    const Complex a = at(filled_.triangles(f, 0));
+    return 0.5 * cross(at(filled_.triangles(f, 1)) - a, at(filled_.triangles(f, 2)) - a);
+}
+
+double FilledMap::longest_edge(Eigen::Index f) const
+{
+    const Complex a = at(filled_.triangles(f, 0)), b = at(filled_.triangles(f, 1)), c = at(filled_.triangles(f, 2));
+    return std::max({std::abs(b - a), std::abs(c - b), std::abs(a - c)});
+}
+
+bool FilledMap::right(Eigen::Index f) const
+{
+    if (!(area(f) > 0.0)) return false;
+    if (f >= surface_.triangles.rows()) return true;
+    const StoredFace face(filled_.triangles, now_.points, f);
+    return !face.flipped() || face.below_resolution();
+}
+
+std::vector<char> FilledMap::right_faces() const
+{
+    std::vector<char> result(filled_.triangles.rows());
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) result[f] = right(f);
+    return result;
+}
+
+bool FilledMap::star_right(Index vertex, const std::vector<char>& was_right) const
+{
+    return std::all_of(around_[vertex].begin(), around_[vertex].end(),
+                       [&](Index f) { return !was_right[f] || right(f); });
+}
+
+/// A sector of a regular polygon, of some area.
+Eigen::Matrix2d FilledMap::fan_reference(Eigen::Index f, double area) const
+{
+    const auto corners = static_cast<double>(around_[filled_.triangles(f, 2)].size());
+    const double angle = 2.0 * std::numbers::pi / corners;
+    Eigen::Matrix2d edges;
+    edges << std::cos(angle) - 1.0, -1.0, std::sin(angle), 0.0;
+    return edges * std::sqrt(2.0 * area / edges.determinant());
+}
+
+/// Faces that are wrong already do not take part, and their corners are held.
+FoldoverProblem FilledMap::problem(Pull pull) const
+{
+    FoldoverProblem problem;
+    problem.points = now_.points;
+    problem.mobility = now_.mobility;
+    const PatchShapes shapes = patch_shapes(vertices_, surface_.triangles, now_.points, faces_, PatchShape::surface);
+    std::vector<Index> taken;
+    std::vector<double> floors, weights;
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) {
+        const double now = area(f), longest = longest_edge(f);
+        if (!(now > 1e-15 * longest * longest) || !(now > 1e-200)) {
+            for (int k = 0; k < 3; ++k) problem.mobility[filled_.triangles(f, k)] = Mobility::held;
+            continue;
+        }
+        const bool fan = f >= surface_.triangles.rows();
+        taken.push_back(static_cast<Index>(f));
+        problem.reference.push_back(fan ? fan_reference(f, now) : shapes.references[f]);
+        const double floor = fan ? 0.0 : std::min(0.5 * caution_[f] * rounding * longest, 0.5 * now);
+        floors.push_back(floor / (fan ? now : shapes.areas[f]));
+        weights.push_back(fan ? pull.regular : 1.0);
+    }
+    problem.triangles = filled_.triangles(taken, Eigen::all);
+    problem.floor = Eigen::Map<const VectorXd>(floors.data(), static_cast<Eigen::Index>(floors.size()));
+    problem.weight = Eigen::Map<const VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
+    problem.circles.resize(filled_.vertex_count);
+    for (Index v = 0; v < filled_.surface_vertices; ++v)
+        if (loop_of_[v] >= 0) problem.circles[v] = now_.circles[loop_of_[v]];
+    if (pull.rim > 0.0 || pull.centre > 0.0) {
+        problem.pull = VectorXd::Zero(filled_.vertex_count);
+        for (Index v = 0; v < filled_.surface_vertices; ++v) problem.pull[v] = pulled_[v] ? pull.rim : 0.0;
+        problem.pull_inside.assign(filled_.vertex_count, 0);
+        for (std::size_t k = 1; k < loops_.size(); ++k) {
+            problem.circles[fan_centre(k)] = now_.circles[k];
+            problem.pull[fan_centre(k)] = pull.centre;
+            problem.pull_inside[fan_centre(k)] = 1;
+        }
+    }
+    return problem;
+}
+
+void FilledMap::relax(Pull pull, int iterations, const ExecutionContext& context)
+{
+    const std::vector<char> was_right = right_faces();
+    const PlanarPoints before = now_.points;
+    for (int attempt = 0; attempt < most_cautions; ++attempt) {
+        FoldoverProblem moving = problem(pull);
+        minimize_foldover_free(moving, context, {.max_iterations = iterations, .settled = 1e-5, .strict = true});
+        bool kept = moving.points.allFinite();
+        if (kept) {
+            now_.points = std::move(moving.points);
+            for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
+                if (was_right[f] && !right(f)) {
+                    kept = false;
+                    caution_[f] *= 4.0;
+                }
+        }
+        if (kept) return;
+        now_.points = before;
+        iterations = std::max(1, iterations / 2);
+    }
+}
+
+Complex FilledMap::on_circle(Index vertex) const
+{
+    const Circle& circle = now_.circles[loop_of_[vertex]];
+    const Complex arm = at(vertex) - circle.center;
+    return circle.center + circle.radius / std::max(std::abs(arm), 1e-300) * arm;
+}
+
+int FilledMap::snap()
+{
+    const std::vector<char> was_right = right_faces();
+    const PlanarPoints before = now_.points;
+    std::vector<Index> moved;
+    for (Index v = 0; v < filled_.surface_vertices; ++v)
+        if (pulled_[v] && now_.mobility[v] == Mobility::free) moved.push_back(v);
+    const auto put = [&](Index v, Complex place) { now_.points.row(v) << place.real(), place.imag(); };
+    for (const Index v : moved) put(v, on_circle(v));
+    // Back with those at wrong faces, until there are none; then these one after the other.
+    std::vector<Index> back;
+    for (bool again = true; again;) {
+        again = std::erase_if(moved, [&](Index v) {
+                    if (star_right(v, was_right)) return false;
+                    now_.points.row(v) = before.row(v);
+                    back.push_back(v);
+                    return true;
+                }) > 0;
+    }
+    for (const Index v : back) {
+        put(v, on_circle(v));
+        if (star_right(v, was_right))
+            moved.push_back(v);
+        else
+            now_.points.row(v) = before.row(v);
+    }
+    for (const Index v : moved) now_.mobility[v] = Mobility::sliding;
+    int off = 0;
+    for (Index v = 0; v < filled_.surface_vertices; ++v) off += pulled_[v] && now_.mobility[v] == Mobility::free;
+    return off;
+}
+
+void FilledMap::release(std::size_t loop)
+{
+    for (const Index v : loops_[loop]) now_.mobility[v] = Mobility::free;
+}
+
+void FilledMap::let_rim_slide(bool slides)
+{
+    for (const Index v : loops_[0]) now_.mobility[v] = slides ? Mobility::sliding : Mobility::held;
+}
+
+VectorXcd FilledMap::image_of(std::size_t loop) const
+{
+    VectorXcd image(static_cast<Eigen::Index>(loops_[loop].size()));
+    for (std::size_t i = 0; i < loops_[loop].size(); ++i) image[static_cast<Eigen::Index>(i)] = at(loops_[loop][i]);
+    return image;
+}
+
+double FilledMap::roundness_of(std::size_t loop) const
+{
+    VectorXcd image = image_of(loop);
+    Eigen::Index count = 0;
+    for (std::size_t i = 0; i < loops_[loop].size(); ++i)
+        if (loop == 0 || pulled_[loops_[loop][i]]) image[count++] = image[static_cast<Eigen::Index>(i)];
+    return roundness(image.head(count), now_.circles[loop]);
+}
+
+std::vector<Index> FilledMap::off_circle(std::size_t loop, bool pulled) const
+{
+    std::vector<Index> off;
+    for (const Index v : loops_[loop])
+        if ((!pulled || pulled_[v]) &&
+            std::abs(std::abs(at(v) - now_.circles[loop].center) - now_.circles[loop].radius) > inner_circle_tolerance)
+            off.push_back(v);
+    return off;
+}
+
+}  // namespace koebe

@@ -1,0 +1,87 @@
+// A one-to-one map of a surface with its holes filled, which stays one to one whatever moves.
+#pragma once
+
+#include "circles/circle.h"
+#include "core/execution.h"
+#include "core/topology.h"
+#include "embedding/convex_embedding.h"
+#include "flaps/flaps.h"
+#include "foldover/foldover_free.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// Every move ends in a map whose faces are right wherever they were right before: upright, holes' fans too, and those
+/// of the surface also as they are stored, if they are large enough for 32-bit UVs. What would break this is undone. As
+/// the fans stay upright, no loop crosses itself or another.
+class FilledMap {
+public:
+    /// Dimensionless.
+    struct Pull {
+        double rim = 0.0;       ///< of loop vertices to their circles
+        double centre = 0.0;    ///< of fans' centres to the circles' centres
+        double regular = 1e-3;  ///< weight of the fans, which would be regular polygons, against the surface's faces
+    };
+
+    /// Starts from convex_embedding, on a rim with more room where it has too little (roomy_rim.h).
+    /// @param flaps their rims are not pulled to the circles of inner loops
+    FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+              const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context);
+
+    /// Lowers the angle error of the surface's faces, and the pulls, by some Newton steps (foldover_free.h, strict).
+    void relax(Pull pull, int iterations, const ExecutionContext& context);
+    /// Puts pulled vertices onto their circles, where they slide from then on; not those whose faces would turn over.
+    /// @return how many are off
+    int snap();
+    /// Lets the vertices of an inner loop leave its circle.
+    void release(std::size_t loop);
+
+    /// Whether the outer loop slides along the unit circle, as it does at first.
+    void let_rim_slide(bool slides);
+
+    /// What changes: to come back to.
+    struct State {
+        PlanarPoints points;
+        std::vector<FoldoverProblem::Mobility> mobility;
+        std::vector<Circle> circles;
+    };
+    const State& state() const { return now_; }
+    void return_to(State state) { now_ = std::move(state); }
+
+    std::vector<Circle>& circles() { return now_.circles; }  ///< of the loops, the unit circle first
+    Complex at(Index vertex) const { return {now_.points(vertex, 0), now_.points(vertex, 1)}; }
+    Index fan_centre(std::size_t loop) const { return filled_.surface_vertices + static_cast<Index>(loop) - 1; }
+    VectorXcd image_of(std::size_t loop) const;
+    /// How round a loop lies about its circle, vertices that are not pulled aside.
+    double roundness_of(std::size_t loop) const;
+    /// Vertices of an inner loop that are not on its circle. @param pulled only those that should be
+    std::vector<Index> off_circle(std::size_t loop, bool pulled) const;
+    PlanarPoints surface_points() const { return now_.points.topRows(surface_.vertex_count); }
+
+private:
+    using Mobility = FoldoverProblem::Mobility;
+
+    void start(const VectorXcd& rim, const ExecutionContext& context);
+    double area(Eigen::Index f) const;
+    double longest_edge(Eigen::Index f) const;
+    bool right(Eigen::Index f) const;
+    bool star_right(Index vertex, const std::vector<char>& was_right) const;
+    std::vector<char> right_faces() const;
+    Eigen::Matrix2d fan_reference(Eigen::Index f, double area) const;
+    FoldoverProblem problem(Pull pull) const;
+    Complex on_circle(Index vertex) const;
+
+    const Vertices& vertices_;
+    const Surface& surface_;
+    const std::vector<VertexLoop>& loops_;
+    FilledDisk filled_;
+    std::vector<std::vector<Index>> around_;  // faces of each vertex
+    std::vector<int> loop_of_;
+    std::vector<char> pulled_;     // 1 for vertices that should be on the circles of inner loops
+    std::vector<double> caution_;  // per face: what its floor is multiplied by
+    State now_;
+    std::vector<Index> faces_;  // of the surface
+};
+
+}  // namespace koebe

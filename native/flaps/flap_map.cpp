@@ -1,0 +1,224 @@
+#include "flaps/flap_map.h"
+
+#include "linear/sparse_cholesky.h"
+#include "planar/planar_predicates.h"
+#include "surface/free_flattening.h"
+#include "surface/laplacian.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace koebe {
+namespace {
+
+constexpr double flatter[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.15};  // heights tried over the natural one
+constexpr int lens_level = static_cast<int>(std::size(flatter));
+constexpr double least_share = 0.3;  // of the mean edge along a rim
+constexpr double lens_reach = 0.9;   // of the way from the hinge to the middle of the hole
+constexpr double lens_aspect = 1.0;  // height of the lens's control point over the hinge's length
+
+/// A flap in its own numbering: the ends of the hinge, the rim, the interior.
+struct HangingFlap {
+    HangingFlap(const Vertices& positions, const Triangles& faces, const Flap& flap)
+        : loop(flap.loop), rim(static_cast<Index>(flap.rim.size())), names{flap.first, flap.last}
+    {
+        names.insert(names.end(), flap.rim.begin(), flap.rim.end());
+        names.insert(names.end(), flap.interior.begin(), flap.interior.end());
+        std::vector<std::pair<Index, Index>> rank;
+        for (std::size_t i = 0; i < names.size(); ++i) rank.emplace_back(names[i], static_cast<Index>(i));
+        std::sort(rank.begin(), rank.end());
+        triangles.resize(static_cast<Eigen::Index>(flap.faces.size()), 3);
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+            for (int k = 0; k < 3; ++k)
+                triangles(f, k) =
+                    std::lower_bound(rank.begin(), rank.end(), std::pair(faces(flap.faces[f], k), Index{0}))->second;
+        vertices = positions(names, Eigen::all);
+        image = VectorXcd::Zero(static_cast<Eigen::Index>(names.size()));
+    }
+
+    /// From the first end of the hinge along the rim to the last.
+    std::vector<Index> chain() const
+    {
+        std::vector<Index> result{0};
+        for (Index i = 0; i < rim; ++i) result.push_back(2 + i);
+        result.push_back(1);
+        return result;
+    }
+
+    /// Share of the chain's length passed at each rim vertex.
+    VectorXd shares() const
+    {
+        const auto steps = chain();
+        VectorXd walked(rim);
+        VectorXd edges(rim + 1);
+        for (Index i = 0; i <= rim; ++i) edges[i] = (vertices.row(steps[i + 1]) - vertices.row(steps[i])).stableNorm();
+        edges = edges.array().max(least_share * edges.mean());  // coinciding vertices need a place of their own
+        double sum = 0.0;
+        for (Index i = 0; i < rim; ++i) walked[i] = (sum += edges[i]) / edges.sum();
+        return walked;
+    }
+
+    bool upright() const
+    {
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+            if (!(cross(image[triangles(f, 1)] - image[triangles(f, 0)],
+                        image[triangles(f, 2)] - image[triangles(f, 0)]) > 0.0))
+                return false;
+        return true;
+    }
+
+    /// Harmonic inside, the chain given; with weights of 1, which never flip in a convex outline (Tutte 1963), where
+    /// the surface's own do.
+    void fill()
+    {
+        if (static_cast<std::size_t>(rim) + 2 == names.size()) return;
+        std::vector<char> fixed(names.size(), 0);
+        std::fill(fixed.begin(), fixed.begin() + rim + 2, char{1});
+        MatrixXd parts(image.size(), 2);
+        for (const bool even : {false, true}) {
+            parts << image.real(), image.imag();
+            const EdgeLengths weights = even ? EdgeLengths::Constant(triangles.rows(), 3, 0.5).eval()
+                                             : half_cotangents(edge_lengths(vertices, triangles)).cwiseMax(1e-3).eval();
+            const SparseMatrix laplacian = cotan_laplacian(triangles, weights, static_cast<Index>(names.size()));
+            parts = DirichletSolver(laplacian, fixed).solve(parts);
+            image = parts.col(0) + Complex(0.0, 1.0) * parts.col(1);
+            if (upright()) return;
+        }
+    }
+
+    int loop;
+    Index rim;                 // number of rim vertices
+    std::vector<Index> names;  // vertex of the surface for each
+    Triangles triangles;
+    Vertices vertices;
+    VectorXcd image;
+    VectorXcd natural;  // the conformal flattening
+    int level = 0;      // how far it has been flattened
+};
+
+void lay_on_rim(HangingFlap& flap)
+{
+    const double begin = std::arg(flap.image[0]);
+    double sweep = std::arg(flap.image[1] / flap.image[0]);
+    if (sweep <= 0.0) sweep += 2.0 * std::numbers::pi;
+    flap.image.segment(2, flap.rim) = (Complex(0.0, 1.0) * (begin + sweep * flap.shares().array())).exp();
+    flap.fill();
+}
+
+/// Draws the flap as flat as its level says.
+void draw(HangingFlap& flap, Complex middle)
+{
+    const Complex a = flap.image[0], b = flap.image[1];
+    if (flap.level < lens_level) {
+        for (Eigen::Index v = 2; v < flap.image.size(); ++v) {
+            const Complex local = (flap.natural[v] - a) / (b - a);
+            flap.image[v] = a + (b - a) * Complex(local.real(), flatter[flap.level] * local.imag());
+        }
+        return;
+    }
+    const Complex foot = 0.5 * (a + b);
+    const double reach = std::min(lens_reach, lens_aspect * std::abs(b - a) / std::abs(middle - foot));
+    const Complex control = foot + reach * (middle - foot);
+    const VectorXd shares = flap.shares();
+    for (Index i = 0; i < flap.rim; ++i) {
+        const double t = shares[i];
+        flap.image[2 + i] = (1.0 - t) * (1.0 - t) * a + 2.0 * t * (1.0 - t) * control + t * t * b;
+    }
+    flap.fill();
+}
+
+/// The hole: the polygon of the core's loop, convex, clockwise as the surface is on its left.
+bool inside_hole(const HangingFlap& flap, const VectorXcd& hole)
+{
+    for (Index i = 0; i < flap.rim; ++i)
+        for (Eigen::Index e = 0; e < hole.size(); ++e) {
+            const Complex from = hole[e], to = hole[(e + 1) % hole.size()];
+            if (!(cross(to - from, flap.image[2 + i] - from) < 0.0)) return false;
+        }
+    return true;
+}
+
+bool chains_meet(const HangingFlap& a, const HangingFlap& b)
+{
+    const auto p = a.chain(), q = b.chain();
+    for (std::size_t i = 0; i + 1 < p.size(); ++i)
+        for (std::size_t j = 0; j + 1 < q.size(); ++j) {
+            if (&a == &b && j <= i + 1) continue;
+            const bool joined = a.names[p[i]] == b.names[q[j]] || a.names[p[i]] == b.names[q[j + 1]] ||
+                                a.names[p[i + 1]] == b.names[q[j]] || a.names[p[i + 1]] == b.names[q[j + 1]];
+            if (!joined && segments_meet(a.image[p[i]], a.image[p[i + 1]], b.image[q[j]], b.image[q[j + 1]]))
+                return true;
+        }
+    return false;
+}
+
+/// Flattens flaps until each is upright, inside the hole, and apart from the others.
+void settle(std::vector<HangingFlap*>& flaps, const VectorXcd& hole, const ExecutionContext& context)
+{
+    const Complex middle = hole.mean();
+    for (HangingFlap* flap : flaps) {
+        flap->natural = flatten_freely(flap->vertices, flap->triangles, 0, flap->image[0], 1, flap->image[1]);
+        draw(*flap, middle);
+    }
+    const auto flatten = [&](HangingFlap& flap) {
+        if (flap.level == lens_level) return false;
+        ++flap.level;
+        draw(flap, middle);
+        return true;
+    };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t i = 0; i < flaps.size(); ++i) {
+            context.checkpoint();
+            while (!(flaps[i]->upright() && inside_hole(*flaps[i], hole) && !chains_meet(*flaps[i], *flaps[i])))
+                if (!flatten(*flaps[i])) break;
+            for (std::size_t j = 0; j < i; ++j)
+                while (chains_meet(*flaps[i], *flaps[j])) {
+                    const bool first = flatten(*flaps[i]), second = flatten(*flaps[j]);
+                    if (!first && !second) break;
+                    changed = true;
+                }
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Index> hang_flaps(const Vertices& vertices, const Triangles& triangles, const std::vector<Flap>& flaps,
+                              const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context)
+{
+    std::vector<HangingFlap> hanging;
+    std::vector<char> cut(vertices.rows(), 0);
+    for (const Flap& flap : flaps) {
+        HangingFlap& item = hanging.emplace_back(vertices, triangles, flap);
+        item.image[0] = {uv(flap.first, 0), uv(flap.first, 1)};
+        item.image[1] = {uv(flap.last, 0), uv(flap.last, 1)};
+        for (const Index v : flap.rim) cut[v] = 1;
+    }
+    std::vector<Index> off_circle;
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        std::vector<HangingFlap*> of_loop;
+        for (HangingFlap& flap : hanging)
+            if (flap.loop == static_cast<int>(k)) of_loop.push_back(&flap);
+        if (of_loop.empty()) continue;
+        if (k == 0) {
+            for (HangingFlap* flap : of_loop) lay_on_rim(*flap);
+            continue;
+        }
+        VectorXcd hole(static_cast<Eigen::Index>(loops[k].size()));
+        Eigen::Index corners = 0;
+        for (const Index v : loops[k])
+            if (!cut[v]) hole[corners++] = {uv(v, 0), uv(v, 1)};
+        hole.conservativeResize(corners);
+        settle(of_loop, hole, context);
+        for (const HangingFlap* flap : of_loop)
+            off_circle.insert(off_circle.end(), flap->names.begin() + 2, flap->names.begin() + 2 + flap->rim);
+    }
+    for (const HangingFlap& flap : hanging)
+        for (std::size_t i = 2; i < flap.names.size(); ++i)
+            uv.row(flap.names[i]) << flap.image[i].real(), flap.image[i].imag();
+    return off_circle;
+}
+
+}  // namespace koebe

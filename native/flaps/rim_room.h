@@ -1,0 +1,18 @@
+// How much of the unit circle each boundary edge needs, for what hangs on it to be drawn in 32-bit UVs.
+#pragma once
+
+#include "flaps/flaps.h"
+
+namespace koebe {
+
+/// The least angle for each edge of the outer loop, from a vertex to the next. Flaps carry no flux and so get no room
+/// from a conformal map; drawn along the circle they are as thin as its arc, and a face of three neighbours s apart is
+/// s^2 / 2 high. So the edge of a flap of several faces takes 1e-3 for each of the flap's edges; the same takes each
+/// edge of a part that hangs on the loop by an edge but has other loops in it, which is no flap. Any other takes 1e-3
+/// of the mean edge.
+/// @param core, outer the surface without flaps and its outer loop @param flaps, core_vertices as in FlapCut; the
+///        latter is empty if there are no flaps
+VectorXd rim_room(const Surface& core, const VertexLoop& outer, const std::vector<Flap>& flaps,
+                  const std::vector<Index>& core_vertices);
+
+}  // namespace koebe

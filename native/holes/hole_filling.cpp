@@ -1,0 +1,124 @@
+#include "holes/hole_filling.h"
+
+#include "core/errors.h"
+#include "core/halfedge_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace koebe {
+namespace {
+
+/// Positions times a power of two, so that the largest coordinate is about 1: exact, and no sum overflows.
+struct ScaledPositions {
+    Vertices positions;
+    int exponent = 0;  ///< the positions are those given times 2^-exponent
+
+    explicit ScaledPositions(const Vertices& given)
+    {
+        const double largest = given.size() > 0 ? given.cwiseAbs().maxCoeff() : 0.0;
+        if (largest > 0.0) exponent = std::ilogb(largest);
+        positions = given.unaryExpr([this](double x) { return std::ldexp(x, -exponent); });
+    }
+};
+
+VectorXd edge_lengths_of(const Vertices& loop)
+{
+    VectorXd lengths(loop.rows());
+    for (Eigen::Index i = 0; i < loop.rows(); ++i)
+        lengths[i] = (loop.row((i + 1) % loop.rows()) - loop.row(i)).stableNorm();
+    return lengths;
+}
+
+Eigen::RowVector3d mass_center(const Vertices& given)
+{
+    const ScaledPositions scaled(given);
+    const Vertices& loop = scaled.positions;
+    const VectorXd lengths = edge_lengths_of(loop);
+    const double total = lengths.sum();
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+    for (Eigen::Index i = 0; i < loop.rows() && total > 0.0; ++i)
+        center += lengths[i] / total * 0.5 * (loop.row(i) + loop.row((i + 1) % loop.rows()));
+    // Rounding may lead out of the box, where the largest numbers are not finite any more. A loop of no length is
+    // there.
+    center = center.cwiseMax(loop.colwise().minCoeff()).cwiseMin(loop.colwise().maxCoeff());
+    return center.unaryExpr([&](double x) { return std::ldexp(x, scaled.exponent); });
+}
+
+}  // namespace
+
+SurfacePatch fill_on_surface(const Vertices& loop)
+{
+    const Index m = static_cast<Index>(loop.rows());
+    SurfacePatch patch{Vertices(m + 1, 3), Triangles(m, 3)};
+    patch.vertices << loop, mass_center(loop);
+    for (Index i = 0; i < m; ++i) patch.triangles.row(i) << (i + 1) % m, i, m;
+    return patch;
+}
+
+PlanarMesh planar_patch(const VectorXcd& polygon)
+{
+    double length = 0.0;
+    for (Eigen::Index i = 0; i < polygon.size(); ++i)
+        length += std::abs(polygon[(i + 1) % polygon.size()] - polygon[i]);
+    return planar_patch(polygon, {.longest = length / static_cast<double>(polygon.size())});
+}
+
+PlanarMesh planar_patch(const VectorXcd& polygon, const PlanarMeshOptions& options)
+{
+    return planar_mesh({polygon}, options);
+}
+
+std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std::vector<Index>>& loops)
+{
+    std::vector<Index> ranks(surface.loops.size());
+    std::iota(ranks.begin(), ranks.end(), 0);
+    if (!loops) return ranks;
+    for (const Index k : *loops)
+        if (k < 0 || k >= static_cast<Index>(surface.loops.size()))
+            throw InputError("there is no boundary loop " + std::to_string(k) + " among " +
+                             std::to_string(surface.loops.size()));
+    ranks = *loops;
+    std::sort(ranks.begin(), ranks.end());
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    return ranks;
+}
+
+Index longest_loop(const Vertices& vertices, const Surface& surface)
+{
+    const Vertices positions = ScaledPositions(vertices).positions;
+    Index longest = 0;
+    double length = -1.0;
+    for (std::size_t k = 0; k < surface.loops.size(); ++k)
+        if (const double l = edge_lengths_of(positions(surface.loops[k], Eigen::all)).sum(); l > length) {
+            length = l;
+            longest = static_cast<Index>(k);
+        }
+    return longest;
+}
+
+FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
+                         const std::optional<std::vector<Index>>& loops)
+{
+    validate_arrays(vertices, triangles);
+    const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
+    HalfedgeMesh mesh = to_halfedge_mesh(vertices, surface.triangles);
+    std::vector<Index> label(surface.triangles.rows(), -1);
+    for (const Index k : chosen_ranks(surface, loops)) {
+        const VertexLoop& loop = surface.loops[k];
+        const SurfacePatch patch = fill_on_surface(vertices(loop, Eigen::all));
+        const auto center = patch.vertices.row(patch.vertices.rows() - 1);
+        const Index added = mesh.add_vertex(OpenMesh::Vec3d(center[0], center[1], center[2])).idx();
+        const auto global = [&](Index i) { return i < static_cast<Index>(loop.size()) ? loop[i] : added; };
+        for (Eigen::Index f = 0; f < patch.triangles.rows(); ++f)
+            add_triangle(mesh, global(patch.triangles(f, 0)), global(patch.triangles(f, 1)),
+                         global(patch.triangles(f, 2)));
+        label.insert(label.end(), patch.triangles.rows(), k);
+    }
+    MeshArrays arrays = to_arrays(mesh);
+    return {std::move(arrays.vertices), std::move(arrays.triangles), std::move(label)};
+}
+
+}  // namespace koebe

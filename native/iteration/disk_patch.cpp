@@ -1,0 +1,102 @@
+#include "iteration/disk_patch.h"
+
+#include "holes/hole_filling.h"
+#include "surface/harmonic_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace koebe {
+namespace {
+
+constexpr double fan_margin = 1e-6;  // of the mean edge length
+
+/// Smallest angle of all triangles, radians; negative where one is flipped.
+double smallest_angle(const VectorXcd& z, const Triangles& triangles)
+{
+    double smallest = std::numbers::pi;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Complex here = z[triangles(f, k)];
+            const double angle =
+                std::arg((z[triangles(f, (k + 2) % 3)] - here) / (z[triangles(f, (k + 1) % 3)] - here));
+            smallest = std::isfinite(angle) ? std::min(smallest, angle) : -std::numbers::pi;
+        }
+    return smallest;
+}
+
+/// Coordinates to 26 binary digits. Which triangles a mesh gets hangs on the last bits of its points, those of a circle
+/// most of all; so meshing starts from points without last bits, or the unit of length would show in the result.
+VectorXcd rounded(const VectorXcd& points)
+{
+    constexpr double digits = 1 << 26;
+    return points.unaryExpr([](const Complex& z) {
+        return Complex(std::round(z.real() * digits) / digits, std::round(z.imag() * digits) / digits);
+    });
+}
+
+double mean_edge(const VectorXcd& polygon)
+{
+    double length = 0.0;
+    for (Eigen::Index i = 0; i < polygon.size(); ++i)
+        length += std::abs(polygon[(i + 1) % polygon.size()] - polygon[i]);
+    return length / static_cast<double>(polygon.size());
+}
+
+}  // namespace
+
+EdgeLengths planar_lengths(const VectorXcd& z, const Triangles& triangles)
+{
+    PlanarPoints points(z.size(), 2);
+    points << z.real(), z.imag();
+    return edge_lengths(points, triangles);
+}
+
+DiskPatch::DiskPatch(const Vertices& loop, const DiskPatchOptions& options)
+    : options_(options), rim_size_(static_cast<Index>(loop.rows()))
+{
+    SurfacePatch fan = fill_on_surface(loop);
+    lengths_ = edge_lengths(fan.vertices, fan.triangles);
+    // Vertices of a loop may lie on one line or one point: some margin in every triangle inequality (Sharp and Crane
+    // 2020) keeps the weights finite.
+    const double mean = lengths_.mean();
+    lengths_.array() += mean > 0.0 ? fan_margin * mean : 1.0;
+    triangles_ = std::move(fan.triangles);
+    vertex_count_ = static_cast<Index>(fan.vertices.rows());
+}
+
+void DiskPatch::mesh(const VectorXcd& rim)
+{
+    const VectorXcd polygon = rounded(rim);
+    PlanarMesh patch =
+        planar_patch(polygon, {.longest = options_.longest_edge * mean_edge(polygon), .gradation = options_.gradation});
+    triangles_ = std::move(patch.triangles);
+    vertex_count_ = static_cast<Index>(patch.points.size());
+    lengths_ = planar_lengths(patch.points, triangles_);
+    angle_when_meshed_ = smallest_angle(patch.points, triangles_);
+    is_fan_ = false;
+}
+
+VectorXcd DiskPatch::harmonic_image(const VectorXcd& rim) const
+{
+    std::vector<Index> fixed(rim_size_);
+    std::iota(fixed.begin(), fixed.end(), 0);
+    return harmonic_map(triangles_, lengths_, vertex_count_, fixed, rim);
+}
+
+void DiskPatch::refill(const VectorXcd& rim)
+{
+    if (is_fan_) mesh(rim);
+    VectorXcd chart = harmonic_image(rim);
+    if (smallest_angle(chart, triangles_) < options_.worst_angle * angle_when_meshed_) {
+        mesh(rim);
+        chart = harmonic_image(rim);
+    }
+    lengths_ = planar_lengths(chart, triangles_);
+}
+
+}  // namespace koebe

@@ -1,0 +1,103 @@
+#include "iteration/koebe_condensed.h"
+
+#include "circles/boundary_angles.h"
+#include "circles/circle_fit.h"
+#include "core/memory_limit.h"
+#include "iteration/circle_change.h"
+#include "iteration/condensed_state.h"
+#include "iteration/grounded_state.h"
+#include "iteration/sparse_state.h"
+#include "iteration/sweep_order.h"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and one on the way
+
+/// With more loops one factor for all of them costs less than an elimination for each step; one or two leave no choice.
+bool opened_at_once(const std::vector<VertexLoop>& loops) { return loops.size() <= 2 || loops.size() > 8; }
+
+/// Feeds 1 into the vertex deepest inside S: the one where the torsion function, K u = area, is largest.
+VectorXd deepest_source(const CondensedLaplacian& surface, const VectorXd& areas)
+{
+    Index deepest = 0;
+    surface.solve_interior(areas).values.maxCoeff(&deepest);
+    VectorXd source = VectorXd::Zero(areas.size());
+    source[deepest] = 1.0;
+    return source;
+}
+
+std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+                                         const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
+                                         bool at_once, const VectorXd& flux_of_source)
+{
+    if (!surface.has_sigma()) return std::make_unique<SparseState>(laplacian, surface, loops, edges);
+    require_memory(dense_copies * 8.0 * std::pow(surface.boundary_size(), 2), "the boundary's dense matrices");
+    if (at_once) return std::make_unique<DenseGroundedState>(surface, loops, edges);
+    return std::make_unique<CondensedState>(surface, loops, edges, flux_of_source);
+}
+
+}  // namespace
+
+Index best_grounded(const std::vector<VertexLoop>& loops)
+{
+    std::size_t boundary = 0;
+    for (const VertexLoop& loop : loops) boundary += loop.size();
+    return opened_at_once(loops) && 3 * loops[0].size() >= boundary ? static_cast<Index>(loops[0].size()) : 0;
+}
+
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+                             const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
+                             const VectorXd& areas, const IterationOptions& options, ExecutionContext& context)
+{
+    KoebeOutcome outcome;
+    const int loop_count = static_cast<int>(loops.size());
+    const bool at_once = opened_at_once(loops) || !surface.has_sigma();
+    const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
+    const VectorXd flux_of_source = sourced ? surface.solve_interior(deepest_source(surface, areas)).boundary_flux
+                                            : VectorXd::Zero(surface.boundary_size());
+    if (loop_count == 1) {
+        const VectorXd angles = angles_from_flux(flux_of_source, edges[0], outcome.raised_angles);
+        outcome.loops.push_back(unit_circle_points(centered_angles(angles, vertex_weights(edges[0]))));
+        outcome.converged = true;
+        return outcome;
+    }
+    const std::unique_ptr<FilledState> state = first_state(laplacian, surface, loops, edges, at_once, flux_of_source);
+    const auto order = sweep_order(loop_count, options.method, state->opens_at_once());
+    CircleState now;
+    if (loop_count > 2) {
+        state->start(outcome.raised_angles);
+        now = circle_state(state->images(), fit_circle_least_squares);
+    }
+    // Steps that take effect together share the change and the roundness they lead to.
+    const auto record = [&](const std::vector<OpenedLoops>& together) {
+        outcome.loops = state->images();
+        CircleState next = circle_state(outcome.loops, fit_circle_least_squares);
+        for (const OpenedLoops& open : together)
+            outcome.history.push_back({++outcome.steps, std::pair(open.front(), open.back()), circle_change(now, next),
+                                       &open == &together.back() ? next.mean_roundness : now.mean_roundness,
+                                       next.circles});
+        now = std::move(next);
+    };
+    while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
+        const CircleState at_sweep_start = now;
+        outcome.raised_angles = 0;
+        for (std::size_t s = 0; s < order.size(); ++s) {
+            context.checkpoint();
+            state->take_steps(order[s], outcome.raised_angles);
+            context.checkpoint();
+            record(order[s]);
+            context.advance(1.0 - std::pow(0.5, outcome.sweeps + static_cast<double>(s + 1) / order.size()));
+        }
+        ++outcome.sweeps;
+        // With two loops the step reads nothing of the state it replaces: it is exact.
+        outcome.converged = circle_change(at_sweep_start, now) < options.tolerance || loop_count == 2;
+    }
+    return outcome;
+}
+
+}  // namespace koebe

@@ -1,0 +1,43 @@
+// The Koebe iteration on boundary angles alone: the condensed engine (docs/method.md).
+#pragma once
+
+#include "core/execution.h"
+#include "iteration/koebe_outcome.h"
+#include "linear/condensed_laplacian.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// How many boundary vertices, the outer loop's or none, the Laplacian is best condensed without (`grounded` in
+/// CondensedLaplacian): where all loops are opened at once and the outer one has a third of all boundary vertices or
+/// more. Fewer cost less in Sigma than a substitution in each sweep.
+Index best_grounded(const std::vector<VertexLoop>& loops);
+
+/// Runs the iteration (paper, section 4.4) on the state of one angle per boundary vertex.
+///
+/// Every loop k is filled by a round disk whose Dirichlet-to-Neumann matrix T_k is known in closed form; A = Sigma +
+/// sum T_k is the surface with all of them. A GK step opens the pair P = (i, j), the rest R staying filled: the
+/// harmonic function f that is 0 on one loop and 1 on the other has f_R = -A_RR^-1 A_RP f_P, and the flux
+/// A_PP f_P + A_PR f_R through its nodes has the conjugate function as its running sum: the new angles. (T_i and T_j
+/// vanish on constants.) A CK step opens one loop, kept at 0, and a source inside S takes the place of the other.
+///
+/// From 3 to 8 loops the steps of a sweep follow each other, and R is eliminated in each. Else all loops are opened
+/// from the same state, each against the outer one, and one factor of A serves them all: with N the inverse of A on the
+/// inner loops, the flux through loop k at potential 1 is (N_kk)^-1 1. The outer loop, open in every step, is never
+/// filled, and takes its angles from the flux of the pair (0, 1) in the new state. Both methods are then the same, but
+/// for how many loops a step counts. With one loop one step from a source is exact, with two loops one GK step.
+///
+/// Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected inversion.
+///
+/// @param laplacian of the surface
+/// @param surface the same condensed, its boundary the concatenation of the loops, best_grounded(loops) of it grounded
+/// @param loops the outer loop first
+/// @param edges per loop: length on the surface of the edge from each vertex to the next, all positive
+/// @param areas (V) area around each vertex: for the choice of the source, the vertex deepest inside
+/// @throws SolverError, Cancelled
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+                             const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
+                             const VectorXd& areas, const IterationOptions& options, ExecutionContext& context);
+
+}  // namespace koebe

@@ -1,0 +1,40 @@
+// What a Koebe iteration of either engine takes besides its surface, and what it gives.
+#pragma once
+
+#include "circles/circle.h"
+#include "core/types.h"
+
+#include <utility>
+#include <vector>
+
+namespace koebe {
+
+enum class Method { gk, ck };  ///< generalized or conventional Koebe iteration (paper, section 4.4)
+
+struct IterationOptions {
+    Method method = Method::gk;
+    double tolerance = 1e-6;  ///< on the circles' change in a sweep, a length in the unit disk
+    int max_sweeps = 50;
+};
+
+/// One step of the Koebe iteration. The condensed engine's steps of one sweep take effect together: they share the
+/// sweep's change, and its roundness stands in the last of them, the one before in the others.
+struct KoebeStep {
+    int step = 0;
+    std::pair<int, int> pair{0, 0};  ///< the two loops left open; (0, k) for the conventional form
+    double change = 0.0;             ///< (sum |c' - c|^2 + |r' - r|^2)^(1/2) over all circles (paper, section 4.4)
+    double mean_roundness = 0.0;     ///< mean e(gamma_k) over all loops (paper, section 5)
+    std::vector<Circle> circles;     ///< of the loops after the step, or after those that take effect together
+};
+
+/// What a Koebe iteration of either engine hands to the finish.
+struct KoebeOutcome {
+    std::vector<VectorXcd> loops;  ///< image of each loop in the unit disk: the first on the unit circle, the others
+                                   ///< round up to the resolution of the mesh
+    std::vector<KoebeStep> history;
+    int sweeps = 0, steps = 0;
+    bool converged = false;
+    int raised_angles = 0;  ///< boundary nodes whose flux vanished in the last sweep
+};
+
+}  // namespace koebe

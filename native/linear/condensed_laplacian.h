@@ -1,0 +1,77 @@
+// One factorization that gives both the Dirichlet-to-Neumann matrix of a surface and its Dirichlet solver.
+#pragma once
+
+#include "core/types.h"
+#include "linear/sparse_cholesky.h"
+
+#include <memory>
+#include <vector>
+
+namespace koebe {
+
+/// u with K u = f inside and u = 0 on the boundary, and the flux of f that arrives at each boundary vertex.
+struct InteriorSolution {
+    VectorXd values;         ///< (V)
+    VectorXd boundary_flux;  ///< (m), of the same sum as f
+};
+
+/// K + diag(0 on I, 1 on B) = L L' with the boundary B ordered last. The trailing block L_BB gives
+/// Sigma = K_BB - K_BI K_II^-1 K_IB = L_BB L_BB' - 1, the leading part is the factor of K_II
+/// (docs/method.md, "The condensed engine").
+///
+/// A part of the boundary can be grounded: it counts with the interior, but is held at 0, so that Sigma is of the rest
+/// alone. Of long boundaries nothing dense is kept: then there is no Sigma, and K_II is factored alone.
+class CondensedLaplacian {
+public:
+    /// @param laplacian (V, V) cotan Laplacian, both triangles stored
+    /// @param boundary all boundary vertices; unused vertices must have been given a positive diagonal or be left out
+    /// of
+    ///        the matrix
+    /// @param grounded so many of them, from the first on, are grounded; sigma() has the others, in their order
+    /// @param most_condensed others up to which there is a Sigma: at 3,000 a dense matrix has 72 MB
+    /// @throws SolverError if K_II is not positive definite
+    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering,
+                       Index grounded = 0, std::size_t most_condensed = 3000);
+    ~CondensedLaplacian();
+    CondensedLaplacian(CondensedLaplacian&&) noexcept;
+    CondensedLaplacian& operator=(CondensedLaplacian&&) noexcept;
+
+    /// Takes the boundary in another order from now on: what is given and returned goes by it.
+    /// @param boundary the same vertices
+    /// @return false, and nothing has changed, if a part of it is grounded while there is a Sigma
+    bool reorder_boundary(const std::vector<Index>& boundary);
+
+    /// Whether there is a sigma().
+    bool has_sigma() const;
+
+    /// Whether a part of the boundary is grounded.
+    bool grounded() const;
+
+    /// The Dirichlet-to-Neumann matrix of the boundary that is not grounded, symmetric and positive semidefinite; Sigma
+    /// 1 = 0 if nothing is.
+    MatrixXd sigma() const;
+
+    /// What values on the grounded part draw from the others at 0: -Sigma_RG z. @param values (g, C)
+    MatrixXd load_of_grounded(const MatrixXd& values) const;
+
+    /// The flux into the grounded part from values on the others: -Sigma_GR u. @param values (m - g)
+    VectorXd flux_to_grounded(const VectorXd& values) const;
+
+    /// The flux through each of some boundary vertices, Sigma_PP 1, when they have potential 1 and all others 0;
+    /// where there is no sigma(). @param part the vertices
+    VectorXd flux_of_part(const std::vector<Index>& part) const;
+
+    Index boundary_size() const;
+
+    /// Harmonic extension: (m, C) boundary values in the boundary's order -> (V, C) values at all vertices.
+    MatrixXd extend(const MatrixXd& boundary_values) const;
+
+    /// Solves K u = f with u = 0 on the boundary. @param load (V) f; values on the boundary are ignored
+    InteriorSolution solve_interior(const VectorXd& load) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace koebe

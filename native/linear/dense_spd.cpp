@@ -1,0 +1,126 @@
+#include "linear/dense_spd.h"
+
+#include "core/errors.h"
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+
+extern "C" {
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+void dtrtri_(const char* uplo, const char* diag, const int* n, double* a, const int* lda, int* info);
+void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
+             const int* ldb, int* info);
+void dtrmm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
+            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
+            const int* lda, const double* beta, double* c, const int* ldc);
+void openblas_set_num_threads(int threads);
+int openblas_get_num_threads();
+}
+
+namespace koebe {
+namespace {
+
+struct {
+    std::mutex mutex;
+    int count = 0, threads_before = 1;
+} users;  // the SerialDenseKernels that live
+
+void factorize(MatrixXd& matrix)
+{
+    const int n = static_cast<int>(matrix.rows());
+    int info = 0;
+    dpotrf_("L", &n, matrix.data(), &n, &info);
+    if (info != 0)
+        throw SolverError("dense Cholesky: leading minor " + std::to_string(info) + " of " + std::to_string(n) +
+                          " is not positive");
+}
+
+/// By halves, [A 0; B C]^-1 = [A^-1 0; -C^-1 B A^-1, C^-1]: twice as fast as dtrtri at n = 1,400.
+void invert_lower(double* lower, int n, int stride)
+{
+    if (n <= 64) {
+        int info = 0;
+        dtrtri_("L", "N", &n, lower, &stride, &info);
+        if (info != 0) throw SolverError("dense triangular inverse failed, status " + std::to_string(info));
+        return;
+    }
+    const int top = n / 2, bottom = n - top;
+    double* b = lower + top;
+    double* c = lower + top + static_cast<std::ptrdiff_t>(top) * stride;
+    invert_lower(lower, top, stride);
+    invert_lower(c, bottom, stride);
+    const double one = 1.0, minus_one = -1.0;
+    dtrmm_("R", "L", "N", "N", &bottom, &top, &one, lower, &stride, b, &stride);
+    dtrmm_("L", "L", "N", "N", &bottom, &top, &minus_one, c, &stride, b, &stride);
+}
+
+}  // namespace
+
+MatrixXd spd_factor(MatrixXd matrix)
+{
+    factorize(matrix);
+    return matrix;
+}
+
+MatrixXd lower_inverse(MatrixXd lower)
+{
+    invert_lower(lower.data(), static_cast<int>(lower.rows()), static_cast<int>(lower.rows()));
+    lower.triangularView<Eigen::StrictlyUpper>().setZero();
+    return lower;
+}
+
+MatrixXd spd_solve(MatrixXd matrix, MatrixXd right_hand_side)
+{
+    factorize(matrix);
+    const int n = static_cast<int>(matrix.rows()), columns = static_cast<int>(right_hand_side.cols());
+    int info = 0;
+    dpotrs_("L", &n, &columns, matrix.data(), &n, right_hand_side.data(), &n, &info);
+    if (info != 0) throw SolverError("dense solve failed, status " + std::to_string(info));
+    return right_hand_side;
+}
+
+MatrixXd gram(const Eigen::Ref<const MatrixXd>& a)
+{
+    MatrixXd product(a.cols(), a.cols());
+    const int n = static_cast<int>(a.cols()), inner = static_cast<int>(a.rows());
+    const int stride = static_cast<int>(a.outerStride());
+    const double one = 1.0, zero = 0.0;
+    dsyrk_("L", "T", &n, &inner, &one, a.data(), &stride, &zero, product.data(), &n);
+    product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+    return product;
+}
+
+MatrixXd lower_times_transpose(const MatrixXd& lower)
+{
+    const int m = static_cast<int>(lower.rows());
+    MatrixXd product = MatrixXd::Zero(m, m);
+    // A block of columns of L touches only the rows from its own down, so the zeros above cost nothing.
+    const int block = 256;
+    const double one = 1.0;
+    for (int k = 0; k < m; k += block) {
+        const int height = m - k, width = std::min(block, m - k);
+        MatrixXd panel = lower.block(k, k, height, width);
+        panel.topRows(width).triangularView<Eigen::StrictlyUpper>().setZero();
+        dsyrk_("L", "N", &height, &width, &one, panel.data(), &height, &one, &product(k, k), &m);
+    }
+    product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+    return product;
+}
+
+SerialDenseKernels::SerialDenseKernels()
+{
+    const std::scoped_lock lock(users.mutex);
+    if (users.count++ > 0) return;
+    users.threads_before = openblas_get_num_threads();
+    openblas_set_num_threads(1);
+}
+
+SerialDenseKernels::~SerialDenseKernels()
+{
+    const std::scoped_lock lock(users.mutex);
+    if (--users.count == 0) openblas_set_num_threads(users.threads_before);
+}
+
+}  // namespace koebe

@@ -1,0 +1,117 @@
+#include "linear/selected_inverse.h"
+
+#include <algorithm>
+
+extern "C" {
+void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
+            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void dsymm_(const char* side, const char* uplo, const int* m, const int* n, const double* alpha, const double* a,
+            const int* lda, const double* b, const int* ldb, const double* beta, double* c, const int* ldc);
+void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k, const double* alpha,
+            const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
+            const int* ldc);
+void dpotri_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+}
+
+namespace koebe::detail {
+namespace {
+
+/// The inverse on the pattern of some supernodes: of each a block like its own in L, the rows of which are its columns
+/// J, lower triangle, and then R.
+class PatternInverse {
+public:
+    explicit PatternInverse(const SupernodalFactor& l) : l_(l), blocks_(l.factor->nsuper) {}
+
+    void compute(Index s)
+    {
+        const int width = l_.width(s), height = l_.height(s), below = height - width;
+        const Index* rows = l_.rows(s) + width;
+        MatrixXd& z = blocks_[s];
+        z = Eigen::Map<const MatrixXd>(l_.values(s), height, width);
+        const MatrixXd y = below_times_inverse(s);
+        int info = 0;
+        dpotri_("L", &width, z.data(), &height, &info);  // L_JJ^-T L_JJ^-1
+        if (below == 0) return;
+
+        MatrixXd corner(below, below);  // Z_RR, lower triangle
+        for (int c = 0; c < below;) {
+            // Rows of R that are columns of one supernode stand side by side.
+            const Index owner = l_.supernode[rows[c]];
+            int end = c;
+            while (end < below && l_.supernode[rows[end]] == owner) ++end;
+            locate(owner, rows, c, below);
+            for (int column = c; column < end; ++column) {
+                const double* from = &blocks_[owner](0, rows[column] - l_.first_column(owner));
+                for (int r = column; r < below; ++r) corner(r, column) = from[place_[r]];
+            }
+            c = end;
+        }
+        const double one = 1.0, minus_one = -1.0, zero = 0.0;
+        double* lower_part = z.data() + width;
+        dsymm_("L", "L", &below, &width, &minus_one, corner.data(), &below, y.data(), &below, &zero, lower_part,
+               &height);
+        dgemm_("T", "N", &width, &width, &below, &minus_one, y.data(), &below, lower_part, &height, &one, z.data(),
+               &height);
+    }
+
+    /// The entry of two rows of L, the first not above the second.
+    double entry(Index row, Index column) const
+    {
+        const Index s = l_.supernode[column];
+        const Index* rows = l_.rows(s);
+        return blocks_[s](std::lower_bound(rows, rows + l_.height(s), row) - rows, column - l_.first_column(s));
+    }
+
+private:
+    /// L_RJ L_JJ^-1.
+    MatrixXd below_times_inverse(Index s) const
+    {
+        const int width = l_.width(s), height = l_.height(s), below = height - width;
+        MatrixXd y = Eigen::Map<const MatrixXd>(l_.values(s), height, width).bottomRows(below);
+        const double one = 1.0;
+        if (below > 0) dtrsm_("R", "L", "N", "N", &below, &width, &one, l_.values(s), &height, y.data(), &below);
+        return y;
+    }
+
+    /// Where the rows from number `first` on stand among those of a supernode, both ascending.
+    void locate(Index owner, const Index* rows, int first, int count)
+    {
+        place_.resize(count);
+        const Index* among = l_.rows(owner);
+        Index at = 0;
+        for (int r = first; r < count; ++r) {
+            while (among[at] != rows[r]) ++at;
+            place_[r] = at;
+        }
+    }
+
+    const SupernodalFactor& l_;
+    std::vector<MatrixXd> blocks_;
+    std::vector<Index> place_;
+};
+
+}  // namespace
+
+std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vector<std::vector<Index>>& sets)
+{
+    std::vector<char> needed(l.factor->nsuper, 0);
+    for (const std::vector<Index>& set : sets)
+        for (const Index v : set)
+            for (Index s = l.supernode[l.rank[v]]; !needed[s]; s = l.parent(s)) needed[s] = 1;
+    PatternInverse inverse(l);
+    for (Index s = static_cast<Index>(l.factor->nsuper); s-- > 0;)
+        if (needed[s]) inverse.compute(s);
+
+    std::vector<MatrixXd> result;
+    for (const std::vector<Index>& set : sets) {
+        MatrixXd& block = result.emplace_back(set.size(), set.size());
+        for (std::size_t i = 0; i < set.size(); ++i)
+            for (std::size_t j = 0; j <= i; ++j) {
+                const Index p = l.rank[set[i]], q = l.rank[set[j]];
+                block(i, j) = block(j, i) = inverse.entry(std::max(p, q), std::min(p, q));
+            }
+    }
+    return result;
+}
+
+}  // namespace koebe::detail

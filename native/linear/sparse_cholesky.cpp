@@ -1,0 +1,192 @@
+#include "linear/sparse_cholesky.h"
+
+#include "core/memory_limit.h"
+#include "linear/dense_spd.h"
+#include "linear/elimination_order.h"
+#include "linear/path_solution.h"
+#include "linear/selected_inverse.h"
+#include "linear/supernodal_factor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace koebe {
+
+using namespace detail;
+
+struct SparseCholesky::Impl {
+    SupernodalFactor l;
+    std::vector<Index> last;
+    MatrixXd trailing;  // L_BB in the factor's own order
+
+    Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
+    Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
+    MatrixXd half_solve(const MatrixXd& f);
+    MatrixXd last_in_given_order(const MatrixXd& trailing_rows) const;
+};
+
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last)
+    : impl_(std::make_unique<Impl>())
+{
+    SupernodalFactor& l = impl_->l;
+    impl_->last = last;
+    cholmod_sparse lower = view(matrix, -1);
+    // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
+    // postorder A_II by itself and forbid any further change.
+    for (const bool forced : {false, true}) {
+        std::vector<Index> order;
+        if (!last.empty()) order = elimination_order(matrix, last, ordering, forced, l.common);
+        l.common->nmethods = 1;
+        l.common->method[0].ordering = !last.empty()               ? CHOLMOD_GIVEN
+                                       : ordering == Ordering::amd ? CHOLMOD_AMD
+                                                                   : CHOLMOD_METIS;
+        l.common->postorder = forced ? 0 : 1;
+        l.factor =
+            own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, l.common.get()), l.common);
+        l.common.require(l.factor != nullptr, "symbolic analysis");
+        require_memory(8.0 * (static_cast<double>(l.factor->xsize) + 2.0 * std::pow(last.size(), 2)),
+                       "the factorization");
+        l.number();
+        if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= impl_->inner_count(); })) break;
+    }
+    refactorize(matrix);
+}
+
+void SparseCholesky::refactorize(const SparseMatrix& matrix)
+{
+    SupernodalFactor& l = impl_->l;
+    cholmod_sparse lower = view(matrix, -1);
+    const SerialRegions serial;
+    const int done = cholmod_factorize(&lower, l.factor.get(), l.common.get());
+    l.common.require(done != 0, "numeric factorization (matrix not positive definite)");
+    impl_->trailing = l.trailing_block(static_cast<Index>(impl_->last.size()));
+}
+
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+MatrixXd SparseCholesky::solve(const MatrixXd& right_hand_side) const
+{
+    return impl_->l.solve(CHOLMOD_A, right_hand_side);
+}
+
+MatrixXd SparseCholesky::last_schur() const
+{
+    const MatrixXd product = lower_times_transpose(impl_->trailing);
+    std::vector<Index> place(impl_->last.size());
+    for (std::size_t b = 0; b < place.size(); ++b) place[b] = impl_->place_in_trailing(b);
+    return product(place, place);
+}
+
+/// L y = (f_I, 0) has y_I = L_II^-1 f_I and L_BB y_B = -L_BI y_I; in the factor's own order.
+MatrixXd SparseCholesky::Impl::half_solve(const MatrixXd& f)
+{
+    MatrixXd load = MatrixXd::Zero(l.size(), f.cols());
+    for (Index j = 0; j < inner_count(); ++j) load.row(j) = f.row(l.order()[j]);
+    return l.solve(CHOLMOD_L, load);
+}
+
+MatrixXd SparseCholesky::Impl::last_in_given_order(const MatrixXd& trailing_rows) const
+{
+    MatrixXd result(trailing_rows.rows(), trailing_rows.cols());
+    for (std::size_t b = 0; b < last.size(); ++b) result.row(b) = trailing_rows.row(place_in_trailing(b));
+    return result;
+}
+
+/// L' x = (y_I, L_BB' x_B) has x_I = L_II^-T (y_I - L_BI' x_B).
+MatrixXd SparseCholesky::extend(const MatrixXd& last_values, const MatrixXd& f) const
+{
+    const Index count = static_cast<Index>(impl_->last.size());
+    MatrixXd values(count, last_values.cols());
+    for (Index b = 0; b < count; ++b) values.row(impl_->place_in_trailing(b)) = last_values.row(b);
+    MatrixXd load = f.size() > 0 ? impl_->half_solve(f) : MatrixXd(MatrixXd::Zero(impl_->l.size(), last_values.cols()));
+    load.bottomRows(count) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * values;
+    const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, load);
+
+    MatrixXd result(impl_->l.size(), last_values.cols());
+    for (Index j = 0; j < impl_->l.size(); ++j) result.row(impl_->l.order()[j]) = solution.row(j);
+    result(impl_->last, Eigen::all) = last_values;
+    return result;
+}
+
+MatrixXd SparseCholesky::flux_to_last(const MatrixXd& f) const
+{
+    const MatrixXd half = impl_->half_solve(f);
+    return impl_->last_in_given_order(impl_->trailing.triangularView<Eigen::Lower>() *
+                                      half.bottomRows(static_cast<Index>(impl_->last.size())));
+}
+
+std::pair<VectorXd, VectorXd> SparseCholesky::solve_inner(const VectorXd& f) const
+{
+    const Index count = static_cast<Index>(impl_->last.size());
+    MatrixXd half = impl_->half_solve(f);
+    const MatrixXd flux = impl_->trailing.triangularView<Eigen::Lower>() * half.bottomRows(count);
+    half.bottomRows(count).setZero();
+    const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, half);
+    VectorXd values(impl_->l.size());
+    for (Index j = 0; j < impl_->l.size(); ++j) values[impl_->l.order()[j]] = solution(j, 0);
+    return {std::move(values), impl_->last_in_given_order(flux)};
+}
+
+std::vector<MatrixXd> SparseCholesky::inverse_blocks(const std::vector<std::vector<Index>>& sets) const
+{
+    return selected_inverse(impl_->l, sets);
+}
+
+VectorXd SparseCholesky::inverse_form_sum(const SparseMatrix& b) const
+{
+    const SupernodalFactor& l = impl_->l;
+    // Of all B's rows, also of those whose entries cancel.
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
+        for (SparseMatrix::InnerIterator it(b, c); it; ++it)
+            entries.emplace_back(static_cast<Index>(it.row()), 0, it.value());
+    SparseMatrix sum(b.rows(), 1);
+    sum.setFromTriplets(entries.begin(), entries.end());
+    const PathSolution solution = path_solution(l, sum);
+    const MatrixXd x = back_substitution(l, solution);
+    VectorXd result = VectorXd::Zero(b.cols());
+    for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
+        for (SparseMatrix::InnerIterator it(b, c); it; ++it)
+            result[c] += it.value() * x(0, solution.column(l, l.rank[it.row()]));
+    return result;
+}
+
+DirichletSolver::DirichletSolver(const SparseMatrix& laplacian, const std::vector<char>& fixed)
+{
+    std::vector<Index> rank(fixed.size());
+    for (std::size_t v = 0; v < fixed.size(); ++v) {
+        std::vector<Index>& part = fixed[v] ? fixed_ : free_;
+        rank[v] = static_cast<Index>(part.size());
+        part.push_back(static_cast<Index>(v));
+    }
+    if (free_.empty()) return;
+    SparseMatrix inner(free_.size(), free_.size());
+    inner.reserve(laplacian.nonZeros());
+    std::vector<Eigen::Triplet<double, Index>> coupling;
+    for (std::size_t c = 0; c < free_.size(); ++c) {
+        inner.startVec(c);
+        for (SparseMatrix::InnerIterator it(laplacian, free_[c]); it; ++it) {
+            if (fixed[it.row()])
+                coupling.emplace_back(static_cast<Index>(c), rank[it.row()], it.value());
+            else
+                inner.insertBack(rank[it.row()], c) = it.value();
+        }
+    }
+    inner.finalize();
+    coupling_.resize(free_.size(), fixed_.size());
+    coupling_.setFromTriplets(coupling.begin(), coupling.end());
+    cholesky_ = std::make_unique<SparseCholesky>(inner);
+}
+
+MatrixXd DirichletSolver::solve(const MatrixXd& values) const
+{
+    MatrixXd result = values;
+    if (free_.empty()) return result;
+    const MatrixXd inner = cholesky_->solve(-(coupling_ * values(fixed_, Eigen::all)));
+    result(free_, Eigen::all) = inner;
+    return result;
+}
+
+}  // namespace koebe

@@ -1,0 +1,43 @@
+// The supernodes of a CHOLMOD factor A = L L'. For the .cpp files of this folder only.
+#pragma once
+
+#include "linear/cholmod_support.h"
+
+#include <vector>
+
+namespace koebe::detail {
+
+/// A supernode s is a run of columns with the same rows below them, kept as one dense block (height, width); the first
+/// width rows are the columns' own.
+struct SupernodalFactor {
+    CholmodCommon common;
+    Factor factor;
+    std::vector<Index> rank;       // of each row of A in the factor's order
+    std::vector<Index> supernode;  // of each row of L
+
+    /// Fills rank and supernode once the factor has been analyzed.
+    void number();
+
+    Index size() const { return static_cast<Index>(factor->n); }
+    const Index* order() const { return static_cast<const Index*>(factor->Perm); }
+    Index first_column(Index s) const { return static_cast<const Index*>(factor->super)[s]; }
+    Index width(Index s) const { return first_column(s + 1) - first_column(s); }
+    const Index* rows(Index s) const
+    {
+        return static_cast<const Index*>(factor->s) + static_cast<const Index*>(factor->pi)[s];
+    }
+    Index height(Index s) const { return static_cast<Index>(rows(s + 1) - rows(s)); }
+    /// The next supernode on the way to the root of the elimination tree; the root's is itself.
+    Index parent(Index s) const { return height(s) == width(s) ? s : supernode[rows(s)[width(s)]]; }
+    const double* values(Index s) const
+    {
+        return static_cast<const double*>(factor->x) + static_cast<const Index*>(factor->px)[s];
+    }
+
+    /// The last rows and columns of L as a dense lower triangle.
+    MatrixXd trailing_block(Index count) const;
+    /// Solves with L, L' or A. @param system CHOLMOD_L, CHOLMOD_Lt (both in the factor's order) or CHOLMOD_A
+    MatrixXd solve(int system, const MatrixXd& right_hand_side);
+};
+
+}  // namespace koebe::detail

@@ -1,0 +1,19 @@
+// From the map of the core to one of the whole surface, without flips.
+#pragma once
+
+#include "circles/circle_map.h"
+#include "core/execution.h"
+#include "flaps/flaps.h"
+#include "foldover/untangle.h"
+#include "pipeline/domain.h"
+
+namespace koebe {
+
+/// Hangs the flaps back (hang_flaps), flips left as they are.
+/// @param map of the core's vertices; of the surface's own if there are no flaps
+CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
+
+/// Turns flipped faces back (untangle). @param map of the whole surface, changed in place
+UntangleReport remove_flips(const Domain& whole, CircleMap& map, ExecutionContext& context);
+
+}  // namespace koebe

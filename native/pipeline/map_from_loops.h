@@ -1,0 +1,29 @@
+// From the images of the loops to a map of the surface: circles, normal position, interior, even texels.
+#pragma once
+
+#include "circles/circle_map.h"
+#include "iteration/koebe_outcome.h"
+#include "linear/condensed_laplacian.h"
+#include "pipeline/domain.h"
+
+#include <optional>
+
+namespace koebe {
+
+/// What a map of a domain is made with.
+struct DomainSolver {
+    const CondensedLaplacian& condensed;  ///< of the Laplacian, its boundary the concatenation of the domain's loops
+    const SparseMatrix& laplacian;
+    const Domain& domain;
+};
+
+/// Circles fitted, two loops made concentric, the boundary put on its circles, the interior harmonic (balance_flux).
+/// @param cut the flaps that will hang on the rim
+/// @return of the domain's vertices; nothing if the circles leave the disk, meet, or no finite map extends them
+std::optional<CircleMap> map_from_loops(const DomainSolver& solver, const FlapCut& cut, const KoebeOutcome& outcome);
+
+/// The map moved by the automorphism of the disk with the least area distortion (area_balance.h).
+/// @return nothing if the circles leave the disk, meet, or no finite map extends them
+std::optional<CircleMap> with_area_balanced(const DomainSolver& solver, const CircleMap& map);
+
+}  // namespace koebe

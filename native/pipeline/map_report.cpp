@@ -1,0 +1,65 @@
+#include "pipeline/map_report.h"
+
+#include "circles/circle_fit.h"
+#include "core/resolution.h"
+#include "quality/stored_uv.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+/// Flipped faces as a reader of the result finds them, who takes areas from the first corner of the input's faces.
+void report_flips(const Domain& whole, const PlanarPoints& uv, Distortion& distortion)
+{
+    distortion.flipped.clear();
+    distortion.below_resolution.clear();
+    for (Eigen::Index f = 0; f < whole.surface.triangles.rows(); ++f) {
+        const StoredFace face(whole.surface.triangles, uv, f, whole.first_corners[f]);
+        if (!face.flipped()) continue;
+        distortion.flipped.push_back(whole.original_faces[f]);
+        if (face.below_resolution()) distortion.below_resolution.push_back(whole.original_faces[f]);
+    }
+    std::sort(distortion.flipped.begin(), distortion.flipped.end());
+    std::sort(distortion.below_resolution.begin(), distortion.below_resolution.end());
+}
+
+LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
+{
+    LoopReport report;
+    report.circle = map.circles[k];
+    report.roundness = map.roundness[k];
+    for (const auto* changed : {&map.shrunk, &map.lost, &map.replaced})
+        report.shrunk |= std::ranges::count(*changed, static_cast<Index>(k)) > 0;
+    VectorXcd points(static_cast<Eigen::Index>(whole.loops[k].size()));
+    Eigen::Index count = 0;
+    for (const Index v : whole.loops[k]) {
+        const Complex point(map.uv(v, 0), map.uv(v, 1));
+        report.vertices.push_back(whole.original[v]);
+        if (std::ranges::binary_search(map.off_circle, v) ||
+            !(std::abs(std::abs(point - report.circle.center) - report.circle.radius) <= circle_tolerance))
+            report.off_circle.push_back(whole.original[v]);
+        else
+            points[count++] = point;
+    }
+    std::rotate(report.vertices.begin(), std::min_element(report.vertices.begin(), report.vertices.end()),
+                report.vertices.end());
+    std::sort(report.off_circle.begin(), report.off_circle.end());
+    report.roundness_projected = count > 0 ? roundness(points.head(count), report.circle) : 0.0;
+    return report;
+}
+
+}  // namespace
+
+void report_map(const Domain& whole, const CircleMap& map, UniformizeResult& result)
+{
+    result.loops.clear();
+    for (std::size_t k = 0; k < whole.loops.size(); ++k) result.loops.push_back(report_loop(whole, map, k));
+    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
+    report_flips(whole, map.uv, result.distortion);
+    result.uv = PlanarPoints::Zero(result.vertex_count, 2);
+    result.uv(whole.original, Eigen::all) = map.uv;
+}
+
+}  // namespace koebe

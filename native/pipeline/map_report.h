@@ -1,0 +1,15 @@
+// What is reported of a map: its points in the input's numbering, its loops, its distortion.
+#pragma once
+
+#include "circles/circle_map.h"
+#include "pipeline/domain.h"
+#include "pipeline/result.h"
+
+namespace koebe {
+
+/// Fills uv, loops and distortion of the result. A loop vertex is off its circle if the map says so or if it lies
+/// farther from it than circle_tolerance.
+/// @param map of the domain @param result of a mesh of result.vertex_count vertices
+void report_map(const Domain& whole, const CircleMap& map, UniformizeResult& result);
+
+}  // namespace koebe

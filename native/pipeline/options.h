@@ -1,0 +1,23 @@
+// What a uniformization is asked for.
+#pragma once
+
+#include "core/types.h"
+#include "iteration/koebe_outcome.h"
+
+namespace koebe {
+
+enum class Engine { condensed, mesh };  ///< docs/method.md: eliminated once, or patches as real triangles
+/// automatic: the longest, but with Balance::area the one with the least area distortion.
+enum class OuterLoop { automatic, longest, vertex };
+enum class Balance { none, area };  ///< area: the disk automorphism with the least area distortion
+
+struct UniformizeOptions : IterationOptions {
+    Engine engine = Engine::condensed;
+    OuterLoop outer = OuterLoop::automatic;
+    Index outer_vertex = -1;  ///< with OuterLoop::vertex: a vertex of the loop to put on the unit circle
+    Balance balance = Balance::none;
+    bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    int threads = 0;      ///< at most; 0: all cores. Today one is used: the result is the same for any number
+};
+
+}  // namespace koebe

@@ -1,0 +1,19 @@
+// Which loop goes onto the unit circle, chosen once there is a map to judge by.
+#pragma once
+
+#include "circles/circle_map.h"
+#include "pipeline/domain.h"
+
+#include <optional>
+
+namespace koebe {
+
+/// The loop that, on the unit circle and balanced, leaves the least area distortion (balanced_outer_loop): one of the
+/// eight longest, 0 unless another is better by a fifth.
+int better_outer_loop(const Domain& domain, const CircleMap& map);
+
+/// Puts a loop first in the lists of loops, and the others after it in the order they have.
+/// @param loop its place in them @param core the domain without flaps, if there are flaps
+void put_outside(int loop, Domain& whole, FlapCut& cut, std::optional<Domain>& core);
+
+}  // namespace koebe

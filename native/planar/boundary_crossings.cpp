@@ -1,0 +1,45 @@
+#include "planar/boundary_crossings.h"
+
+#include "planar/planar_predicates.h"
+
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+
+namespace koebe {
+namespace {
+
+struct Edge {
+    Index from, to;
+};
+
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Edge>;
+
+}  // namespace
+
+std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<VertexLoop>& loops,
+                                                             const PlanarPoints& points, double shortest)
+{
+    const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
+    std::vector<Box> boxes;
+    for (const VertexLoop& loop : loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Edge edge{loop[i], loop[(i + 1) % loop.size()]};
+            const Complex a = at(edge.from), b = at(edge.to);
+            if (!(std::abs(b - a) >= shortest)) continue;
+            double low[2] = {std::min(a.real(), b.real()), std::min(a.imag(), b.imag())};
+            double high[2] = {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())};
+            boxes.emplace_back(low, high, edge);
+        }
+    std::vector<std::pair<Index, Index>> crossings;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& first, const Box& second) {
+        const Edge e = first.info(), f = second.info();
+        if (e.from == f.from || e.from == f.to || e.to == f.from || e.to == f.to) return;
+        if (segments_meet(at(e.from), at(e.to), at(f.from), at(f.to)))
+            crossings.emplace_back(std::minmax(e.from, f.from));
+    });
+    std::sort(crossings.begin(), crossings.end());
+    return crossings;
+}
+
+}  // namespace koebe

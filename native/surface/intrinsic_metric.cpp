@@ -1,0 +1,115 @@
+#include "surface/intrinsic_metric.h"
+
+#include "core/connectivity.h"
+#include "surface/edge_flip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+double mollify(EdgeLengths& lengths, double margin)
+{
+    const double least = margin * lengths.mean();
+    double added = 0.0;
+    for (Eigen::Index f = 0; f < lengths.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const double excess = lengths(f, (k + 1) % 3) + lengths(f, (k + 2) % 3) - lengths(f, k);
+            added = std::max(added, least - excess);
+        }
+    if (added > 0.0) lengths.array() += added;
+    return added;
+}
+
+/// The state of Lawson's algorithm: half-edge 3 f + k is edge k of face f.
+class DelaunayFlipper {
+public:
+    DelaunayFlipper(IntrinsicMetric& metric, const Surface& surface)
+        : triangles_(metric.triangles), lengths_(metric.lengths), twin_(metric.twin), loop_of_(surface.vertex_count, -1)
+    {
+        for (std::size_t k = 0; k < surface.loops.size(); ++k)
+            for (const Index v : surface.loops[k]) loop_of_[v] = static_cast<Index>(k);
+    }
+
+    int run()
+    {
+        const Index halfedge_count = static_cast<Index>(twin_.size());
+        std::vector<Index> stack;
+        const EdgeLengths halves = half_cotangents(lengths_);
+        for (Index h = 0; h < halfedge_count; ++h)
+            if (twin_[h] > h && -2.0 * (halves.data()[h] + halves.data()[twin_[h]]) > tolerance) stack.push_back(h);
+        int flips = 0;
+        // Lawson's algorithm ends; the bound only guards against round-off on cocircular quadrilaterals.
+        const long most = 20L * halfedge_count + 1000;
+        while (!stack.empty() && flips < most) {
+            const Index h = stack.back();
+            stack.pop_back();
+            if (twin_[h] == no_twin || excess(h) <= tolerance || !may_flip(h)) continue;
+            const Index f = face_of(h), g = face_of(twin_[h]);
+            flip_edge(triangles_, lengths_, twin_, h, opposite_diagonal(h, twin_[h]));
+            ++flips;
+            for (const Index face : {f, g})
+                for (Index e = 3 * face; e < 3 * face + 3; ++e)
+                    if (twin_[e] != no_twin) stack.push_back(e);
+        }
+        return flips;
+    }
+
+private:
+    static constexpr double tolerance = 1e-9;  // on the sum of cotangents, dimensionless
+
+    double length(Index h) const { return lengths_.data()[h]; }
+
+    double cotangent(Index h) const
+    {
+        const double a = length(h), b = length(next_halfedge(h)), c = length(previous_halfedge(h));
+        const double area = triangle_area(a, b, c);
+        return (b * b + c * c - a * a) / (4.0 * std::max(area, 1e-300));
+    }
+
+    /// -(cot alpha + cot beta): positive where the edge is not Delaunay.
+    double excess(Index h) const { return -(cotangent(h) + cotangent(twin_[h])); }
+
+    bool may_flip(Index h) const
+    {
+        const Index c = origin(triangles_, previous_halfedge(h));
+        const Index d = origin(triangles_, previous_halfedge(twin_[h]));
+        return c != d && face_of(h) != face_of(twin_[h]) && (loop_of_[c] < 0 || loop_of_[c] != loop_of_[d]);
+    }
+
+    /// Length of c-d, the two triangles unfolded into the plane.
+    double opposite_diagonal(Index h, Index t) const
+    {
+        const double l = length(h);
+        const auto apex = [&](double from_start, double from_end) {
+            const double x = (l * l + from_start * from_start - from_end * from_end) / (2.0 * l);
+            return Complex(x, 2.0 * triangle_area(l, from_start, from_end) / l);
+        };
+        const Complex c = apex(length(previous_halfedge(h)), length(next_halfedge(h)));
+        const Complex d = apex(length(next_halfedge(t)), length(previous_halfedge(t)));
+        return std::abs(c - std::conj(d));
+    }
+
+    Triangles& triangles_;
+    EdgeLengths& lengths_;
+    std::vector<Index>& twin_;
+    std::vector<Index> loop_of_;
+};
+
+}  // namespace
+
+IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
+                                 const IntrinsicMetricOptions& options)
+{
+    IntrinsicMetric metric;
+    metric.triangles = surface.triangles;
+    metric.lengths = edge_lengths(vertices, surface.triangles);
+    metric.twin = surface.twin;
+    if (options.mollify) metric.mollification = mollify(metric.lengths, options.margin);
+    if (options.delaunay) metric.flips = DelaunayFlipper(metric, surface).run();
+    return metric;
+}
+
+}  // namespace koebe

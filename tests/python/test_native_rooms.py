@@ -1,0 +1,57 @@
+"""The rooms of native/: includes run one way, and each room is on the map in CONTRIBUTING.md."""
+
+import re
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+NATIVE = ROOT / "native"
+ROOMS = sorted(path.name for path in NATIVE.iterdir() if path.is_dir())
+FRONTS = {"cli", "python"}  # nothing includes them
+
+
+def included(source):
+    """What a file includes of native/: room/file."""
+    return re.findall(r'^#include "(\w+)/[\w.]+"', source, re.MULTILINE)
+
+
+def arrows():
+    """room -> the other rooms that its files include."""
+    graph = {room: set() for room in ROOMS}
+    for room in ROOMS:
+        for path in (NATIVE / room).rglob("*"):
+            if path.suffix in {".h", ".cpp"}:
+                graph[room] |= set(included(path.read_text(encoding="utf-8"))) - {room}
+    return graph
+
+
+def test_includes_run_one_way():
+    graph = arrows()
+    try:
+        order = list(TopologicalSorter(graph).static_order())
+    except CycleError as error:
+        pytest.fail(f"rooms that include each other: {' -> '.join(error.args[1])}")
+    assert order[0] == "core" and "pipeline" in order
+    assert graph["core"] == set()
+    assert all(graph[room] for room in ROOMS if room != "core")
+
+
+def test_nothing_includes_a_front():
+    assert not [room for room, others in arrows().items() if others & FRONTS]
+
+
+def test_circles_know_no_mesh():
+    assert arrows()["circles"] == {"core"}
+
+
+def test_every_room_is_on_the_map():
+    page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"\bnative/(\w+)/", page)) == set(ROOMS)
+
+
+def test_every_source_is_built():
+    listed = set(re.findall(r"^  (\w+/\w+\.cpp)$", (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE))
+    there = {path.relative_to(NATIVE).as_posix() for path in NATIVE.glob("*/*.cpp") if path.parent.name not in FRONTS}
+    assert listed == there
