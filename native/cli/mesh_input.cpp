@@ -23,7 +23,8 @@ MeshInput read_and_triangulate(const std::filesystem::path& path)
             {WarningKind::collapsed_faces,
              "faces of fewer than three different vertices, passed over: " + std::to_string(collapsed.size()),
              collapsed});
-    if (input.triangulation.triangles.rows() == 0) throw InputError("no face has three different vertices", collapsed);
+    if (input.triangulation.triangles.rows() == 0)
+        throw InputError("no face has three different vertices", ElementKind::faces, collapsed);
     input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return input;
 }

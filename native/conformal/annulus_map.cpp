@@ -87,13 +87,6 @@ VectorXd jump_across(const Triangles& triangles, const std::vector<Index>& twin,
     return g0;
 }
 
-std::vector<char> unused_vertices(const Triangles& triangles, Index vertex_count)
-{
-    std::vector<char> unused(vertex_count, 1);
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) unused[triangles.data()[i]] = 0;
-    return unused;
-}
-
 VectorXd harmonic_between(const SparseMatrix& laplacian, std::vector<char> fixed, const VertexLoop& outer,
                           const VertexLoop& inner)
 {

@@ -21,7 +21,7 @@ void require_in_closed_disk(const VectorXcd& positions)
     if (!outside.empty())
         throw SolverError("the map takes " + std::to_string(outside.size()) +
                               " vertices out of the unit disk: faces round them are too obtuse (vertices listed)",
-                          outside);
+                          ElementKind::vertices, outside);
 }
 
 }  // namespace koebe

@@ -4,8 +4,10 @@
 #include "circles/moebius.h"
 #include "conformal/annulus_map.h"
 #include "conformal/closed_disk.h"
+#include "core/connectivity.h"
 #include "core/errors.h"
 #include "linear/sparse_cholesky.h"
+#include "surface/deepest_vertex.h"
 #include "surface/harmonic_map.h"
 
 #include <algorithm>
@@ -25,31 +27,9 @@ struct Metric {
 /// 1 for the vertices that are on no face or on the boundary.
 std::vector<char> outer_vertices(const Metric& surface, const VertexLoop& loop)
 {
-    std::vector<char> outer(surface.vertex_count, 1);
-    for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) outer[surface.triangles.data()[i]] = 0;
+    std::vector<char> outer = unused_vertices(surface.triangles, surface.vertex_count);
     for (const Index v : loop) outer[v] = 1;
     return outer;
-}
-
-/// The vertex where the torsion function is largest, K u = area with u = 0 on the boundary; -1 without inner vertices.
-Index deepest_vertex(const Metric& surface, const std::vector<char>& outer)
-{
-    std::vector<Index> inner;
-    for (Index v = 0; v < surface.vertex_count; ++v)
-        if (!outer[v]) inner.push_back(v);
-    if (inner.empty()) return -1;
-    SparseMatrix matrix = cotan_laplacian(surface.triangles, half_cotangents(surface.lengths), surface.vertex_count);
-    // On the boundary u = 0: nothing but the diagonal is left of its rows and columns.
-    matrix.prune([&](Index row, Index column, double) { return row == column || (!outer[row] && !outer[column]); });
-    for (Index v = 0; v < surface.vertex_count; ++v)
-        if (outer[v]) matrix.coeffRef(v, v) = 1.0;
-    matrix.makeCompressed();
-    VectorXd load = vertex_areas(surface.triangles, surface.lengths, surface.vertex_count);
-    for (Index v = 0; v < surface.vertex_count; ++v)
-        if (outer[v]) load[v] = 0.0;
-    const MatrixXd torsion = SparseCholesky(matrix).solve(load);
-    return *std::max_element(inner.begin(), inner.end(),
-                             [&](Index v, Index w) { return torsion(v, 0) < torsion(w, 0); });
 }
 
 /// A new vertex at the mass centre of the largest face.
@@ -154,8 +134,9 @@ DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index v
     Metric surface{triangles, lengths, vertex_count};
     const std::vector<char> outer = outer_vertices(surface, loop);
     if (options.center >= 0 && (options.center >= vertex_count || outer[options.center]))
-        throw InputError("vertex " + std::to_string(options.center) + " is no inner vertex", {options.center});
-    map.center = options.center >= 0 ? options.center : deepest_vertex(surface, outer);
+        throw InputError("vertex " + std::to_string(options.center) + " is no inner vertex", ElementKind::vertices,
+                         {options.center});
+    map.center = options.center >= 0 ? options.center : deepest_vertex(triangles, lengths, outer);
     Index p = map.center;
     if (p < 0) {
         surface = split_largest_face(surface);
@@ -170,10 +151,9 @@ DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index v
     map.positions = Moebius{filled[p], Complex(1.0, 0.0)}(filled).head(vertex_count);
     for (const Index v : loop) map.positions[v] /= std::abs(map.positions[v]);
 
-    std::vector<char> used(vertex_count, 0);
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) used[triangles.data()[i]] = 1;
+    const std::vector<char> unused = unused_vertices(triangles, vertex_count);
     for (Index v = 0; v < vertex_count; ++v)
-        if (!used[v]) map.positions[v] = 0.0;
+        if (unused[v]) map.positions[v] = 0.0;
     if (options.inside) require_in_closed_disk(map.positions);
     return map;
 }

@@ -55,4 +55,11 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
     return twin;
 }
 
+std::vector<char> unused_vertices(const Triangles& triangles, Index vertex_count)
+{
+    std::vector<char> unused(vertex_count, 1);
+    for (Eigen::Index i = 0; i < triangles.size(); ++i) unused[triangles.data()[i]] = 0;
+    return unused;
+}
+
 }  // namespace koebe

@@ -21,4 +21,7 @@ inline Index target(const Triangles& triangles, Index halfedge) { return triangl
 /// @throws TopologyError nonmanifold_edge where an edge has three or more faces
 std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count);
 
+/// (V) 1 for each vertex of no face.
+std::vector<char> unused_vertices(const Triangles& triangles, Index vertex_count);
+
 }  // namespace koebe

@@ -15,4 +15,17 @@ const char* to_string(TopologyKind kind) noexcept
     return "unknown";
 }
 
+ElementKind elements_of(TopologyKind kind) noexcept
+{
+    switch (kind) {
+    case TopologyKind::closed: return ElementKind::none;
+    case TopologyKind::genus:
+    case TopologyKind::nonmanifold_vertex: return ElementKind::vertices;
+    case TopologyKind::nonmanifold_edge:
+    case TopologyKind::nonorientable: return ElementKind::edges;
+    case TopologyKind::disconnected: return ElementKind::faces;
+    }
+    return ElementKind::none;
+}
+
 }  // namespace koebe

@@ -1,6 +1,7 @@
 // Typed errors. Each carries the offending elements, so that a caller can show or select them.
 #pragma once
 
+#include "core/elements.h"
 #include "core/types.h"
 
 #include <stdexcept>
@@ -12,17 +13,20 @@ namespace koebe {
 /// Base of everything the library throws on purpose.
 class KoebeError : public std::runtime_error {
 public:
-    explicit KoebeError(const std::string& message, std::vector<Index> elements = {})
-        : std::runtime_error(message), elements_(std::move(elements))
+    explicit KoebeError(const std::string& message) : std::runtime_error(message) {}
+    KoebeError(const std::string& message, ElementKind kind, std::vector<Index> elements)
+        : std::runtime_error(message), elements_of_(kind), elements_(std::move(elements))
     {
     }
     virtual ~KoebeError() = default;
     /// The error's public name, as printed by the command and used in Python.
     virtual const char* name() const noexcept { return "KoebeError"; }
-    /// Offending vertices or faces; the message says which of the two.
     const std::vector<Index>& elements() const noexcept { return elements_; }
+    /// What the elements are.
+    ElementKind elements_of() const noexcept { return elements_of_; }
 
 private:
+    ElementKind elements_of_ = ElementKind::none;
     std::vector<Index> elements_;
 };
 
@@ -36,19 +40,21 @@ public:
 enum class TopologyKind {
     closed,              ///< no boundary loop
     genus,               ///< a handle; elements: vertices of a handle loop
-    nonmanifold_edge,    ///< an edge with three or more faces; elements: its vertices
+    nonmanifold_edge,    ///< elements: edges with three or more faces
     nonmanifold_vertex,  ///< faces around a vertex form more than one fan; elements: such vertices
-    nonorientable,       ///< elements: the two vertices of an edge that cannot be made consistent
+    nonorientable,       ///< elements: the edge that cannot be made consistent
     disconnected,        ///< elements: faces outside the largest component
 };
 
 const char* to_string(TopologyKind kind) noexcept;
+/// What the elements of such an error are.
+ElementKind elements_of(TopologyKind kind) noexcept;
 
 /// A mesh that is no connected, orientable surface of genus 0 with boundary.
 class TopologyError : public KoebeError {
 public:
     TopologyError(TopologyKind kind, const std::string& message, std::vector<Index> elements = {})
-        : KoebeError(message, std::move(elements)), kind_(kind)
+        : KoebeError(message, koebe::elements_of(kind), std::move(elements)), kind_(kind)
     {
     }
     const char* name() const noexcept override { return "TopologyError"; }

@@ -1,6 +1,7 @@
 #include "core/halfedge_mesh.h"
 
 #include "core/errors.h"
+#include "core/process_setting.h"
 
 #include <string>
 
@@ -8,13 +9,11 @@ namespace koebe {
 namespace {
 
 /// OpenMesh reports what it refuses on its error stream; the library never prints.
-class SilentOpenMesh {
-public:
-    SilentOpenMesh() { omerr().disable(); }
-    ~SilentOpenMesh() { omerr().enable(); }
-    SilentOpenMesh(const SilentOpenMesh&) = delete;
-    SilentOpenMesh& operator=(const SilentOpenMesh&) = delete;
+struct OpenMeshErrorsDisabled {
+    OpenMeshErrorsDisabled() { omerr().disable(); }
+    ~OpenMeshErrorsDisabled() { omerr().enable(); }
 };
+using SilentOpenMesh = ProcessSetting<OpenMeshErrorsDisabled>;
 
 void require_free_edge(const HalfedgeMesh& mesh, HalfedgeMesh::VertexHandle from, HalfedgeMesh::VertexHandle to)
 {
@@ -36,7 +35,8 @@ HalfedgeMesh::FaceHandle add_triangle(HalfedgeMesh& mesh, Index a, Index b, Inde
         if (corners[k] < 0 || corners[k] >= static_cast<Index>(mesh.n_vertices()))
             throw InputError("a face names vertex " + std::to_string(corners[k]) + ", which does not exist");
         if (corners[k] == corners[(k + 1) % 3])
-            throw InputError("a face names vertex " + std::to_string(corners[k]) + " twice", {corners[k]});
+            throw InputError("a face names vertex " + std::to_string(corners[k]) + " twice", ElementKind::vertices,
+                             {corners[k]});
         handles[k] = HalfedgeMesh::VertexHandle(corners[k]);
     }
     for (int k = 0; k < 3; ++k) require_free_edge(mesh, handles[k], handles[(k + 1) % 3]);

@@ -1,38 +1,29 @@
 // CGAL without output.
 #pragma once
 
-#include <CGAL/assertions_behaviour.h>
+#include "core/process_setting.h"
 
-#include <mutex>
+#include <CGAL/assertions_behaviour.h>
 
 namespace koebe {
 
-/// CGAL reports failed checks by printing, and then throws: while one of these lives it only throws. Its handlers are
-/// those of all threads: the first one of these takes them, and the last one gives them back.
-class SilentCgal {
+/// CGAL reports failed checks by printing, and then throws: now it only throws.
+class CgalHandlersIgnored {
 public:
-    SilentCgal()
+    CgalHandlersIgnored() : error_(CGAL::set_error_handler(ignore)), warning_(CGAL::set_warning_handler(ignore)) {}
+    ~CgalHandlersIgnored()
     {
-        const std::scoped_lock lock(mutex_);
-        if (alive_++ > 0) return;
-        error_ = CGAL::set_error_handler(ignore);
-        warning_ = CGAL::set_warning_handler(ignore);
-    }
-    ~SilentCgal()
-    {
-        const std::scoped_lock lock(mutex_);
-        if (--alive_ > 0) return;
         CGAL::set_error_handler(error_);
         CGAL::set_warning_handler(warning_);
     }
-    SilentCgal(const SilentCgal&) = delete;
-    SilentCgal& operator=(const SilentCgal&) = delete;
+    CgalHandlersIgnored(const CgalHandlersIgnored&) = delete;
+    CgalHandlersIgnored& operator=(const CgalHandlersIgnored&) = delete;
 
 private:
     static void ignore(const char*, const char*, const char*, int, const char*) {}
-    static inline std::mutex mutex_;
-    static inline int alive_ = 0;
-    static inline CGAL::Failure_function error_ = nullptr, warning_ = nullptr;
+    CGAL::Failure_function error_, warning_;
 };
+
+using SilentCgal = ProcessSetting<CgalHandlersIgnored>;
 
 }  // namespace koebe

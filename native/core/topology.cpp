@@ -214,18 +214,21 @@ void validate_arrays(const Vertices& vertices, const Triangles& triangles)
     for (Eigen::Index v = 0; v < vertices.rows(); ++v)
         if (!vertices.row(v).allFinite()) bad.push_back(static_cast<Index>(v));
     if (!bad.empty())
-        throw InputError(std::to_string(bad.size()) + " vertices have a coordinate that is NaN or infinite", bad);
+        throw InputError(std::to_string(bad.size()) + " vertices have a coordinate that is NaN or infinite",
+                         ElementKind::vertices, bad);
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         if (triangles.row(f).minCoeff() < 0 || triangles.row(f).maxCoeff() >= vertices.rows())
             bad.push_back(static_cast<Index>(f));
     if (!bad.empty())
-        throw InputError(std::to_string(bad.size()) + " faces name a vertex that does not exist (faces listed)", bad);
+        throw InputError(std::to_string(bad.size()) + " faces name a vertex that does not exist (faces listed)",
+                         ElementKind::faces, bad);
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         if (triangles(f, 0) == triangles(f, 1) || triangles(f, 1) == triangles(f, 2) ||
             triangles(f, 2) == triangles(f, 0))
             bad.push_back(static_cast<Index>(f));
     if (!bad.empty())
-        throw InputError(std::to_string(bad.size()) + " faces name the same vertex twice (faces listed)", bad);
+        throw InputError(std::to_string(bad.size()) + " faces name the same vertex twice (faces listed)",
+                         ElementKind::faces, bad);
 }
 
 Surface analyze_surface(const Triangles& triangles, Index vertex_count)
@@ -240,10 +243,9 @@ Surface analyze_surface(const Triangles& triangles, Index vertex_count)
     require_manifold_vertices(surface);
     surface.loops = find_loops(surface);
 
-    std::vector<char> used(vertex_count, 0);
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) used[triangles.data()[i]] = 1;
+    const std::vector<char> unused = unused_vertices(triangles, vertex_count);
     for (Index v = 0; v < vertex_count; ++v)
-        if (!used[v]) surface.unused.push_back(v);
+        if (unused[v]) surface.unused.push_back(v);
     const auto boundary_edges = std::count(surface.twin.begin(), surface.twin.end(), no_twin);
     const auto faces = static_cast<std::ptrdiff_t>(triangles.rows());
     const auto edges = (3 * faces + boundary_edges) / 2;

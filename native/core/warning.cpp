@@ -47,17 +47,6 @@ ElementKind elements_of(WarningKind kind) noexcept
     }
 }
 
-const char* to_string(ElementKind kind) noexcept
-{
-    switch (kind) {
-    case ElementKind::none: return "none";
-    case ElementKind::vertices: return "vertices";
-    case ElementKind::faces: return "faces";
-    case ElementKind::loops: return "loops";
-    }
-    return "none";
-}
-
 std::string Warning::text() const
 {
     std::string result = sentence;

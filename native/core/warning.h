@@ -1,6 +1,7 @@
 // What to watch out for in a result that is there all the same.
 #pragma once
 
+#include "core/elements.h"
 #include "core/types.h"
 
 #include <string>
@@ -31,13 +32,10 @@ enum class WarningKind {
     no_hole,           ///< nothing to fill but the outer boundary; the last of the kinds
 };
 
-enum class ElementKind { none, vertices, faces, loops };
-
 /// As in the JSON report: the enumerator's name.
 const char* to_string(WarningKind kind) noexcept;
 /// What the elements of a warning are.
 ElementKind elements_of(WarningKind kind) noexcept;
-const char* to_string(ElementKind kind) noexcept;
 
 struct Warning {
     WarningKind kind;

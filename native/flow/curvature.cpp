@@ -1,5 +1,7 @@
 #include "flow/curvature.h"
 
+#include "core/connectivity.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -22,13 +24,10 @@ VectorXd discrete_curvature(const Triangles& triangles, const EdgeLengths& lengt
 {
     const EdgeLengths angles = corner_angles(lengths);
     VectorXd sum = VectorXd::Zero(static_cast<Eigen::Index>(boundary.size()));
-    std::vector<char> used(boundary.size(), 0);
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) {
-        sum[triangles.data()[i]] += angles.data()[i];
-        used[triangles.data()[i]] = 1;
-    }
+    const std::vector<char> unused = unused_vertices(triangles, static_cast<Index>(boundary.size()));
+    for (Eigen::Index i = 0; i < triangles.size(); ++i) sum[triangles.data()[i]] += angles.data()[i];
     for (std::size_t v = 0; v < boundary.size(); ++v) {
-        const double flat = !used[v] ? 0.0 : (boundary[v] ? 1.0 : 2.0) * std::numbers::pi;
+        const double flat = unused[v] ? 0.0 : (boundary[v] ? 1.0 : 2.0) * std::numbers::pi;
         sum[static_cast<Eigen::Index>(v)] = flat - sum[static_cast<Eigen::Index>(v)];
     }
     return sum;

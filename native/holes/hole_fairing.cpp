@@ -171,11 +171,13 @@ void fill(Mesh& mesh, const VertexLoop& loop)
         for (unsigned int i = 1; i < solutions && fair; ++i)
             fair = pmp::fair(mesh, added, CGAL::parameters::fairing_continuity(continuity)) && are_finite(mesh, added);
     } catch (const CGAL::Failure_exception&) {
-        throw InputError("a boundary loop cannot be filled (vertices listed)", loop);
+        throw InputError("a boundary loop cannot be filled (vertices listed)", ElementKind::vertices, loop);
     }
     if (mesh.number_of_faces() == faces)
-        throw InputError("a boundary loop cannot be triangulated (vertices listed)", loop);
-    if (!fair) throw SolverError("the patch of a boundary loop cannot be faired (vertices listed)", loop);
+        throw InputError("a boundary loop cannot be triangulated (vertices listed)", ElementKind::vertices, loop);
+    if (!fair)
+        throw SolverError("the patch of a boundary loop cannot be faired (vertices listed)", ElementKind::vertices,
+                          loop);
 }
 
 }  // namespace
@@ -191,10 +193,12 @@ FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& tri
     std::vector<Index> label(surface.triangles.rows(), -1);
     for (const Index k : chosen_ranks(surface, loops)) {
         if (!has_extent(vertices, surface.loops[k]))
-            throw InputError("a boundary loop has no extent (vertices listed)", surface.loops[k]);
+            throw InputError("a boundary loop has no extent (vertices listed)", ElementKind::vertices,
+                             surface.loops[k]);
         part_doubled(mesh, surface.loops[k]);
         if (const std::vector<Index> pair = meeting_vertices(mesh, surface.loops[k]); !pair.empty())
-            throw InputError("a boundary loop meets itself (vertices listed): merge them or part its halves", pair);
+            throw InputError("a boundary loop meets itself (vertices listed): merge them or part its halves",
+                             ElementKind::vertices, pair);
         fill(mesh, surface.loops[k]);
         label.resize(mesh.number_of_faces(), k);
     }

@@ -59,7 +59,8 @@ PolygonMesh to_mesh(const Soup& soup)
 
 [[noreturn]] void fail(const std::string& element, std::size_t number, const char* complaint)
 {
-    throw InputError(element + ' ' + std::to_string(number) + ' ' + complaint, {static_cast<Index>(number)});
+    throw InputError(element + ' ' + std::to_string(number) + ' ' + complaint,
+                     element == "vertex" ? ElementKind::vertices : ElementKind::faces, {static_cast<Index>(number)});
 }
 
 /// Every vertex and face takes a byte at least. Without this, a header could ask for any amount of memory.

@@ -76,10 +76,11 @@ void require_a_mesh(const PolygonMesh& mesh)
     if (const std::vector<Index> bad = faces_out_of_range(mesh); !bad.empty())
         throw InputError(std::to_string(bad.size()) + " faces name a vertex that is not among the file's " +
                              std::to_string(mesh.vertices.rows()) + " (faces listed)",
-                         bad);
+                         ElementKind::faces, bad);
     if (const std::vector<Index> bad = not_finite(mesh.vertices); !bad.empty())
-        throw InputError(
-            std::to_string(bad.size()) + " vertices have a coordinate that is NaN or infinite (vertices listed)", bad);
+        throw InputError(std::to_string(bad.size()) +
+                             " vertices have a coordinate that is NaN or infinite (vertices listed)",
+                         ElementKind::vertices, bad);
 }
 
 }  // namespace

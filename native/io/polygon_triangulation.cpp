@@ -125,7 +125,7 @@ public:
     {
         if (!uncut_.empty())
             throw InputError(std::to_string(uncut_.size()) + " polygons cannot be cut into triangles (faces listed)",
-                             uncut_);
+                             ElementKind::faces, uncut_);
         const Index* data = triangles_.empty() ? nullptr : triangles_.front().data();
         return {Eigen::Map<const Triangles>(data, static_cast<Eigen::Index>(triangles_.size()), 3), std::move(face_),
                 std::move(collapsed_)};

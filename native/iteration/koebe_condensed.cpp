@@ -8,6 +8,7 @@
 #include "iteration/grounded_state.h"
 #include "iteration/sparse_state.h"
 #include "iteration/sweep_order.h"
+#include "surface/deepest_vertex.h"
 
 #include <cmath>
 #include <memory>
@@ -21,14 +22,12 @@ constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and 
 /// With more loops one factor for all of them costs less than an elimination for each step; one or two leave no choice.
 bool opened_at_once(const std::vector<VertexLoop>& loops) { return loops.size() <= 2 || loops.size() > 8; }
 
-/// Feeds 1 into the vertex deepest inside S: the one where the torsion function, K u = area, is largest.
-VectorXd deepest_source(const CondensedLaplacian& surface, const VectorXd& areas)
+/// The flux at the boundary from a source of 1 in the vertex deepest inside S.
+VectorXd flux_of_deepest_source(const CondensedLaplacian& surface, const VectorXd& areas)
 {
-    Index deepest = 0;
-    surface.solve_interior(areas).values.maxCoeff(&deepest);
     VectorXd source = VectorXd::Zero(areas.size());
-    source[deepest] = 1.0;
-    return source;
+    source[deepest_vertex(surface, areas)] = 1.0;
+    return surface.solve_interior(source).boundary_flux;
 }
 
 std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
@@ -58,8 +57,8 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
     const int loop_count = static_cast<int>(loops.size());
     const bool at_once = opened_at_once(loops) || !surface.has_sigma();
     const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
-    const VectorXd flux_of_source = sourced ? surface.solve_interior(deepest_source(surface, areas)).boundary_flux
-                                            : VectorXd::Zero(surface.boundary_size());
+    const VectorXd flux_of_source =
+        sourced ? flux_of_deepest_source(surface, areas) : VectorXd::Zero(surface.boundary_size());
     if (loop_count == 1) {
         const VectorXd angles = angles_from_flux(flux_of_source, edges[0], outcome.raised_angles);
         outcome.loops.push_back(unit_circle_points(centered_angles(angles, vertex_weights(edges[0]))));

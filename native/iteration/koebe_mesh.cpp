@@ -7,6 +7,7 @@
 #include "iteration/circle_change.h"
 #include "iteration/sweep_order.h"
 #include "surface/harmonic_map.h"
+#include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,16 +18,7 @@
 namespace koebe {
 namespace {
 
-constexpr double shortest_edge = 1e-9;  // of the mean edge of the loop: vertices that coincide in space
 constexpr double shortest_step = 1e-4;  // of the mean step of the angles along a loop
-
-VectorXd loop_edges(const Vertices& vertices, const VertexLoop& loop)
-{
-    VectorXd edges(loop.size());
-    for (std::size_t b = 0; b < loop.size(); ++b)
-        edges[b] = (vertices.row(loop[(b + 1) % loop.size()]) - vertices.row(loop[b])).stableNorm();
-    return edges.cwiseMax(std::max(shortest_edge * edges.mean(), std::numeric_limits<double>::min()));
-}
 
 /// S with some of its disks, in one numbering: the surface's vertices first, then those inside the disks.
 struct FilledMesh {

@@ -3,7 +3,6 @@
 #include "core/errors.h"
 
 #include <algorithm>
-#include <mutex>
 #include <string>
 
 extern "C" {
@@ -21,11 +20,6 @@ int openblas_get_num_threads();
 
 namespace koebe {
 namespace {
-
-struct {
-    std::mutex mutex;
-    int count = 0, threads_before = 1;
-} users;  // the SerialDenseKernels that live
 
 void factorize(MatrixXd& matrix)
 {
@@ -109,18 +103,8 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
     return product;
 }
 
-SerialDenseKernels::SerialDenseKernels()
-{
-    const std::scoped_lock lock(users.mutex);
-    if (users.count++ > 0) return;
-    users.threads_before = openblas_get_num_threads();
-    openblas_set_num_threads(1);
-}
+OneDenseThread::OneDenseThread() : before_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
 
-SerialDenseKernels::~SerialDenseKernels()
-{
-    const std::scoped_lock lock(users.mutex);
-    if (--users.count == 0) openblas_set_num_threads(users.threads_before);
-}
+OneDenseThread::~OneDenseThread() { openblas_set_num_threads(before_); }
 
 }  // namespace koebe

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "pipeline/canonical_form.h"
+#include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,16 +14,6 @@ namespace {
 
 constexpr double same_length = 1e-9;  // relative difference of loops that are equally long
 
-/// Length of the edge from each vertex of a loop to the next. Vertices that coincide in space still need an angle of
-/// their own, so no edge counts for less than 1e-9 of the mean.
-VectorXd loop_edges(const Vertices& vertices, const VertexLoop& loop)
-{
-    VectorXd edges(loop.size());
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        edges[i] = (vertices.row(loop[(i + 1) % loop.size()]) - vertices.row(loop[i])).stableNorm();
-    return edges.cwiseMax(1e-9 * edges.mean());
-}
-
 /// The loop that the options name, in the surface's own order.
 std::size_t choose_outer_loop(const Domain& domain, const UniformizeOptions& options)
 {
@@ -32,7 +23,7 @@ std::size_t choose_outer_loop(const Domain& domain, const UniformizeOptions& opt
             for (const Index v : loops[k])
                 if (domain.original[v] == options.outer_vertex) return k;
         throw InputError("vertex " + std::to_string(options.outer_vertex) + " lies on no boundary loop",
-                         {options.outer_vertex});
+                         ElementKind::vertices, {options.outer_vertex});
     }
     std::size_t longest = 0;
     double length = 0.0;

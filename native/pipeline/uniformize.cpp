@@ -235,4 +235,10 @@ UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles
     });
 }
 
+UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
+{
+    ExecutionContext context;
+    return uniformize(vertices, triangles, options, context);
+}
+
 }  // namespace koebe

@@ -18,4 +18,8 @@ namespace koebe {
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
                             ExecutionContext& context);
 
+/// The same without progress, never cancelled.
+UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles,
+                            const UniformizeOptions& options = {});
+
 }  // namespace koebe

@@ -20,7 +20,7 @@ PlanarRegion::PlanarRegion(const std::vector<VectorXcd>& polygons, const std::ve
     std::vector<Index> lost;
     for (std::size_t i = 0; i < boundary_count; ++i)
         if (handles[i] == Cdt::Vertex_handle()) lost.push_back(static_cast<Index>(i));
-    if (!lost.empty()) throw InputError("points of a polygon coincide (points listed)", lost);
+    if (!lost.empty()) throw InputError("points of a polygon coincide (points listed)", ElementKind::points, lost);
     constrain(polygons, handles);
     mark_inside();
 }
@@ -35,12 +35,13 @@ void PlanarRegion::constrain(const std::vector<VectorXcd>& polygons, const std::
             try {
                 cdt_.insert_constraint(handles[from], handles[to]);
             } catch (const Cdt::Intersection_of_constraints_exception&) {
-                throw InputError("polygons cross (end points of the edge listed)", {from, to});
+                throw InputError("polygons cross (end points of the edge listed)", ElementKind::points, {from, to});
             }
             Cdt::Face_handle face;
             int opposite = 0;
             if (!cdt_.is_edge(handles[from], handles[to], face, opposite))
-                throw InputError("a polygon's point lies on an edge (end points of the edge listed)", {from, to});
+                throw InputError("a polygon's point lies on an edge (end points of the edge listed)",
+                                 ElementKind::points, {from, to});
         }
         begin += n;
     }

@@ -20,7 +20,10 @@ void raise(const char* name, const std::string& message, const KoebeError* error
 {
     const py::object type = py::module_::import("koebe.errors").attr(name);
     py::object instance = type(message);
-    if (error) instance.attr("elements") = py::cast(error->elements());
+    if (error) {
+        instance.attr("elements") = py::cast(error->elements());
+        instance.attr("of") = to_string(error->elements_of());
+    }
     if (const auto* topology = dynamic_cast<const TopologyError*>(error))
         instance.attr("kind") = to_string(topology->kind());
     PyErr_SetObject(type.ptr(), instance.ptr());

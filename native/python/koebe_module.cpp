@@ -1,6 +1,7 @@
 // The Python module: its definitions. Arrays come checked from koebe/_arrays.py, and each call copies them.
 #include "error_translation.h"
 #include "native_call.h"
+#include "report_object.h"
 
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
@@ -15,6 +16,7 @@
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
 #include "surface/harmonic_map.h"
+#include "surface/loop_edges.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -67,12 +69,7 @@ std::vector<Circle> circles_of(const PlanarPoints& centers, const VectorXd& radi
 std::pair<PlanarPoints, double> annulus_by(AnnulusBackend backend, const Vertices& vertices, const Triangles& triangles)
 {
     const Surface surface = surface_with_loops(vertices, triangles, 2);
-    const auto length = [&](const VertexLoop& loop) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            sum += (vertices.row(loop[(i + 1) % loop.size()]) - vertices.row(loop[i])).norm();
-        return sum;
-    };
+    const auto length = [&](const VertexLoop& loop) { return loop_edges(vertices, loop).sum(); };
     const int outer = length(surface.loops[0]) >= length(surface.loops[1]) ? 0 : 1;
     const AnnulusMap map =
         annulus_map(surface.triangles, edge_lengths(vertices, surface.triangles), surface.vertex_count,
@@ -129,7 +126,7 @@ PYBIND11_MODULE(_koebe, m)
     py::class_<UniformizeResult>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
         .def_property_readonly("flipped_faces", [](const UniformizeResult& r) { return r.distortion.flipped; })
-        .def("to_json", [](const UniformizeResult& r) { return to_json(r).dump(); });
+        .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
 
     m.def("uniformize", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
@@ -180,11 +177,10 @@ PYBIND11_MODULE(_koebe, m)
     });
     m.def("distortion", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const Eigen::Ref<const PlanarPoints>& uv) {
-        return detached(
-            [positions = Vertices(vertices), faces = Triangles(triangles), points = PlanarPoints(uv)] {
-                return to_json(measure_distortion(positions, faces, points)).dump();
-            },
-            triangles.rows() < small_mesh);
+        return to_object(
+            to_json(detached([positions = Vertices(vertices), faces = Triangles(triangles),
+                              points = PlanarPoints(uv)] { return measure_distortion(positions, faces, points); },
+                             triangles.rows() < small_mesh)));
     });
     m.def("conformal_module", [](const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& order) {
         return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); },

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double alike = 1e-2;              // separations this near are not told apart, dimensionless
 constexpr std::size_t most_orders = 5040;   // 7!
+constexpr double least_radius = 1e-100;     // unit disk: squares of less vanish in rounding
 constexpr double unit_circle_error = 1e-6;  // of the outer circle's centre and radius, a length in the unit disk
 
 std::vector<int> checked_order(std::size_t count, const std::vector<int>& order)
@@ -120,15 +121,16 @@ void require_circle_domain(const std::vector<Circle>& circles)
 {
     if (circles.empty()) throw InputError("a circle domain has one circle at least");
     if (std::abs(circles[0].center) > unit_circle_error || std::abs(circles[0].radius - 1.0) > unit_circle_error)
-        throw InputError("the first circle must be the unit circle", {0});
+        throw InputError("the first circle must be the unit circle", ElementKind::loops, {0});
     for (std::size_t i = 1; i < circles.size(); ++i) {
-        const bool inside = circles[i].radius > 0.0 && std::abs(circles[i].center) + circles[i].radius < 1.0;
+        const bool inside = circles[i].radius >= least_radius && std::abs(circles[i].center) + circles[i].radius < 1.0;
         if (!inside)
-            throw InputError("a circle does not lie in the unit disk (number listed)", {static_cast<Index>(i)});
+            throw InputError("a circle does not lie in the unit disk, or its radius is below 1e-100 (number listed)", ElementKind::loops,
+                             {static_cast<Index>(i)});
         for (std::size_t j = 1; j < i; ++j)
             if (!(std::abs(circles[i].center - circles[j].center) > circles[i].radius + circles[j].radius))
                 throw InputError("the circles of two loops meet: the mesh is too coarse there (their numbers listed)",
-                                 {static_cast<Index>(j), static_cast<Index>(i)});
+                                 ElementKind::loops, {static_cast<Index>(j), static_cast<Index>(i)});
     }
 }
 
@@ -194,7 +196,7 @@ void require_own_circles(const std::vector<LoopReport>& loops)
             "the circles of " + std::to_string(shrunk.size()) +
                 " loops are not those of the surface, as the mesh is too coarse for them or they are lost in "
                 "rounding: there is no conformal module (loops listed, the outer one is 0)",
-            shrunk);
+            ElementKind::loops, shrunk);
 }
 
 }  // namespace koebe

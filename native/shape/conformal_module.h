@@ -44,7 +44,8 @@ std::vector<int> canonical_order(const std::vector<Circle>& circles, bool any_ou
 /// distance, 2 pi times the modulus of the ring between them. Free of Moebius maps, dimensionless.
 double conformal_separation(const Circle& a, const Circle& b);
 
-/// @throws InputError the first circle is not the unit circle, circles meet or lie outside (their numbers listed)
+/// @throws InputError the first circle is not the unit circle, circles meet, lie outside or have a radius
+///         below 1e-100, of which the square vanishes (their numbers listed)
 void require_circle_domain(const std::vector<Circle>& circles);
 
 /// A module tells about circles that the surface has; where the mesh was too coarse for the iteration's, and others

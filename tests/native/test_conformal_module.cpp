@@ -154,6 +154,8 @@ TEST(ConformalModule, refuses_what_is_no_circle_domain)
     EXPECT_THROW(conformal_module({{}, {{0.5, 0.0}, 0.3}, {{0.2, 0.0}, 0.1}}), InputError);
     EXPECT_THROW(conformal_module({{}, {{0.8, 0.0}, 0.3}}), InputError);
     EXPECT_THROW(conformal_module({{{0.0, 0.0}, 2.0}}), InputError);
+    EXPECT_THROW(conformal_module({{}, {{0.0, 0.0}, 9e-279}, {{3e-277, 0.0}, 9e-279}}), InputError);
+    EXPECT_TRUE(conformal_module({{}, {{0.0, 0.0}, 1e-99}, {{3e-99, 0.0}, 1e-99}}).allFinite());
     EXPECT_THROW(conformal_module(five_circles(), {0, 1, 2, 3}), InputError);
     EXPECT_THROW(conformal_module(five_circles(), {0, 1, 2, 3, 3}), InputError);
 }

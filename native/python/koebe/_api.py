@@ -1,6 +1,5 @@
 """The public functions: arrays checked, options made native, results wrapped."""
 
-import json
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -120,7 +119,7 @@ def fill_holes(
     Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
     """
     positions, faces = as_surface(vertices, triangles)
-    ranks = None if loops is None else as_indices(loops, "loops", faces.size)
+    ranks = None if loops is None else as_indices(loops, "loops", faces.size, "loops")
     return _koebe.fill_holes(positions, faces, ranks, flag(fair, "fair"))
 
 
@@ -136,7 +135,7 @@ def harmonic_map(
     Returns (V, 2) float64.
     """
     positions, faces = as_surface(vertices, triangles)
-    chosen = as_indices(fixed, "fixed", len(positions))
+    chosen = as_indices(fixed, "fixed", len(positions), "vertices")
     if not len(chosen):
         raise InputError("there must be one fixed vertex at least")
     points = as_points(values, "values", 2, len(chosen))
@@ -149,7 +148,7 @@ def distortion(vertices: Any, triangles: Any, uv: Any) -> dict[str, Any]:
     uv   (V, 2) points of the unit disk, x + iy
     """
     positions, faces = as_surface(vertices, triangles)
-    report = json.loads(_koebe.distortion(positions, faces, as_points(uv, "uv", 2, len(positions))))
+    report = _koebe.distortion(positions, faces, as_points(uv, "uv", 2, len(positions)))
     if not _is_finite(report):
         raise SolverError("the distortion is beyond floating point: scale the surface, or the map, to about 1")
     return report

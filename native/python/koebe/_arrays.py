@@ -37,9 +37,9 @@ def as_triangles(triangles: Any, vertex_count: int | None = None) -> np.ndarray:
     if len(faces) > _MOST_FACES:
         raise InputError(f"the mesh has {len(faces)} faces; there may be {_MOST_FACES}")
     limit = _MOST_VERTICES if vertex_count is None else vertex_count
-    _refuse(((faces < 0) | (faces >= limit)).any(axis=1), "faces name a vertex that does not exist (faces listed)")
+    _refuse(((faces < 0) | (faces >= limit)).any(axis=1), "faces name a vertex that does not exist (faces listed)", "faces")
     a, b, c = faces.T
-    _refuse((a == b) | (b == c) | (c == a), "faces name the same vertex twice (faces listed)")
+    _refuse((a == b) | (b == c) | (c == a), "faces name the same vertex twice (faces listed)", "faces")
     return faces.astype(np.int32, copy=False)
 
 
@@ -51,19 +51,19 @@ def as_points(
     if count is not None and len(array) != count:
         raise InputError(f"{name} has {len(array)} rows, not {count}")
     array = array.astype(np.float64, copy=False)
-    _refuse(~np.isfinite(array).all(axis=1), f"{name} have a coordinate that is NaN or infinite")
+    _refuse(~np.isfinite(array).all(axis=1), f"{name} have a coordinate that is NaN or infinite", "vertices")
     return array
 
 
-def as_indices(indices: Any, name: str, count: int) -> np.ndarray:
+def as_indices(indices: Any, name: str, count: int, of: str) -> np.ndarray:
     """(n,) int32: different ones of 0 .. count - 1. Takes any sequence of whole numbers, or none at all."""
     array = np.zeros(0, np.int64) if _is_empty(indices) else _copy(indices, name, _WHOLE)
     bad = array[(array < 0) | (array >= count)]
     if len(bad):
-        raise InputError(f"{name} must name numbers from 0 to {count - 1}, not {bad[0]}", bad.tolist())
+        raise InputError(f"{name} must name numbers from 0 to {count - 1}, not {bad[0]}", bad.tolist(), of)
     found, times = np.unique(array, return_counts=True)
     if (times > 1).any():
-        raise InputError(f"{name} names {found[times > 1][0]} twice", found[times > 1].tolist())
+        raise InputError(f"{name} names {found[times > 1][0]} twice", found[times > 1].tolist(), of)
     return array.astype(np.int32, copy=False)
 
 
@@ -79,7 +79,7 @@ def as_numbers(numbers: Any, name: str) -> np.ndarray:
     """(n,) float64, finite. Takes whole numbers too, and an empty list."""
     array = np.zeros(0) if _is_empty(numbers) else _copy(numbers, name, _REAL + _WHOLE)
     array = array.astype(np.float64, copy=False)
-    _refuse(~np.isfinite(array), f"numbers of {name} are NaN or infinite")
+    _refuse(~np.isfinite(array), f"numbers of {name} are NaN or infinite", "loops")
     return array
 
 
@@ -110,8 +110,8 @@ def _is_empty(values: Any) -> bool:
     return isinstance(values, (list, tuple)) and not values
 
 
-def _refuse(bad: np.ndarray, message: str) -> None:
-    """Raises InputError if any is bad, with their numbers."""
+def _refuse(bad: np.ndarray, message: str, of: str) -> None:
+    """Raises InputError if any is bad, with their numbers and what these are."""
     elements = np.flatnonzero(bad)
     if elements.size:
-        raise InputError(f"{elements.size} {message}", elements.tolist())
+        raise InputError(f"{elements.size} {message}", elements.tolist(), of)

@@ -1,7 +1,7 @@
 """What a uniformization gives."""
 
-import json
-from typing import Any
+import copy
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -45,6 +45,63 @@ class Warning(dict):
         return self["text"]
 
 
+class _AngleErrorBeforePolish(TypedDict, total=False):
+    before_polish: float
+
+
+class AngleError(_AngleErrorBeforePolish):
+    """Degrees, |angle in UV - angle on the surface| over all corners; before_polish is the mean without `polish`."""
+
+    mean: float
+    sd: float
+    max: float
+
+
+class Beltrami(TypedDict):
+    """|mu| of the face-wise linear maps, dimensionless."""
+
+    mean: float
+    max: float
+
+
+class LogAreaRatio(TypedDict):
+    """log of (UV area / surface area), area-weighted on the surface, its mean subtracted: 0 is even texel density."""
+
+    log_sd: float
+    log_min: float
+    log_max: float
+
+
+class _AreaBeforeBalance(TypedDict, total=False):
+    before_balance: LogAreaRatio
+
+
+class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
+    """before_balance is the same without `balance`."""
+
+
+class Step(TypedDict):
+    """A step of the Koebe iteration: the two loops it opened, the change of all circles, the mean e(gamma_k) after it."""
+
+    step: int
+    pair: list[int]
+    change: float
+    mean_roundness: float
+
+
+class Seconds(TypedDict):
+    """Time of each stage."""
+
+    read: float
+    topology: float
+    metric: float
+    factor: float
+    iterate: float
+    finish: float
+    write: float
+    total: float
+
+
 class UniformizeResult:
     """A circle domain and its report.
 
@@ -53,35 +110,64 @@ class UniformizeResult:
     centers, radii   (L, 2) and (L,) circles in the unit disk
     roundness        (L,) the paper's e(gamma_k) before the final projection (section 5)
     off_circle       int32 arrays: vertices of each loop that are not on its circle
+    vertices, faces  their counts
+    method, engine   as chosen
+    outer_loop       which of boundary_loops(triangles) is the outer one
+    converged, sweeps, steps     of the iteration
     history          one entry a step: step, pair, change, mean_roundness
+    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say
     flipped, below_resolution    counts of faces, as in the command's JSON
     flipped_faces    int32 array of the faces that `flipped` counts, rising
+    seconds          of each stage
+    peak_memory_mb   of the process
     warnings         list of Warning: kind, elements, text
     """
 
+    uv: np.ndarray
+    loops: list[np.ndarray]
+    centers: np.ndarray
+    radii: np.ndarray
+    roundness: np.ndarray
+    off_circle: list[np.ndarray]
+    vertices: int
+    faces: int
+    method: str
+    engine: str
+    outer_loop: int
+    converged: bool
+    sweeps: int
+    steps: int
+    history: list[Step]
+    angle_error_deg: AngleError
+    beltrami: Beltrami
+    area_distortion: AreaDistortion
+    conformal_energy: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    seconds: Seconds
+    peak_memory_mb: float
+    warnings: list[Warning]
+
     def __init__(self, native: "_koebe.UniformizeResult") -> None:
-        self._report: dict[str, Any] = json.loads(native.to_json())
-        self.uv: np.ndarray = native.uv
+        report: dict[str, Any] = native.report()
+        self._native = native
+        self._report = report
+        loops = report["loops"]
+        vars(self).update({name: value for name, value in report.items() if name not in {"version", "input"}})
+        self.uv = native.uv
         self.uv.flags.writeable = False
-        loops = self._report["loops"]
         self.loops = as_loops([loop["vertices"] for loop in loops])
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
-        self.warnings = [Warning(warning) for warning in self._report["warnings"]]
-        self.flipped_faces = np.array(native.flipped_faces, dtype=np.int32)
-        self._native = native
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
-
-    def __getattr__(self, name: str) -> Any:
-        """The remaining fields of the report: converged, sweeps, steps, history, angle_error_deg, ..."""
-        if name != "_report" and name in self._report:
-            return self._report[name]
-        raise AttributeError(f"UniformizeResult has no attribute '{name}'")
+        self.flipped_faces = np.array(native.flipped_faces, dtype=np.int32)
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict."""
-        return json.loads(json.dumps(self._report))
+        return copy.deepcopy(self._report)
 
     def __repr__(self) -> str:
         return (

@@ -47,7 +47,7 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
         if order != "canonical":
             raise OptionError(f"order must be None, 'canonical' or a list of loops, not {order!r}")
         order = canonical_order(result)
-    chosen = np.arange(len(radii), dtype=np.int32) if order is None else as_indices(order, "order", len(radii))
+    chosen = np.arange(len(radii), dtype=np.int32) if order is None else as_indices(order, "order", len(radii), "loops")
     if len(chosen) != len(radii):
         raise InputError(f"the order must name each of the {len(radii)} loops once")
     return _koebe.conformal_module(centers, radii, chosen)
@@ -112,7 +112,7 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
     With one hole the circles leave the rotation free, and without a hole everything: the free part is the identity's.
     """
     a, b = as_circles(source), as_circles(target)
-    chosen = [] if match is None else as_indices(match, "match", len(b[1]))
+    chosen = [] if match is None else as_indices(match, "match", len(b[1]), "loops")
     if match is not None and not len(chosen):
         raise InputError("the match must name each of the target's loops once, the outer one first")
     return DomainAlignment(_koebe.align_domains(*a, *b, chosen))

@@ -4,11 +4,16 @@ from collections.abc import Sequence
 
 
 class KoebeError(Exception):
-    """Base of all errors. ``elements`` lists the offending vertices or faces; the message says which."""
+    """Base of all errors.
 
-    def __init__(self, message: str = "", elements: Sequence[int] = ()) -> None:
+    elements   what offends, by number; edges by the two vertices of each
+    of         what the elements are: "vertices", "faces", "edges", "loops" or "none"
+    """
+
+    def __init__(self, message: str = "", elements: Sequence[int] = (), of: str = "none") -> None:
         super().__init__(message)
         self.elements = elements
+        self.of = of
 
 
 class InputError(KoebeError):

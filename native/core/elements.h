@@ -1,0 +1,28 @@
+// What the numbers that errors and warnings list are.
+#pragma once
+
+namespace koebe {
+
+enum class ElementKind {
+    none,  ///< nothing is listed
+    vertices,
+    faces,
+    edges,   ///< by their ends: two vertices each
+    loops,   ///< or circles, by their place in the list
+    points,  ///< of planar polygons, by their place in all of them
+};
+
+constexpr const char* to_string(ElementKind kind) noexcept
+{
+    switch (kind) {
+    case ElementKind::none: return "none";
+    case ElementKind::vertices: return "vertices";
+    case ElementKind::faces: return "faces";
+    case ElementKind::edges: return "edges";
+    case ElementKind::loops: return "loops";
+    case ElementKind::points: return "points";
+    }
+    return "none";
+}
+
+}  // namespace koebe

@@ -1,0 +1,21 @@
+// Koebe UV for C++ programs: #include <koebe/koebe.h>, find_package(koebe), link koebe::koebe.
+//
+// Surfaces are (V, 3) positions and (F, 3) vertex indices (core/types.h); a map is (V, 2) points of the unit disk.
+// The library never prints. Errors derive from koebe::KoebeError (core/errors.h).
+#pragma once
+
+#include "conformal/annulus_map.h"
+#include "conformal/disk_map.h"
+#include "core/errors.h"
+#include "core/execution.h"
+#include "core/topology.h"
+#include "core/types.h"
+#include "core/warning.h"
+#include "holes/hole_fairing.h"
+#include "holes/hole_filling.h"
+#include "pipeline/uniformize.h"
+#include "quality/distortion.h"
+#include "shape/conformal_module.h"
+#include "shape/domain_alignment.h"
+#include "shape/loop_matching.h"
+#include "surface/harmonic_map.h"
