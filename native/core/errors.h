@@ -18,7 +18,7 @@ public:
         : std::runtime_error(message), elements_of_(kind), elements_(std::move(elements))
     {
     }
-    virtual ~KoebeError() = default;
+    ~KoebeError() override = default;
     /// The error's public name, as printed by the command and used in Python.
     virtual const char* name() const noexcept { return "KoebeError"; }
     const std::vector<Index>& elements() const noexcept { return elements_; }

@@ -2,8 +2,8 @@
 
 #include "core/errors.h"
 #include "io/off_text.h"
+#include "io/text_numbers.h"
 
-#include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
@@ -38,12 +38,15 @@ struct Soup {
     std::vector<std::vector<Index>> polygons;
 };
 
+constexpr std::size_t most = std::numeric_limits<Index>::max();
+
+[[noreturn]] void too_large() { throw InputError("the mesh is too large for 32-bit indices"); }
+
 PolygonMesh to_mesh(const Soup& soup)
 {
     std::size_t corners = 0;
     for (const std::vector<Index>& polygon : soup.polygons) corners += polygon.size();
-    if (std::max({soup.points.size(), soup.polygons.size(), corners}) >= std::numeric_limits<Index>::max())
-        throw InputError("the mesh is too large for 32-bit indices");
+    if (std::max({soup.points.size(), soup.polygons.size(), corners}) >= most) too_large();
     PolygonMesh mesh;
     mesh.vertices.resize(static_cast<Eigen::Index>(soup.points.size()), 3);
     for (std::size_t v = 0; v < soup.points.size(); ++v)
@@ -69,89 +72,67 @@ void require_count_fits(std::size_t count, const std::string& element, std::size
     if (count > bytes) throw InputError("the header's number of element " + element + " does not fit the file");
 }
 
-// ---------------------------------------------------------------- OBJ
-
-std::size_t count_words(std::string_view line)
-{
-    std::size_t words = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) words += line[i] != ' ' && (i == 0 || line[i - 1] == ' ');
-    return words;
-}
-
-/// The lines of an OBJ file that make the mesh.
-struct ObjLines {
-    std::string text;
-    std::size_t vertex_count = 0;
-    std::vector<std::size_t> face_sizes;
-};
-
-/// CGAL refuses a file over a keyword it does not know, as l, and knows neither tabs in faces nor lines that go on.
-ObjLines obj_lines(std::string bytes)
-{
-    std::erase(bytes, '\r');
-    std::ranges::replace(bytes, '\t', ' ');
-    ObjLines result;
-    result.text.reserve(bytes.size());
-    std::istringstream lines(std::move(bytes));
-    for (std::string line, next; std::getline(lines, line);) {
-        line.erase(0, line.find_first_not_of(' '));
-        const std::string keyword = line.substr(0, line.find_first_of(" #"));
-        if (keyword != "v" && keyword != "f") continue;  // their names and comments may end with a backslash
-        line.erase(std::min(line.find('#'), line.size()));
-        while (line.ends_with('\\') && std::getline(lines, next)) {
-            line.back() = ' ';
-            line += next.substr(0, next.find('#'));
-        }
-        if (keyword == "f")
-            result.face_sizes.push_back(count_words(line) - 1);
-        else
-            ++result.vertex_count;
-        result.text += line;
-        result.text += '\n';
-    }
-    return result;
-}
-
 }  // namespace
 
+// ---------------------------------------------------------------- OBJ
+
+/// Not by CGAL, which makes a stream of each line: that takes a third of the command's whole time. tinyobjloader
+/// changes the last digits of numbers, and Assimp keeps 32 bits.
 PolygonMesh read_obj(std::string bytes)
 {
-    ObjLines lines = obj_lines(std::move(bytes));
-    std::istringstream file(std::move(lines.text));
-    Soup soup;
-    CGAL::IO::read_OBJ(file, soup.points, soup.polygons);  // what makes it false is found here and by read_mesh
-    if (soup.points.size() < lines.vertex_count) fail("vertex", soup.points.size(), "is not three finite numbers");
-    for (std::size_t f = 0; f < soup.polygons.size(); ++f)
-        if (soup.polygons[f].size() != lines.face_sizes[f]) fail("face", f, "has a corner that is no integer");
-    return to_mesh(soup);
+    std::vector<double> coordinates;
+    PolygonMesh mesh;
+    TextLines lines(bytes);
+    while (lines.next_line()) {
+        const std::string_view keyword = lines.next_word();
+        const std::size_t vertex_count = coordinates.size() / 3;
+        if (keyword == "v") {
+            for (int axis = 0; axis < 3; ++axis)
+                if (!to_number(lines.next_word_of_joined_lines(), coordinates.emplace_back()))
+                    fail("vertex", vertex_count, "is not three finite numbers");
+        } else if (keyword == "f") {
+            for (std::string_view word; !(word = lines.next_word_of_joined_lines()).empty();) {
+                Index corner = 0;  // from 1 on; from the last vertex backwards if it is negative
+                if (!to_number(word.substr(0, word.find('/')), corner))
+                    fail("face", mesh.face_begin.size() - 1, "has a corner that is no integer");
+                mesh.corners.push_back(corner > 0 ? corner - 1 : static_cast<Index>(vertex_count) + corner);
+            }
+            mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
+        }
+        if (std::max({vertex_count, mesh.face_begin.size(), mesh.corners.size()}) >= most) too_large();
+    }
+    mesh.vertices =
+        Eigen::Map<const Vertices>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+    return mesh;
 }
 
 // ---------------------------------------------------------------- OFF
 
-/// Not by read_OFF, which makes room for as many corners as a face says, and reads outside its arrays if a colour has
-/// two numbers; nor can it say which element is wrong.
+/// The header by CGAL. Not by read_OFF, which makes room for as many corners as a face says, and reads outside its
+/// arrays if a colour has two numbers; nor can it say which element is wrong.
 PolygonMesh read_off(std::string bytes)
 {
     require_off_header(bytes);
-    const std::size_t size = bytes.size();
-    std::istringstream file(std::move(bytes));
-    CGAL::File_scanner_OFF scanner(file);
+    std::istringstream file(bytes);
+    const CGAL::File_scanner_OFF header(file);
     if (file.fail()) throw InputError("the file does not start with OFF and three counts");
     if (file.peek() == '.') throw InputError("the header has no number of edges");  // it was taken from a coordinate
-    require_count_fits(scanner.size_of_vertices(), "vertex", size);
-    require_count_fits(scanner.size_of_facets(), "face", size);
-    Soup soup;
-    for (std::size_t v = 0; v < scanner.size_of_vertices(); ++v) {
-        Point& point = soup.points.emplace_back();
-        scanner.scan_vertex(point[0], point[1], point[2]);
-        if (file.fail()) fail("vertex", v, "is missing or is not three finite numbers");
-    }
-    for (std::size_t f = 0; f < scanner.size_of_facets(); ++f) {
-        const Index first = static_cast<Index>(scanner.index_offset());
-        if (!read_off_face(file, soup.polygons.emplace_back(), first, scanner.size_of_vertices()))
+    require_count_fits(header.size_of_vertices(), "vertex", bytes.size());
+    require_count_fits(header.size_of_facets(), "face", bytes.size());
+    const std::size_t end = file.eof() ? bytes.size() : static_cast<std::size_t>(file.tellg());
+    TextLines lines(std::string_view(bytes).substr(end));
+    PolygonMesh mesh;
+    mesh.vertices.resize(static_cast<Eigen::Index>(header.size_of_vertices()), 3);
+    for (std::size_t v = 0; v < header.size_of_vertices(); ++v)
+        if (!read_off_vertex(lines, header.is_homogeneous(), mesh.vertices.row(static_cast<Eigen::Index>(v)).data()))
+            fail("vertex", v, "is missing or is not three finite numbers");
+    for (std::size_t f = 0; f < header.size_of_facets(); ++f) {
+        if (!read_off_face(lines, mesh.corners, static_cast<Index>(header.index_offset()), header.size_of_vertices()))
             fail("face", f, "is missing, is cut short or names a vertex that is not there");
+        if (mesh.corners.size() >= most) too_large();
+        mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
     }
-    return to_mesh(soup);
+    return mesh;
 }
 
 // ---------------------------------------------------------------- PLY

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <sstream>
 #include <string>
 
 namespace koebe::io {
@@ -22,6 +21,14 @@ std::string_view next_word(std::string_view& text)
     }
     const std::string_view word = text.substr(0, text.find_first_of(spaces));
     text.remove_prefix(word.size());
+    return word;
+}
+
+/// The first word of the next line that has one; empty at the end.
+std::string_view first_word(TextLines& lines)
+{
+    std::string_view word;
+    while (word.empty() && lines.next_line()) word = lines.next_word();
     return word;
 }
 
@@ -48,19 +55,27 @@ void require_off_header(std::string_view bytes)
     }
 }
 
-bool read_off_face(std::istream& file, std::vector<Index>& polygon, Index first, std::size_t vertex_count)
+bool read_off_vertex(TextLines& lines, bool is_homogeneous, double* point)
 {
-    std::string line;
-    do {
-        if (!std::getline(file, line)) return false;
-        line.erase(std::min(line.find('#'), line.size()));
-    } while (line.find_first_not_of(" \t\r") == std::string::npos);
-    std::istringstream words(line);
-    Index corners = 0;
-    words >> corners;
-    for (Index vertex; std::ssize(polygon) < corners && words >> vertex; polygon.push_back(vertex - first))
-        if (vertex < first || static_cast<std::size_t>(vertex - first) >= vertex_count) return false;
-    return !words.fail() && std::ssize(polygon) == corners;
+    std::string_view word = first_word(lines);
+    for (int axis = 0; axis < 3; ++axis, word = lines.next_word())
+        if (!to_number(word, point[axis])) return false;
+    double w = 1.0;
+    if (is_homogeneous && (!to_number(word, w) || w == 0.0)) return false;
+    for (int axis = 0; axis < 3; ++axis) point[axis] /= w;
+    return true;
+}
+
+bool read_off_face(TextLines& lines, std::vector<Index>& corners, Index first, std::size_t vertex_count)
+{
+    Index count = 0, vertex = 0;
+    if (!to_number(first_word(lines), count)) return false;
+    for (Index k = 0; k < count; ++k) {
+        if (!to_number(lines.next_word(), vertex) || vertex < first) return false;
+        if (static_cast<std::size_t>(vertex - first) >= vertex_count) return false;
+        corners.push_back(vertex - first);
+    }
+    return count >= 0;
 }
 
 }  // namespace koebe::io

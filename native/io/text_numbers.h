@@ -1,0 +1,38 @@
+// Words and numbers of a text file, by fast_float: exact, and without a stream.
+#pragma once
+
+#include "core/types.h"
+
+#include <string_view>
+
+namespace koebe::io {
+
+/// The word as a number; false if it is not one finite number and nothing else. A plus sign may stand before it.
+bool to_number(std::string_view word, double& number);
+
+/// The same for an integer of 32 bits.
+bool to_number(std::string_view word, Index& number);
+
+/// The words of one line after the other. '#' begins a comment, which ends with the line.
+class TextLines {
+public:
+    explicit TextLines(std::string_view text) : rest_(text) {}
+
+    /// Leaves what is left of this line, and goes to the next. @return false after the last
+    bool next_line();
+
+    /// The next word of this line; empty at its end.
+    std::string_view next_word();
+
+    /// The same where a backslash at the end of a line joins it with the next one.
+    std::string_view next_word_of_joined_lines();
+
+    /// What is left, from the place that was read to.
+    std::string_view rest() const { return rest_; }
+
+private:
+    std::string_view rest_;
+    bool begun_ = false;
+};
+
+}  // namespace koebe::io
