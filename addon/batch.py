@@ -39,16 +39,32 @@ for name in {"SIGXFSZ", "SIGPIPE"} & set(dir(signal)):  # a file or a pipe that 
     signal.signal(getattr(signal, name), signal.SIG_IGN)
 load_package()
 
-from koebe_uv_batch import batch_exit  # noqa: E402
+from koebe_uv_batch.headless.exit_and_signals import (  # noqa: E402
+    BROKEN,
+    DONE,
+    INTERRUPTED,
+    NOT_CONVERGED,
+    UNMAPPABLE,
+    USAGE,
+    Signals,
+    Stop,
+    refusal,
+    say,
+    tell,
+)
 
-SIGNALS = batch_exit.Signals()  # before bpy, which as a module takes a second to load
+SIGNALS = Signals()  # before bpy, which as a module takes a second to load
 
 import bpy  # noqa: E402
-from koebe_uv_batch import batch_arguments, batch_files, batch_objects, native, report, transfer  # noqa: E402
-from koebe_uv_batch import job as koebe_job  # noqa: E402
-from koebe_uv_batch.batch_exit import Stop  # noqa: E402
+from koebe_uv_batch.blender.errors import TransferError  # noqa: E402
+from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, parse  # noqa: E402
+from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
+from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
+from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
+from koebe_uv_batch.maps import json_report, wording  # noqa: E402
+from koebe_uv_batch.solver.load import NativeError  # noqa: E402
 
-OUT_OF_MEMORY = Stop(batch_exit.UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
+OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
 
 
 def main():
@@ -56,11 +72,11 @@ def main():
     try:
         return run()
     except Stop as stop:
-        batch_exit.tell(stop.reason)
+        tell(stop.reason)
         return stop.code
     except Exception:
         traceback.print_exc()
-        return batch_exit.BROKEN
+        return BROKEN
 
 
 def run():
@@ -74,16 +90,16 @@ def run():
         refuse_what_is_read([file for file in (output, report_file) if file is not None])
         job = map_objects(request)
         code = exit_code(job)
-        content["objects"] = [entry for outcome in job.outcomes for entry in report.entries(outcome)]
+        content["objects"] = [entry for outcome in job.outcomes for entry in json_report.entries(outcome)]
     except (Stop, MemoryError) as error:
         stop = error if isinstance(error, Stop) else OUT_OF_MEMORY
-        if stop.code not in (batch_exit.BROKEN, batch_exit.UNMAPPABLE):
+        if stop.code not in (BROKEN, UNMAPPABLE):
             raise
-        batch_exit.tell(stop.reason)
+        tell(stop.reason)
         code = stop.code
         content.update(error={"name": stop.name, "reason": stop.reason}, objects=stop.objects)
     content["exit_code"] = code
-    if code not in (batch_exit.DONE, batch_exit.NOT_CONVERGED):
+    if code not in (DONE, NOT_CONVERGED):
         output = None
     else:
         content["output"] = request.output
@@ -95,27 +111,27 @@ def run():
 def request_and_source():
     """What is asked for, and the path of the .blend file."""
     at = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
-    request = batch_arguments.parse(sys.argv[at + 1 :])
+    request = parse(sys.argv[at + 1 :])
     sources = [bpy.data.filepath] if bpy.app.binary_path else sys.argv[1:at]
     sources = [source for source in (*sources, request.source) if source]
     if len(sources) != 1:
         what = "no IN.blend" if not sources else f"more than one IN.blend: {', '.join(sources)}"
-        usage = batch_arguments.IN_BLENDER if bpy.app.binary_path else batch_arguments.WITH_BPY
-        raise Stop(batch_exit.USAGE, f"{what}; usage: {usage}")
+        usage = IN_BLENDER if bpy.app.binary_path else WITH_BPY
+        raise Stop(USAGE, f"{what}; usage: {usage}")
     return request, os.path.abspath(sources[0])
 
 
 def targets(request, source):
     """The files to write, of which the second may be None."""
-    output = batch_files.Target(request.output)
+    output = Target(request.output)
     if output.direct:
-        raise Stop(batch_exit.USAGE, f"--output {request.output} is no file that can be replaced")
+        raise Stop(USAGE, f"--output {request.output} is no file that can be replaced")
     if request.report is None:
         return output, None
     for other, what in ((source, "the input"), (output.path, "the output")):
-        if batch_files.is_same(request.report, other):
-            raise Stop(batch_exit.USAGE, f"--report {request.report} is {what}")
-    return output, batch_files.Target(request.report)
+        if is_same(request.report, other):
+            raise Stop(USAGE, f"--report {request.report} is {what}")
+    return output, Target(request.report)
 
 
 def open_source(source):
@@ -125,11 +141,11 @@ def open_source(source):
             bpy.ops.wm.open_mainfile(filepath=source)
         except RuntimeError as error:
             reason = str(error).strip().removeprefix("Error: ")
-            raise Stop(batch_exit.UNMAPPABLE, f"{source} cannot be read: {reason}", "FileError") from None
+            raise Stop(UNMAPPABLE, f"{source} cannot be read: {reason}", "FileError") from None
     if bpy.data.version[:2] > bpy.app.version[:2]:
         by, this = (".".join(map(str, version[:2])) for version in (bpy.data.version, bpy.app.version))
         reason = f"{source} was saved by Blender {by}, and this is {this}: data would be lost"
-        raise Stop(batch_exit.UNMAPPABLE, reason, "FileError")
+        raise Stop(UNMAPPABLE, reason, "FileError")
     SIGNALS.obey()
 
 
@@ -137,25 +153,25 @@ def refuse_what_is_read(files):
     """No file is written onto a library, an image or whatever else the .blend reads."""
     for path in bpy.utils.blend_paths(absolute=True):
         for file in files:
-            if os.path.exists(path) and batch_files.is_same(path, file.path):
-                raise Stop(batch_exit.USAGE, f"{file.given} is a file that the input uses")
+            if os.path.exists(path) and is_same(path, file.path):
+                raise Stop(USAGE, f"{file.given} is a file that the input uses")
 
 
 def map_objects(request):
     """The job that was run, its results written into the open file unless an object failed."""
-    objects = batch_objects.chosen_objects(request.names)
-    batch_objects.leave_edit_mode(objects)
-    with batch_objects.in_their_places(objects):
+    objects = chosen_objects(request.names)
+    leave_edit_mode(objects)
+    with in_their_places(objects):
         job = new_job(objects, request)
         check_outer(job)
         if request.options.placement == "keep":
             job.read_old_uv()
         compute(job)
-        if exit_code(job) != batch_exit.UNMAPPABLE:
+        if exit_code(job) != UNMAPPABLE:
             try:
                 job.write()
-            except transfer.TransferError as error:
-                raise Stop(batch_exit.UNMAPPABLE, error, "TransferError") from error
+            except TransferError as error:
+                raise Stop(UNMAPPABLE, error, "TransferError") from error
     SIGNALS.obey()
     return job
 
@@ -164,13 +180,13 @@ def new_job(objects, request):
     """A job on all the objects, or the reasons why some of them cannot be mapped."""
     without_faces = [obj.name for obj in objects if len(obj.data.polygons) == 0]
     if without_faces and (request.names is not None or len(without_faces) == len(objects)):
-        raise batch_exit.refusal(dict.fromkeys(without_faces, "it has no faces"))
+        raise refusal(dict.fromkeys(without_faces, "it has no faces"))
     try:
-        return koebe_job.Job(objects, request.options)
-    except native.NativeError as error:
-        raise Stop(batch_exit.BROKEN, error, "NativeError") from error
-    except transfer.TransferError as error:
-        raise batch_exit.refusal(reasons(objects, request.options) or {"all objects": str(error)}) from error
+        return Job(objects, request.options)
+    except NativeError as error:
+        raise Stop(BROKEN, error, "NativeError") from error
+    except TransferError as error:
+        raise refusal(reasons(objects, request.options) or {"all objects": str(error)}) from error
 
 
 def reasons(objects, chosen):
@@ -179,8 +195,8 @@ def reasons(objects, chosen):
     for obj in objects:
         try:
             if len(obj.data.polygons):
-                koebe_job.Job([obj], chosen)
-        except transfer.TransferError as error:
+                Job([obj], chosen)
+        except TransferError as error:
             found[obj.name] = str(error).removeprefix(f"{obj.name}: ")
     return found
 
@@ -190,7 +206,7 @@ def check_outer(job):
     outer = job.options.outer
     for task in job.tasks if isinstance(outer, int) else ():
         if not (task.surface.corner_vertex == outer).any():
-            raise Stop(batch_exit.USAGE, f"--outer {outer}: {task.name!r} has no face at a vertex of that number")
+            raise Stop(USAGE, f"--outer {outer}: {task.name!r} has no face at a vertex of that number")
 
 
 def compute(job):
@@ -200,9 +216,9 @@ def compute(job):
         if SIGNALS.came:
             job.cancel_token.cancel()
             if not concurrent.futures.wait([future], PATIENCE_SECONDS).done:
-                batch_exit.tell("interrupted: nothing was written")
+                tell("interrupted: nothing was written")
                 shutil.rmtree(bpy.app.tempdir, ignore_errors=True)
-                os._exit(batch_exit.INTERRUPTED)
+                os._exit(INTERRUPTED)
     SIGNALS.obey()
     future.result()
 
@@ -210,15 +226,15 @@ def compute(job):
 def exit_code(job):
     """The code for a job that was run."""
     if any(outcome.failed for outcome in job.outcomes):
-        return batch_exit.UNMAPPABLE
-    return batch_exit.DONE if all(outcome.converged for outcome in job.outcomes) else batch_exit.NOT_CONVERGED
+        return UNMAPPABLE
+    return DONE if all(outcome.converged for outcome in job.outcomes) else NOT_CONVERGED
 
 
 def save(output, report_file, content):
     """Write the open file and the report, each of which may be None. Where the report is, the output is too."""
-    makers = {output: save_blend, report_file: lambda path: batch_files.save_json(path, content)}
+    makers = {output: save_blend, report_file: lambda path: save_json(path, content)}
     makers.pop(None, None)
-    batch_files.write_all(makers, SIGNALS.obey)
+    write_all(makers, SIGNALS.obey)
 
 
 def save_blend(path):
@@ -230,9 +246,9 @@ def tell_outcomes(outcomes):
     """The result lines of the objects, and the reasons of those that failed."""
     for outcome in outcomes:
         if outcome.mapped:
-            batch_exit.say(report.result_line(outcome), sys.stdout)
+            say(wording.result_line(outcome), sys.stdout)
         if outcome.failed:
-            batch_exit.tell(report.failure_line(outcome))
+            tell(wording.failure_line(outcome))
 
 
 if __name__ == "__main__":

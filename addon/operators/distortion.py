@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that shows distortion as colours of the faces."""
+
+import bpy
+
+from ..blender import distortion_attribute, edit_mode
+from ..blender.mesh_reading import read_surface, read_uv
+from ..blender.noted_properties import set_property
+from ..blender.targets import reason, target_objects, with_own_meshes
+from ..blender.transaction import transaction
+from ..maps import distortion
+from ..maps.wording import few, lines
+
+KINDS = [
+    ("none", "Off", "Take the colours off and show the materials again"),
+    (distortion.ANGLE, "Angle", "Colour the faces by how far the angles of the UVs are from those of the surface"),
+    (distortion.AREA, "Area", "Colour the faces by how many texels they get, compared with the mean"),
+]
+SHADING_KEY = "koebe_shading"  # on the screen: what its 3D Views coloured surfaces by before
+
+
+class UV_OT_koebe_distortion(bpy.types.Operator):
+    """Colour the faces of the selected objects by the distortion of their UVs, or take the colours off again"""
+
+    bl_idname = "uv.koebe_distortion"
+    bl_label = "Koebe Distortion"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: bpy.props.EnumProperty(name="Distortion", items=KINDS, default=distortion.ANGLE)
+    layer: bpy.props.StringProperty(name="UV Layer", default="Koebe", description="UV layer to judge")
+
+    @classmethod
+    def description(cls, context, properties):
+        """The tooltip of each button is its own."""
+        return next(text for kind, _, text in KINDS if kind == properties.kind)
+
+    @classmethod
+    def poll(cls, context):
+        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
+            cls.poll_message_set("Select a mesh object, in Object Mode or in Edit Mode")
+            return False
+        return True
+
+    def execute(self, context):
+        with transaction() as run:
+            problems, objects = [], with_own_meshes(target_objects(context))
+            with edit_mode.left_if_faster(run, context):
+                for obj in objects:
+                    with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                        self._color(run, obj)
+            if len(problems) == len(objects):
+                self.report({"ERROR"}, lines("Koebe UV:", problems))
+                return {"CANCELLED"}
+            _show_colors(run, context, self.kind != "none")
+            edit_mode.undo_all(context)
+            if problems:
+                self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
+            return {"FINISHED"}
+
+    def _color(self, run, obj):
+        if self.kind == "none":
+            if distortion_attribute.MEMORY_KEY in obj.data:
+                distortion_attribute.check_mesh(obj)
+            distortion_attribute.take_off(run, obj)
+            return
+        distortion_attribute.check(obj, self.layer)
+        surface = read_surface(obj, selected_only=False)
+        colors = distortion_attribute.corner_colors(surface, read_uv(obj, self.layer), self.kind)
+        distortion_attribute.put_on(run, obj, self.kind, colors)
+
+
+def _show_colors(run, context, on):
+    """Let the 3D Views of all windows show colour attributes in Solid shading, or again what they showed before."""
+    for screen in dict.fromkeys(window.screen for window in context.window_manager.windows):
+        views = [area.spaces.active for area in screen.areas if area.type == "VIEW_3D"]
+        run.before_write(_restore_shading, views, [view.shading.color_type for view in views])
+        before = screen.get(SHADING_KEY)
+        if on and before is None:
+            set_property(run, screen, SHADING_KEY, " ".join(view.shading.color_type for view in views))
+        if not on and before is not None:
+            set_property(run, screen, SHADING_KEY, None)
+        for index, view in enumerate(views):
+            if on:
+                view.shading.color_type = "VERTEX"
+            elif view.shading.color_type == "VERTEX":
+                known = (before or "").split()
+                view.shading.color_type = known[index] if len(known) == len(views) else "MATERIAL"
+        for area in screen.areas:
+            area.tag_redraw()
+
+
+def _restore_shading(views, kinds):
+    for view, kind in zip(views, kinds, strict=True):
+        view.shading.color_type = kind
+
+
+register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_distortion,))

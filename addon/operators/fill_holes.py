@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that fills holes."""
+
+import bpy
+
+from ..blender import hole_filling
+from ..blender.filled_mesh import FillPlan
+from ..blender.targets import reason, target_objects, with_own_meshes
+from ..blender.transaction import transaction
+from ..jobs import native_package
+from ..maps.wording import counted, few, lines
+from ..solver.load import NativeError
+
+
+class MESH_OT_koebe_fill_holes(bpy.types.Operator):
+    """Fill holes with real faces that continue the surface around them. They are selected afterwards, and the UVs
+    are continued into them: the inside of a hole's circle is used. This changes the mesh"""
+
+    bl_idname = "mesh.koebe_fill_holes"
+    bl_label = "Koebe Fill Holes"
+    bl_options = {"REGISTER", "UNDO"}
+
+    which: bpy.props.EnumProperty(
+        name="Loops",
+        items=[
+            (hole_filling.HOLES, "Holes", "All boundary loops but the longest of each connected part"),
+            (hole_filling.SELECTED, "Selected", "The boundary loops whose edges are all selected"),
+            (hole_filling.ALL, "All", "All boundary loops: the surface is closed"),
+        ],
+        default=hole_filling.HOLES,
+        description="Boundary loops to fill",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
+            cls.poll_message_set("Select a mesh object")
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            koebe = native_package.load()
+        except NativeError as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return {"CANCELLED"}
+        plans = []
+        with transaction() as run:
+            try:
+                return self._fill(run, context, koebe, plans)
+            finally:
+                for plan in plans:
+                    plan.free()
+
+    def _fill(self, run, context, koebe, plans):
+        problems, holes, faces = [], 0, 0
+        for obj in with_own_meshes(target_objects(context)):
+            with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                plans.append(FillPlan(koebe, obj, self.which))
+        for plan in plans:
+            with run.attempt(lambda error, name=plan.obj.name: problems.append(reason(name, error))):
+                plan.write(run, context)
+                holes, faces = holes + len(plan.fillings), faces + plan.faces
+        if not holes:
+            self.report({"ERROR"}, lines("Koebe UV: nothing was filled.", problems))
+            return {"CANCELLED"}
+        text = f"Koebe UV: {counted(holes, 'hole')} filled with {faces} faces"
+        self.report({"WARNING" if problems else "INFO"}, f"{text}. {few(problems)}" if problems else text)
+        return {"FINISHED"}
+
+
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_koebe_fill_holes,))
