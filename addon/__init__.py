@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Koebe UV: conformal UV maps of surfaces with holes, every hole a perfect circle."""
 
+from types import ModuleType
+
 bl_info = {
     "name": "Koebe UV",
     "description": "Conformal UV maps with every hole a perfect circle",
@@ -12,7 +14,7 @@ bl_info = {
 }
 
 
-def _parts():
+def _parts() -> tuple[ModuleType, ...]:
     """The modules with something to register. Imported late: the rest of the package needs no bpy."""
     from .operators import (
         carry_texture,
@@ -34,13 +36,13 @@ def _parts():
     )  # fmt: skip
 
 
-def register():
+def register() -> None:
     """Called by Blender when the add-on is enabled."""
     for part in _parts():
         part.register()
 
 
-def unregister():
+def unregister() -> None:
     """Called by Blender when the add-on is disabled."""
     for part in reversed(_parts()):
         part.unregister()

@@ -18,7 +18,9 @@ import shutil
 import signal
 import sys
 import traceback
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).resolve().parent
 PACKAGE = "koebe_uv_batch"  # a name of its own: another copy of the add-on may be enabled
@@ -27,9 +29,10 @@ POLL_SECONDS = 0.05  # how soon a signal is obeyed while the computation runs
 PATIENCE_SECONDS = 10.0  # how long its next checkpoint is waited for then
 
 
-def load_package():
+def load_package() -> None:
     """Import the add-on that this script is part of, installed or not, without registering it."""
     spec = importlib.util.spec_from_file_location(PACKAGE, HERE / "__init__.py", submodule_search_locations=[str(HERE)])
+    assert spec is not None and spec.loader is not None
     package = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = package
     spec.loader.exec_module(package)
@@ -57,17 +60,20 @@ SIGNALS = Signals()  # before bpy, which as a module takes a second to load
 
 import bpy  # noqa: E402
 from koebe_uv_batch.blender.errors import TransferError  # noqa: E402
-from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, parse  # noqa: E402
+from koebe_uv_batch.blender.mesh_object import MeshObject  # noqa: E402
+from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, Request, parse  # noqa: E402
 from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.maps import json_report, wording  # noqa: E402
+from koebe_uv_batch.maps.options import Options  # noqa: E402
+from koebe_uv_batch.maps.outcomes import SurfaceOutcome  # noqa: E402
 from koebe_uv_batch.solver.load import NativeError  # noqa: E402
 
 OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
 
 
-def main():
+def main() -> int:
     """Entry point of Blender's -P and of a plain Python with the bpy module: the exit code."""
     try:
         return run()
@@ -79,7 +85,7 @@ def main():
         return BROKEN
 
 
-def run():
+def run() -> int:
     """Read, map, save, report; return the exit code. Raises Stop where there is nothing to report on."""
     request, source = request_and_source()
     output, report_file = targets(request, source)
@@ -108,7 +114,7 @@ def run():
     return code
 
 
-def request_and_source():
+def request_and_source() -> tuple[Request, str]:
     """What is asked for, and the path of the .blend file."""
     at = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     request = parse(sys.argv[at + 1 :])
@@ -121,7 +127,7 @@ def request_and_source():
     return request, os.path.abspath(sources[0])
 
 
-def targets(request, source):
+def targets(request: Request, source: str) -> tuple[Target, Target | None]:
     """The files to write, of which the second may be None."""
     output = Target(request.output)
     if output.direct:
@@ -134,7 +140,7 @@ def targets(request, source):
     return output, Target(request.report)
 
 
-def open_source(source):
+def open_source(source: str) -> None:
     """Open the file, unless Blender has. What a newer Blender has saved this one reads with losses, or crashes."""
     if not bpy.data.filepath:
         try:
@@ -149,7 +155,7 @@ def open_source(source):
     SIGNALS.obey()
 
 
-def refuse_what_is_read(files):
+def refuse_what_is_read(files: list[Target]) -> None:
     """No file is written onto a library, an image or whatever else the .blend reads."""
     for path in bpy.utils.blend_paths(absolute=True):
         for file in files:
@@ -157,7 +163,7 @@ def refuse_what_is_read(files):
                 raise Stop(USAGE, f"{file.given} is a file that the input uses")
 
 
-def map_objects(request):
+def map_objects(request: Request) -> Job:
     """The job that was run, its results written into the open file unless an object failed."""
     objects = chosen_objects(request.names)
     leave_edit_mode(objects)
@@ -176,7 +182,7 @@ def map_objects(request):
     return job
 
 
-def new_job(objects, request):
+def new_job(objects: list[MeshObject], request: Request) -> Job:
     """A job on all the objects, or the reasons why some of them cannot be mapped."""
     without_faces = [obj.name for obj in objects if len(obj.data.polygons) == 0]
     if without_faces and (request.names is not None or len(without_faces) == len(objects)):
@@ -189,7 +195,7 @@ def new_job(objects, request):
         raise refusal(reasons(objects, request.options) or {"all objects": str(error)}) from error
 
 
-def reasons(objects, chosen):
+def reasons(objects: list[MeshObject], chosen: Options) -> dict[str, str]:
     """Why objects cannot be mapped, by their names."""
     found = {}
     for obj in objects:
@@ -201,7 +207,7 @@ def reasons(objects, chosen):
     return found
 
 
-def check_outer(job):
+def check_outer(job: Job) -> None:
     """A vertex asked for as that of the outer loop has to be one."""
     outer = job.options.outer
     for task in job.tasks if isinstance(outer, int) else ():
@@ -209,7 +215,7 @@ def check_outer(job):
             raise Stop(USAGE, f"--outer {outer}: {task.name!r} has no face at a vertex of that number")
 
 
-def compute(job):
+def compute(job: Job) -> None:
     """Run the job on a thread, so that a signal is heard at once; it ends at the next checkpoint, or is left alone."""
     future = concurrent.futures.ThreadPoolExecutor(max_workers=1).submit(job.compute)
     while not concurrent.futures.wait([future], POLL_SECONDS).done:
@@ -223,26 +229,26 @@ def compute(job):
     future.result()
 
 
-def exit_code(job):
+def exit_code(job: Job) -> int:
     """The code for a job that was run."""
     if any(outcome.failed for outcome in job.outcomes):
         return UNMAPPABLE
     return DONE if all(outcome.converged for outcome in job.outcomes) else NOT_CONVERGED
 
 
-def save(output, report_file, content):
+def save(output: Target | None, report_file: Target | None, content: dict[str, Any]) -> None:
     """Write the open file and the report, each of which may be None. Where the report is, the output is too."""
     makers = {output: save_blend, report_file: lambda path: save_json(path, content)}
     makers.pop(None, None)
     write_all(makers, SIGNALS.obey)
 
 
-def save_blend(path):
+def save_blend(path: str) -> None:
     """Save the open file there. Not compressed: then Blender takes no notice of a full disk."""
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, check_existing=False, compress=False)
 
 
-def tell_outcomes(outcomes):
+def tell_outcomes(outcomes: Iterable[SurfaceOutcome]) -> None:
     """The result lines of the objects, and the reasons of those that failed."""
     for outcome in outcomes:
         if outcome.mapped:

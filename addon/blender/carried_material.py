@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which material a texture is carried with, and giving it to an object that has none; the checker stays where it is."""
 
+import bpy
+
 from . import checker, material_slots
+from .mesh_object import MeshObject
+from .transaction import Transaction
 
 
-def painted(obj):
+def painted(obj: MeshObject) -> bpy.types.Material | None:
     """The material of the object's active slot, or else of the first one that has one, beneath the checker; or None."""
     beneath = checker.materials_beneath(obj)
     if not beneath:
         return None
-    active = beneath[min(obj.active_material_index, len(beneath) - 1)]
+    active = beneath[min(obj.active_material_index or 0, len(beneath) - 1)]
     return active or next(filter(None, beneath), None)
 
 
-def give(run, obj, material):
+def give(run: Transaction, obj: MeshObject, material: bpy.types.Material) -> None:
     """Give the object this material if it has none of its own."""
     if any(checker.materials_beneath(obj)):
         return

@@ -6,23 +6,27 @@ and the faces' slot numbers stay. What was there is remembered in a custom prope
 slot, as joining objects throws one side away. A mesh without slots gets one, for all its objects.
 """
 
+from typing import Any
+
 import bpy
 
 from . import material_slots
 from .checker_material import checker_materials, is_checker
 from .errors import TransferError
+from .mesh_object import MeshObject
 from .noted_properties import set_property
 from .targets import check_mesh
+from .transaction import Transaction
 
 MEMORY_KEY = "koebe_checker_slots"  # on the object: what its slots were
 
 
-def is_on(obj):
+def is_on(obj: MeshObject) -> bool:
     """Whether the object wears the checker, or remembers what it wore beneath."""
     return MEMORY_KEY in obj or any(is_checker(slot.material) for slot in obj.material_slots)
 
 
-def check(obj):
+def check(obj: MeshObject) -> None:
     """Raise TransferError unless the checker can be put on and taken off."""
     if obj.library is not None:
         raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
@@ -32,36 +36,38 @@ def check(obj):
         check_mesh(obj)
 
 
-def even_sizes(size, densities):
+def even_sizes(size: float, densities: list[float]) -> list[float]:
     """Squares across the UV square of each object, so that all are as large in space as those of the first one.
 
     densities  lengths in the UVs over lengths in space, 0 where there is none
     """
     sizes = [size * densities[0] / one if densities[0] * one > 0.0 else size for one in densities]
-    alike = {}  # sizes that cannot be told apart share a material
+    alike: dict[str, float] = {}  # sizes that cannot be told apart share a material
     return [alike.setdefault(f"{one:.3g}", one) for one in sizes]
 
 
-def materials(run, objects, layer, sizes):
+def materials(
+    run: Transaction, objects: list[MeshObject], layer: str, sizes: list[float]
+) -> list[bpy.types.Material]:
     """The checker of a UV layer that each of the objects is to wear, with so many squares across the UV square."""
 
-    def free(material):
+    def free(material: bpy.types.Material) -> bool:
         return all(obj in objects for obj in bpy.data.objects if _wears(obj, material))
 
     return checker_materials(run, layer, sizes, free)
 
 
-def _wears(obj, material):
+def _wears(obj: bpy.types.Object, material: bpy.types.Material) -> bool:
     return any(slot.material == material for slot in obj.material_slots)
 
 
-def put_on(run, obj, material):
+def put_on(run: Transaction, obj: MeshObject, material: bpy.types.Material) -> None:
     """Cover all of the object's slots with a checker, or give it one; call `check` first."""
     take_off(run, obj)
     cover(run, obj, material)
 
 
-def cover(run, obj, material):
+def cover(run: Transaction, obj: MeshObject, material: bpy.types.Material) -> None:
     """Put a checker over what the object, which has none on, wears."""
     if len(obj.material_slots) == 0:
         material_slots.add_to_mesh(run, obj, material)
@@ -74,7 +80,7 @@ def cover(run, obj, material):
     set_property(run, obj, MEMORY_KEY, memory)
 
 
-def take_off(run, obj):
+def take_off(run: Transaction, obj: MeshObject) -> None:
     """Give the object its slots back; call `check` first. What was put into a slot meanwhile stays there."""
     if not is_on(obj):
         return
@@ -92,23 +98,23 @@ def take_off(run, obj):
         set_property(run, obj, MEMORY_KEY, None)
 
 
-def _uncover(run, obj, index, was):
+def _uncover(run: Transaction, obj: MeshObject, index: int, was: dict[str, Any]) -> None:
     link = obj.material_slots[index].link
     if is_checker(material_slots.own_side(run, obj, index)):
         material_slots.set_own(run, obj, index, was.get("material"))
         material_slots.set_link(run, obj, index, was.get("link", "DATA") if link == "OBJECT" else "DATA")
 
 
-def _memory(obj):
+def _memory(obj: MeshObject) -> dict[str, Any]:
     return obj[MEMORY_KEY].to_dict() if MEMORY_KEY in obj else {}
 
 
-def _beneath(was):
+def _beneath(was: dict[str, Any]) -> bpy.types.Material | None:
     """The material that a remembered slot showed, or None."""
     return was.get("material" if was.get("link") == "OBJECT" else "mesh")
 
 
-def materials_beneath(obj):
+def materials_beneath(obj: MeshObject) -> list[bpy.types.Material | None]:
     """The material of each slot of the object as it is without the checker; None where there is none."""
     memory = _memory(obj)
     return [

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The material "Koebe Checker": squares that show a UV layer."""
 
+from collections.abc import Callable
+from typing import Any
+
 import bpy
 
 from . import compat
 from .noted_properties import set_property
+from .transaction import Transaction
 
 NAME = "Koebe Checker"
 LAYER_KEY = "koebe_checker_layer"  # on the material: the UV layer that it shows
@@ -17,18 +21,20 @@ COARSE = 4.0
 COARSE_SHADE = (0.68, 0.68, 0.68, 1.0)
 
 
-def is_checker(material):
+def is_checker(material: bpy.types.Material | None) -> bool:
     """Whether that is a checker of ours; None is not."""
     return material is not None and LAYER_KEY in material
 
 
-def checker_materials(run, layer, sizes, free):
+def checker_materials(
+    run: Transaction, layer: str, sizes: list[float], free: Callable[[bpy.types.Material], bool]
+) -> list[bpy.types.Material]:
     """The checker of a UV layer for each of some numbers of squares across the UV square.
 
     One of that size is used again, else one for which `free(material)` says that nobody else wears it, else a new one.
     """
     mine = [one for one in bpy.data.materials if one.library is None and one.get(LAYER_KEY) == layer and one.node_tree]
-    chosen = {}
+    chosen: dict[float, bpy.types.Material] = {}
     for size in dict.fromkeys(sizes):
         left = [one for one in mine if one not in chosen.values()]
         material = next((one for one in left if one.get(SIZE_KEY) == size), None)
@@ -43,7 +49,7 @@ def checker_materials(run, layer, sizes, free):
     return [chosen[size] for size in sizes]
 
 
-def _new_material(run, layer):
+def _new_material(run: Transaction, layer: str) -> bpy.types.Material:
     run.before_write(_remove_new, {material.name for material in bpy.data.materials if material.library is None})
     material = bpy.data.materials.new(NAME)
     material[LAYER_KEY] = layer
@@ -52,13 +58,13 @@ def _new_material(run, layer):
     return material
 
 
-def _remove_new(names):
+def _remove_new(names: set[str]) -> None:
     for material in list(bpy.data.materials):
         if material.library is None and material.name not in names and material.name.startswith(NAME):
             bpy.data.materials.remove(material)
 
 
-def _build(tree, layer):
+def _build(tree: Any, layer: str) -> None:
     tree.nodes.clear()
     uv = _node(tree, "ShaderNodeUVMap", (-800, 0), uv_map=layer)
     fine = _node(tree, "ShaderNodeTexChecker", (-560, 120), name="Fine")
@@ -81,7 +87,7 @@ def _build(tree, layer):
     link(surface.outputs["BSDF"], output.inputs["Surface"])
 
 
-def _node(tree, kind, location, **values):
+def _node(tree: bpy.types.NodeTree, kind: str, location: tuple[float, float], **values: Any) -> bpy.types.Node:
     node = tree.nodes.new(kind)
     node.location = location
     for key, value in values.items():
@@ -89,13 +95,13 @@ def _node(tree, kind, location, **values):
     return node
 
 
-def _sizes(tree):
+def _sizes(tree: Any) -> dict[str, float]:
     """The squares of the nodes that are still there: the user may have edited the material."""
     found = {name: tree.nodes.get(name) for name in ("Fine", "Coarse")}
     return {name: node.inputs["Scale"].default_value for name, node in found.items() if node and "Scale" in node.inputs}
 
 
-def _set_sizes(tree, sizes):
+def _set_sizes(tree: Any, sizes: dict[str, float]) -> None:
     for name in _sizes(tree).keys() & sizes.keys():
         tree.nodes[name].inputs["Scale"].default_value = sizes[name]
 

@@ -2,15 +2,19 @@
 """Enters and leaves Edit Mode, and finds back to the modes and the selection of objects that were."""
 
 import contextlib
+from collections.abc import Iterator
+from typing import Any
 
 import bpy
 
 from . import compat
 from .errors import TransferError
+from .mesh_object import MeshObject
 from .targets import check_mesh
+from .transaction import Transaction
 
 
-def check(context, obj):
+def check(context: bpy.types.Context, obj: MeshObject) -> None:
     """Raise TransferError unless Edit Mode can be entered with the object."""
     check_mesh(obj)
     if obj.library is not None or obj.override_library is not None:
@@ -22,20 +26,20 @@ def check(context, obj):
         )  # fmt: skip
 
 
-def _out_of_local_view(context, obj):
-    space = context.space_data
+def _out_of_local_view(context: bpy.types.Context, obj: MeshObject) -> bool:
+    space: Any = context.space_data
     local = space is not None and space.type == "VIEW_3D" and space.local_view is not None
     return local and not obj.local_view_get(space)
 
 
-def _visible(context, obj):
-    space = context.space_data
+def _visible(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
+    space: Any = context.space_data
     if space is not None and space.type == "VIEW_3D":
         return obj.visible_get(view_layer=context.view_layer, viewport=space)  # which may be in local view
     return obj.visible_get(view_layer=context.view_layer)
 
 
-def enter(run, context, obj):
+def enter(run: Transaction, context: bpy.types.Context, obj: MeshObject) -> None:
     """Make the object the active one and enter Edit Mode with it alone, unless it is there; call `check` first."""
     if obj.mode == "EDIT":
         return
@@ -52,7 +56,7 @@ def enter(run, context, obj):
         raise TransferError(f"{obj.name}: Blender does not enter Edit Mode with it")
 
 
-def undo_all(context):
+def undo_all(context: bpy.types.Context) -> None:
     """Let the undo step of the running operator hold the whole file, as it does in Object Mode.
 
     In Edit Mode it holds the edited meshes alone, without slots, custom properties, selected objects and settings; but
@@ -63,7 +67,7 @@ def undo_all(context):
 
 
 @contextlib.contextmanager
-def left_if_faster(run, context):
+def left_if_faster(run: Transaction, context: bpy.types.Context) -> Iterator[None]:
     """Object Mode inside, where Blender writes faster there, and where it is sure to find back."""
     layer = context.view_layer
     if context.mode != "EDIT_MESH" or compat.slow_mode_change() or not _all_come_back(context):
@@ -76,7 +80,7 @@ def left_if_faster(run, context):
     _restore(layer, *state)
 
 
-def _all_come_back(context):
+def _all_come_back(context: bpy.types.Context) -> bool:
     """Whether every object that is in Edit Mode is a mesh, seen and selected: Blender enters it with no others."""
     edited = [obj for obj in bpy.data.objects if obj.mode == "EDIT"]
     return all(
@@ -85,14 +89,14 @@ def _all_come_back(context):
     )
 
 
-def _state(layer):
+def _state(layer: Any) -> tuple[list[str], list[str], str | None]:
     """Names of the objects that are selected, of those in Edit Mode, and of the active one."""
     selected = [obj.name for obj in layer.objects if obj.select_get(view_layer=layer)]
     edited = [obj.name for obj in layer.objects if obj.mode == "EDIT"]
     return selected, edited, layer.objects.active and layer.objects.active.name
 
 
-def _restore(layer, selected, edited, active):
+def _restore(layer: Any, selected: list[str], edited: list[str], active: str | None) -> None:
     now = [obj for obj in layer.objects if obj.mode == "EDIT"]
     if now:
         layer.objects.active = now[0]
@@ -106,14 +110,14 @@ def _restore(layer, selected, edited, active):
     layer.objects.active = layer.objects.get(active) if active else None
 
 
-def _select_objects(layer, names):
+def _select_objects(layer: Any, names: list[str]) -> None:
     for obj in layer.objects:
         if obj.select_get(view_layer=layer) != (obj.name in names):
             obj.select_set(obj.name in names, view_layer=layer)
 
 
 @contextlib.contextmanager
-def _in_sight(objects):
+def _in_sight(objects: list[bpy.types.Object]) -> Iterator[None]:
     """All these objects shown and selectable: Blender enters Edit Mode with no others."""
     hidden = [(obj, obj.hide_get(), obj.hide_viewport, obj.hide_select) for obj in objects]
     for obj in objects:

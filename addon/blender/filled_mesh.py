@@ -2,20 +2,25 @@
 """Fills holes of an object's mesh: plans all of it first, then writes, so that the mesh can be put back."""
 
 import itertools
+from types import ModuleType
+from typing import Any
 
 import bmesh
+import bpy
 import numpy as np
 
 from . import compat
-from .hole_filling import FillError, chosen_loops, filling
+from .hole_filling import FillError, Filling, chosen_loops, filling
+from .mesh_object import MeshObject
 from .selection import note_selection, select_none
 from .targets import check_mesh
+from .transaction import Transaction
 
 
 class FillPlan:
     """What fills the chosen holes of one object. `free` it in the end."""
 
-    def __init__(self, koebe, obj, which):
+    def __init__(self, koebe: ModuleType, obj: MeshObject, which: str) -> None:
         """Work it out; nothing is written. Raises FillError, or TransferError if the mesh cannot be written."""
         check_mesh(obj)
         _check_attributes(obj.data)
@@ -29,7 +34,8 @@ class FillPlan:
             if not self._edited:
                 self._mesh.from_mesh(obj.data)
             self._mesh.verts.index_update()
-            keys, taken = _shape_keys(obj.data), set()
+            keys = _shape_keys(obj.data)
+            taken: set[frozenset[int]] = set()
             self.fillings = [
                 filling(koebe, self._mesh, loop, keys) for loop in chosen_loops(self._mesh, which)
             ]
@@ -40,11 +46,11 @@ class FillPlan:
             raise
 
     @property
-    def faces(self):
+    def faces(self) -> int:
         """Number of faces to add."""
         return sum(len(one.triangles) for one in self.fillings)
 
-    def write(self, run, context):
+    def write(self, run: Transaction, context: bpy.types.Context) -> None:
         """Add the faces, and select them and nothing else."""
         if self._edited:
             note_selection(run, context, [self.obj])
@@ -63,20 +69,20 @@ class FillPlan:
         self._mesh.to_mesh(self.obj.data)
         self.obj.data.update()
 
-    def free(self):
+    def free(self) -> None:
         """Give back the memory; the plan is of no use any more."""
         self.fillings = []
         if not self._edited:
             self._mesh.free()
 
 
-def _check_attributes(mesh):
+def _check_attributes(mesh: bpy.types.Mesh) -> None:
     for attribute in mesh.attributes:
         if attribute.data_type == "FLOAT4X4":
             raise FillError(f"the attribute {attribute.name!r} holds matrices, with which Blender may end here")
 
 
-def _check_new(one, taken):
+def _check_new(one: Filling, taken: set[frozenset[int]]) -> None:
     """Raise FillError if two patches would add the same face."""
     rim = [corner.vert.index for corner in one.corners]
     for triangle in one.triangles[(one.triangles < len(rim)).all(axis=1)].tolist():
@@ -86,17 +92,18 @@ def _check_new(one, taken):
         taken.add(face)
 
 
-def _shape_keys(mesh):
+def _shape_keys(mesh: bpy.types.Mesh) -> dict[str, np.ndarray]:
     """Positions (V, 3) of the vertices in each shape key, by name."""
-    blocks = [] if mesh.shape_keys is None else mesh.shape_keys.key_blocks
-    return {block.name: compat.read(block.data, "co", np.float32, 3) for block in blocks}
+    if mesh.shape_keys is None:
+        return {}
+    return {block.name: compat.read(block.data, "co", np.float32, 3) for block in mesh.shape_keys.key_blocks}
 
 
-def _elements(mesh):
+def _elements(mesh: bmesh.types.BMesh) -> tuple[Any, Any, Any]:
     return mesh.faces, mesh.edges, mesh.verts
 
 
-def _fill(mesh, fillings):
+def _fill(mesh: bmesh.types.BMesh, fillings: list[Filling]) -> None:
     """Add the patches to a bmesh and select them."""
     added = []
     for one in fillings:
@@ -122,14 +129,14 @@ def _fill(mesh, fillings):
     mesh.normal_update()
 
 
-def _tag_examples(fillings, tag):
+def _tag_examples(fillings: list[Filling], tag: bool) -> None:
     for one in fillings:
         one.corners[0].face.tag = tag
         for corner in one.corners:
             corner.vert.tag = tag
 
 
-def _remove_untagged(obj, fillings):
+def _remove_untagged(obj: MeshObject, fillings: list[Filling]) -> None:
     """Remove what was added to a mesh in Edit Mode: all that is not tagged but for the examples."""
     mesh = bmesh.from_edit_mesh(obj.data)
     _tag_examples(fillings, True)
@@ -140,6 +147,6 @@ def _remove_untagged(obj, fillings):
     bmesh.update_edit_mesh(obj.data)
 
 
-def _put_back(data, before):
+def _put_back(data: bpy.types.Mesh, before: bmesh.types.BMesh) -> None:
     before.to_mesh(data)
     data.update()

@@ -2,7 +2,12 @@
 """Finds the holes of a mesh and works out what fills them; nothing is written here."""
 
 import dataclasses
+from collections.abc import Iterator
+from types import ModuleType
+from typing import Any
 
+import bmesh
+import mathutils
 import numpy as np
 
 from ..maps.errors import KnownError
@@ -25,22 +30,23 @@ class Filling:
     (n + k, ...), of which those of `uvs` are of each UV layer, by name.
     """
 
-    corners: list
+    corners: list[bmesh.types.BMLoop]
     vertices: np.ndarray
     triangles: np.ndarray
-    uvs: dict
+    uvs: dict[str, np.ndarray]
     continued: Continued
 
 
-def boundary_loops(mesh):
+def boundary_loops(mesh: bmesh.types.BMesh) -> list[list[bmesh.types.BMLoop]]:
     """Boundary loops of a bmesh: lists of the corners at which the boundary edges begin, in the faces' direction."""
     ahead = [edge.link_loops[0] for edge in mesh.edges if edge.is_boundary and not edge.hide]
     open_corners, loops = set(ahead), []
     for first in ahead:
         if first not in open_corners:
             continue
-        loop, corner = [], first
-        while corner in open_corners:
+        loop: list[bmesh.types.BMLoop] = []
+        corner: bmesh.types.BMLoop | None = first
+        while corner is not None and corner in open_corners:
             open_corners.remove(corner)
             loop.append(corner)
             corner = _next_on_boundary(corner)
@@ -50,13 +56,13 @@ def boundary_loops(mesh):
     return loops
 
 
-def _next_on_boundary(corner):
+def _next_on_boundary(corner: bmesh.types.BMLoop) -> bmesh.types.BMLoop | None:
     """The corner whose edge follows on the boundary, or None where there is none."""
     *_, last = _fan(corner)
     return last if last is not None and last.edge.is_boundary else None
 
 
-def _fan(corner):
+def _fan(corner: bmesh.types.BMLoop) -> Iterator[bmesh.types.BMLoop | None]:
     """The corners at the end of a boundary edge, face by face; None last where the faces do not fit."""
     vertex = corner.link_loop_next.vert
     corner = corner.link_loop_next
@@ -70,13 +76,14 @@ def _fan(corner):
         yield corner
 
 
-def chosen_loops(mesh, which):
+def chosen_loops(mesh: bmesh.types.BMesh, which: str) -> list[list[bmesh.types.BMLoop]]:
     """The loops to fill. HOLES: all but the longest of each connected part; SELECTED: whose edges all are selected."""
     loops = boundary_loops(mesh)
     if which == SELECTED:
         loops = [loop for loop in loops if all(corner.edge.select for corner in loop)]
     elif which == HOLES:
-        part, longest = _parts(loops), {}
+        part = _parts(loops)
+        longest: dict[int, int] = {}
         length = [sum(corner.edge.calc_length() for corner in loop) for loop in loops]
         for index in range(len(loops)):
             best = longest.setdefault(part[index], index)
@@ -90,7 +97,7 @@ def chosen_loops(mesh, which):
     return loops
 
 
-def _parts(loops):
+def _parts(loops: list[list[bmesh.types.BMLoop]]) -> list[int]:
     """For each loop the number of the connected part of the mesh that it is on."""
     seen, numbers = {}, []
     for number, loop in enumerate(loops):
@@ -106,7 +113,9 @@ def _parts(loops):
     return numbers
 
 
-def filling(koebe, mesh, loop, keys):
+def filling(
+    koebe: ModuleType, mesh: bmesh.types.BMesh, loop: list[bmesh.types.BMLoop], keys: dict[str, np.ndarray]
+) -> Filling:
     """The patch for one loop; changes nothing. `koebe` is the native package, `keys` as for `Continued`."""
     rim = [corner.vert for corner in loop]
     if len(set(rim)) != len(rim):
@@ -131,7 +140,7 @@ def filling(koebe, mesh, loop, keys):
     return Filling(loop, added, patch, uvs, Continued.of(koebe, mesh, loop, positions, patch, keys))
 
 
-def _check_room(mesh, rim, patch):
+def _check_room(mesh: bmesh.types.BMesh, rim: list[bmesh.types.BMVert], patch: np.ndarray) -> None:
     """Raise FillError where the patch would double a face, or give an edge more than two."""
     for triangle in patch[(patch < len(rim)).all(axis=1)].tolist():
         if mesh.faces.get([rim[v] for v in triangle]) is not None:
@@ -144,7 +153,7 @@ def _check_room(mesh, rim, patch):
             raise FillError("a hole cannot be filled without an edge of more than two faces: subdivide around it")
 
 
-def _surroundings(loop):
+def _surroundings(loop: list[bmesh.types.BMLoop]) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (m, 3), those of the loop first, and triangles (t, 3) of the faces up to two edges from a boundary loop.
 
     Faces that share an edge, and nothing else, are joined: where they meet in a vertex alone they are parted, so that
@@ -155,7 +164,7 @@ def _surroundings(loop):
     rank = {corner: i for i, corner in enumerate(corners)}
     parent = list(range(len(corners)))
 
-    def root(i):
+    def root(i: int) -> int:
         while parent[i] != i:
             parent[i] = parent[parent[i]]
             i = parent[i]
@@ -166,7 +175,8 @@ def _surroundings(loop):
         if other in rank:
             parent[root(rank[corner])] = root(rank[other.link_loop_next])
             parent[root(rank[corner.link_loop_next])] = root(rank[other])
-    number, positions = {}, []
+    number: dict[int, int] = {}
+    positions: list[mathutils.Vector] = []
     for corner in [*loop, *corners]:
         if number.setdefault(root(rank[corner]), len(positions)) == len(positions):
             positions.append(corner.vert.co)
@@ -177,7 +187,7 @@ def _surroundings(loop):
     return np.array(positions, dtype=np.float64), np.array(triangles)
 
 
-def _faces_around(loop):
+def _faces_around(loop: list[bmesh.types.BMLoop]) -> list[bmesh.types.BMFace]:
     """The faces that meet a boundary loop and those that meet these, as far as they hang together."""
     first = dict.fromkeys(corner.face for start in loop for corner in _fan(start))
     near = {face for one in first for vertex in one.verts for face in vertex.link_faces}
@@ -191,20 +201,20 @@ def _faces_around(loop):
     return list(found)
 
 
-def _across(corner):
+def _across(corner: bmesh.types.BMLoop) -> bmesh.types.BMLoop | None:
     """The corner on the other side of the edge, if two faces of one orientation meet there; else None."""
     other = corner.link_loop_radial_next
     return other if len(corner.edge.link_loops) == 2 and other.vert is not corner.vert else None
 
 
-def _rim_uv(layer, loop):
+def _rim_uv(layer: "bmesh.types.BMLayerItem[Any]", loop: list[bmesh.types.BMLoop]) -> np.ndarray | None:
     """UVs (n, 2) of a loop's vertices; None where a seam ends at the hole."""
     begin = np.array([corner[layer].uv for corner in loop])
     end = np.array([corner.link_loop_next[layer].uv for corner in loop])
     return begin if np.abs(np.roll(end, 1, axis=0) - begin).max() <= SAME_UV else None
 
 
-def _continued_uv(koebe, positions, triangles, rim_uv):
+def _continued_uv(koebe: ModuleType, positions: np.ndarray, triangles: np.ndarray, rim_uv: np.ndarray) -> np.ndarray:
     """UVs (n + k, 2) of a patch, harmonic; where that flips faces, by weights that flip none inside a convex rim."""
     fixed = np.arange(len(rim_uv))
     uv = koebe.harmonic_map(positions, triangles, fixed, rim_uv)

@@ -2,7 +2,10 @@
 """How what lives on the vertices and corners around a hole goes on into the patch that fills it."""
 
 import dataclasses
+from types import ModuleType
+from typing import Any
 
+import bmesh
 import numpy as np
 
 # Layers of vertices and of corners whose values can be mixed: kind, numbers each. The others are copied from the rim.
@@ -21,13 +24,21 @@ class Continued:
     """
 
     nearest: np.ndarray
-    weights: dict
-    shapes: dict
-    vertices: dict
-    corners: dict
+    weights: dict[int, np.ndarray]
+    shapes: dict[str, np.ndarray]
+    vertices: dict[tuple[str, str], np.ndarray]
+    corners: dict[tuple[str, str], np.ndarray]
 
     @classmethod
-    def of(cls, koebe, mesh, loop, positions, triangles, keys):
+    def of(
+        cls,
+        koebe: ModuleType,
+        mesh: bmesh.types.BMesh,
+        loop: list[bmesh.types.BMLoop],
+        positions: np.ndarray,
+        triangles: np.ndarray,
+        keys: dict[str, np.ndarray],
+    ) -> "Continued":
         """For the patch of one loop of a bmesh. keys: positions (V, 3) of all vertices in each shape key, by name."""
         rim = [corner.vert for corner in loop]
         given, added = positions[: len(rim)], positions[len(rim) :]
@@ -50,7 +61,14 @@ class Continued:
             _layers(mix, mesh.loops.layers, loop),
         )
 
-    def give(self, mesh, corners, added, faces, triangles):
+    def give(
+        self,
+        mesh: bmesh.types.BMesh,
+        corners: list[bmesh.types.BMLoop],
+        added: list[bmesh.types.BMVert],
+        faces: list[bmesh.types.BMFace],
+        triangles: list[list[int]],
+    ) -> None:
         """Give all this to the new vertices and faces of a bmesh.
 
         They were made after examples on the rim. The corners are copied here: that ends what Python knew of them.
@@ -84,19 +102,19 @@ class Continued:
 class _Mixer:
     """Continues values (n, w) at the rim of a patch into it, (n + k, w), harmonically."""
 
-    def __init__(self, koebe, positions, triangles, rim):
+    def __init__(self, koebe: ModuleType, positions: np.ndarray, triangles: np.ndarray, rim: int) -> None:
         self._koebe, self._positions, self._triangles = koebe, positions, triangles
         self._fixed = np.arange(rim)
 
-    def __call__(self, values):
+    def __call__(self, values: np.ndarray) -> np.ndarray:
         """As smoothly as the patch's own shape allows."""
         return self._mixed(values, uniform=False)
 
-    def bounded(self, values):
+    def bounded(self, values: np.ndarray) -> np.ndarray:
         """None of them beyond those at the rim."""
         return self._mixed(values, uniform=True)
 
-    def _mixed(self, values, uniform):
+    def _mixed(self, values: np.ndarray, uniform: bool) -> np.ndarray:
         result = np.repeat(values[:1], len(self._positions), axis=0)  # right for what is the same all around
         result[self._fixed] = values
         different = np.flatnonzero((values != values[:1]).any(axis=0))
@@ -109,7 +127,7 @@ class _Mixer:
         result[self._fixed] = values
         return result
 
-    def _harmonic(self, plane, uniform):
+    def _harmonic(self, plane: np.ndarray, uniform: bool) -> np.ndarray:
         if not uniform:
             try:
                 found = self._koebe.harmonic_map(self._positions, self._triangles, self._fixed, plane)
@@ -120,7 +138,7 @@ class _Mixer:
         return self._koebe.harmonic_map(self._positions, self._triangles, self._fixed, plane, uniform=True)
 
 
-def _layers(mix, layers, elements):
+def _layers(mix: _Mixer, layers: Any, elements: list[Any]) -> dict[tuple[str, str], np.ndarray]:
     """Continued values of the layers that can be mixed, by kind and name."""
     found = {}
     for kind, width in MIXED:
@@ -131,10 +149,10 @@ def _layers(mix, layers, elements):
     return found
 
 
-def _value(kind, value):
+def _value(kind: str, value: np.ndarray) -> float | np.ndarray:
     return float(value[0]) if kind == "float" else value
 
 
-def _nearest(points, given):
+def _nearest(points: np.ndarray, given: np.ndarray) -> np.ndarray:
     """Number (k,) of the given point that each point is nearest to."""
     return np.array([np.argmin(((given - point) ** 2).sum(axis=1)) for point in points], dtype=int)

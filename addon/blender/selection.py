@@ -1,13 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Selects elements of meshes in Edit Mode, each mesh's selection noted before."""
 
+from collections.abc import Iterable, Sequence
+from typing import Any
+
 import bmesh
+import bpy
 
 from ..maps.offending_elements import EDGES, FACES, VERTICES
+from .mesh_object import MeshObject, mesh_objects
 from .targets import with_own_meshes
+from .transaction import Transaction
 
 
-def select_only(run, context, chosen):
+def select_only(
+    run: Transaction, context: bpy.types.Context, chosen: Sequence[tuple[MeshObject, str, Iterable[int]]]
+) -> None:
     """Select these elements and nothing else: `chosen` lists (object in Edit Mode, kind, indices).
 
     The select mode becomes that of the kinds. Indices that no longer exist are passed over.
@@ -21,7 +29,7 @@ def select_only(run, context, chosen):
         select_none(mesh)
     for obj, kind, indices in chosen:
         mesh = meshes[obj]
-        elements = {VERTICES: mesh.verts, EDGES: mesh.edges, FACES: mesh.faces}[kind]
+        elements = _by_kind(mesh)[kind]
         elements.ensure_lookup_table()
         for index in indices:
             if index < len(elements):
@@ -31,7 +39,7 @@ def select_only(run, context, chosen):
         bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
-def select_none(mesh):
+def select_none(mesh: bmesh.types.BMesh) -> None:
     """Deselect all of a bmesh."""
     for elements in (mesh.faces, mesh.edges, mesh.verts):
         for element in elements:
@@ -39,18 +47,22 @@ def select_none(mesh):
     mesh.select_history.clear()
 
 
-def _edited(context):
-    return with_own_meshes(obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.mode == "EDIT")
+def _by_kind(mesh: bmesh.types.BMesh) -> dict[str, Any]:
+    return {VERTICES: mesh.verts, EDGES: mesh.edges, FACES: mesh.faces}
 
 
-def note_selection(run, context, objects):
+def _edited(context: bpy.types.Context) -> list[MeshObject]:
+    return with_own_meshes(obj for obj in mesh_objects(context.view_layer.objects) if obj.mode == "EDIT")
+
+
+def note_selection(run: Transaction, context: bpy.types.Context, objects: list[MeshObject]) -> None:
     """Note the select mode, and what is selected in the meshes of objects in Edit Mode."""
     for obj in objects:
         run.before_write(_restore_selection, obj, *_selection(bmesh.from_edit_mesh(obj.data)))
     run.before_write(_restore_select_mode, context.tool_settings, tuple(context.tool_settings.mesh_select_mode))
 
 
-def _selection(mesh):
+def _selection(mesh: bmesh.types.BMesh) -> tuple[list[list[bool]], list[tuple[str, int]], int | None]:
     """Whether each vertex, edge and face is selected, and what was in which order last, by number."""
     sequences = (mesh.verts, mesh.edges, mesh.faces)
     for elements in sequences:
@@ -62,10 +74,12 @@ def _selection(mesh):
     return flags, history, None if active is None else active.index
 
 
-def _restore_selection(obj, flags, history, active):
+def _restore_selection(
+    obj: MeshObject, flags: list[list[bool]], history: list[tuple[str, int]], active: int | None
+) -> None:
     mesh = bmesh.from_edit_mesh(obj.data)
     select_none(mesh)
-    by_kind = dict(zip((VERTICES, EDGES, FACES), (mesh.verts, mesh.edges, mesh.faces), strict=True))
+    by_kind = _by_kind(mesh)
     for elements, chosen in zip(by_kind.values(), flags, strict=True):
         elements.ensure_lookup_table()
         for element, selected in zip(elements, chosen, strict=True):
@@ -77,11 +91,11 @@ def _restore_selection(obj, flags, history, active):
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
-def _restore_select_mode(settings, mode):
+def _restore_select_mode(settings: bpy.types.ToolSettings, mode: tuple[bool, bool, bool]) -> None:
     settings.mesh_select_mode = mode
 
 
-def edges_along(obj, vertices):
+def edges_along(obj: MeshObject, vertices: list[int]) -> list[int | None]:
     """Edges of an object in Edit Mode along a closed loop of vertices; None for each that is no longer there."""
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()

@@ -3,35 +3,36 @@
 
 import dataclasses
 import traceback
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
 
 import bpy
 import numpy as np
 
 from ..maps.errors import KnownError
 from .errors import TransferError
+from .mesh_object import MeshObject, mesh_objects
 from .mesh_reading import bring_up_to_date, read_mark
+from .transaction import Transaction
 
 GONE = "it was deleted or renamed in the meantime"
 
 
-def target_objects(context):
+def target_objects(context: bpy.types.Context) -> list[MeshObject]:
     """The mesh objects in Edit Mode, or else the selected ones; the active one first."""
-    if context.mode == "EDIT_MESH":
-        objects = list(context.objects_in_mode_unique_data)
-    else:
-        objects = [obj for obj in context.selected_objects if obj.type == "MESH"]
-    return sorted(objects, key=lambda obj: obj != context.active_object)
+    objects = context.objects_in_mode_unique_data if context.mode == "EDIT_MESH" else context.selected_objects
+    return sorted(mesh_objects(objects), key=lambda obj: obj != context.active_object)
 
 
-def with_own_meshes(objects):
+def with_own_meshes(objects: Iterable[MeshObject]) -> list[MeshObject]:
     """The first one of the objects for each mesh."""
-    first = {}
+    first: dict[str, MeshObject] = {}
     for obj in objects:
         first.setdefault(obj.data.name_full, obj)
     return list(first.values())
 
 
-def check_readable(obj):
+def check_readable(obj: MeshObject) -> None:
     """Raise TransferError where the object does not have its mesh as it is now."""
     mesh = obj.data
     if mesh.is_editmode and obj.mode != "EDIT":
@@ -41,7 +42,7 @@ def check_readable(obj):
         raise TransferError(f"{obj.name}: its mesh is being sculpted or painted: leave that mode first")
 
 
-def check_mesh(obj):
+def check_mesh(obj: MeshObject) -> None:
     """Raise TransferError unless the object's mesh can be read and written, and what is written stays in the file."""
     mesh = obj.data
     if mesh.library is not None:
@@ -56,19 +57,19 @@ class Target:
     """An object that was read, to be written later. It is found by its name: it may be gone by then."""
 
     name: str
-    mark: tuple
+    mark: tuple[np.ndarray, ...]
 
     @classmethod
-    def of(cls, obj):
+    def of(cls, obj: MeshObject) -> "Target":
         """The target that this object is, whose surface was just read."""
         return cls(obj.name, read_mark(obj))
 
     @property
-    def obj(self):
+    def obj(self) -> MeshObject | None:
         """The object of that name in this file, or None."""
         return bpy.data.objects.get((self.name, None))
 
-    def find(self):
+    def find(self) -> MeshObject:
         """The object. Raises TransferError if it is gone, is another mesh now, or cannot be written any more."""
         obj = self.obj
         if obj is None or obj.type != "MESH":
@@ -80,12 +81,17 @@ class Target:
         return obj
 
 
-def _same(one, other):
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two arrays are, bit for bit: a place that is no number is the same as itself."""
     return one.shape == other.shape and bool((one.view(np.int32) == other.view(np.int32)).all())
 
 
-def reason(name, error):
+def attempt(run: Transaction, name: str, problems: list[str]) -> AbstractContextManager[None]:
+    """A part of the run that may fail for itself: the reason goes to the problems, with the object's name first."""
+    return run.attempt(lambda error: problems.append(reason(name, error)))
+
+
+def reason(name: str, error: Exception) -> str:
     """Why the object of that name failed, its name first. What nobody foresaw goes to the console in full."""
     if isinstance(error, KnownError):
         text = str(error)

@@ -9,15 +9,17 @@ its own: one that fails is put back alone, and the others go on.
 import contextlib
 import functools
 import traceback
+from collections.abc import Callable, Iterator
+from typing import Any
 
 
 class Transaction:
     """How to put back what was written so far."""
 
-    def __init__(self):
-        self._restores = []
+    def __init__(self) -> None:
+        self._restores: list[Callable[[], None]] = []
 
-    def before_write(self, restore, *arguments):
+    def before_write(self, restore: Callable[..., None], *arguments: Any) -> None:
         """Call this before anything is written that `restore(*arguments)` puts back.
 
         It is called however far the writing came, and maybe twice: so it sets what was, whatever is there now.
@@ -25,7 +27,7 @@ class Transaction:
         self._restores.append(functools.partial(restore, *arguments))
 
     @contextlib.contextmanager
-    def part(self):
+    def part(self) -> Iterator[None]:
         """What is written inside is put back if an exception leaves it."""
         start = self.mark()
         try:
@@ -35,7 +37,7 @@ class Transaction:
             raise
 
     @contextlib.contextmanager
-    def attempt(self, failed):
+    def attempt(self, failed: Callable[[Exception], None]) -> Iterator[None]:
         """A part that may fail for itself: the exception is given to `failed`, and what comes after goes on."""
         try:
             with self.part():
@@ -43,11 +45,11 @@ class Transaction:
         except Exception as error:
             failed(error)
 
-    def mark(self):
+    def mark(self) -> int:
         """What was written until now, for `put_back`."""
         return len(self._restores)
 
-    def put_back(self, start=0):
+    def put_back(self, start: int = 0) -> None:
         """Put back what was written since the mark `start`: after an exception, or where nothing came of it."""
         while len(self._restores) > start:
             try:
@@ -62,7 +64,7 @@ class Transaction:
 
 
 @contextlib.contextmanager
-def transaction():
+def transaction() -> Iterator[Transaction]:
     """The transaction of a run: as a whole it is one part."""
     run = Transaction()
     with run.part():

@@ -4,6 +4,7 @@
 import argparse
 import csv
 import dataclasses
+from typing import NoReturn
 
 from ..maps import options
 from .exit_and_signals import USAGE, Stop
@@ -18,19 +19,19 @@ WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
 class Request:
     """What to do: files as they were given, names of objects or None for all, and the options of the map."""
 
-    source: str
+    source: str | None
     output: str
-    report: str
-    names: list
+    report: str | None
+    names: list[str] | None
     options: options.Options
 
 
 class _Parser(argparse.ArgumentParser):
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         raise Stop(USAGE, message)
 
 
-def parse(arguments):
+def parse(arguments: list[str]) -> Request:
     """The request. Raises Stop if it is wrong; ends the program after --help."""
     default = options.Options()
     parser = _Parser(
@@ -72,24 +73,24 @@ def parse(arguments):
     return Request(**files, names=None if names is None else _split(names), options=chosen)
 
 
-def _whole_number(text):
+def _whole_number(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text) <= LARGEST):
         raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to {LARGEST}")
     return int(text)
 
 
-def _outer_loop(text):
+def _outer_loop(text: str) -> str | int:
     return text if text in ("auto", "longest") else _whole_number(text)
 
 
-def _checker_size(text):
+def _checker_size(text: str) -> float:
     least, most = CHECKER_SIZES
     if not least <= float(text) <= most:
         raise argparse.ArgumentTypeError(f"{text} is not from {least:g} to {most:g}")
     return float(text)
 
 
-def _split(texts):
+def _split(texts: list[str]) -> list[str]:
     """The names in the values of --objects: commas divide them, except in double quotes, as in a CSV file."""
     try:
         names = [name for text in texts for name in next(csv.reader([text], strict=True), None) or [""]]

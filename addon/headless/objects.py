@@ -2,23 +2,26 @@
 """The objects of a batch run: which they are, out of Edit Mode, and where they are in the world."""
 
 import contextlib
+from collections.abc import Iterator
+from typing import Any
 
 import bpy
 
+from ..blender.mesh_object import MeshObject, mesh_objects
 from .exit_and_signals import UNMAPPABLE, USAGE, Stop
 
 
-def chosen_objects(names):
+def chosen_objects(names: list[str] | None) -> list[MeshObject]:
     """The mesh objects of the scene, or those named, wherever they are in the file."""
     if names is None:
-        found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+        found = mesh_objects(bpy.context.scene.objects)
         if not found:
             raise Stop(UNMAPPABLE, "the scene has no mesh objects")
         return found
     return list(dict.fromkeys(_named(name, ",".join(names)) for name in names))
 
 
-def _named(name, asked):
+def _named(name: str, asked: str) -> MeshObject:
     obj = bpy.data.objects.get((name, None)) or bpy.data.objects.get(name)  # the file's own before a library's
     if obj is not None and obj.type == "MESH":
         return obj
@@ -30,7 +33,7 @@ def _named(name, asked):
     raise Stop(USAGE, f"there is no object named {name!r}{hint}")
 
 
-def leave_edit_mode(objects):
+def leave_edit_mode(objects: list[MeshObject]) -> None:
     """A file may have been saved in Edit Mode, of these objects or of others that share their meshes."""
     meshes = {obj.data for obj in objects}
     active = bpy.context.view_layer.objects.active
@@ -42,7 +45,7 @@ def leave_edit_mode(objects):
 
 
 @contextlib.contextmanager
-def in_their_places(objects):
+def in_their_places(objects: list[MeshObject]) -> Iterator[None]:
     """Inside, the world matrices of the objects are true, also of those that Blender does not evaluate.
 
     It leaves out what no view layer shows: objects that are disabled or excluded, or of another scene. An empty that
@@ -50,7 +53,7 @@ def in_their_places(objects):
     current frame of its own scene.
     """
     bpy.context.evaluated_depsgraph_get()  # brings those of the objects that are shown up to date
-    hidden = {}
+    hidden: dict[bpy.types.Scene, list[MeshObject]] = {}
     for obj in objects:
         if not obj.visible_get():
             hidden.setdefault(_scene_of(obj), []).append(obj)
@@ -69,13 +72,13 @@ def in_their_places(objects):
             bpy.data.objects.remove(helper)
 
 
-def _scene_of(obj):
+def _scene_of(obj: MeshObject) -> Any:
     current = bpy.context.scene
     scenes = [scene for scene in obj.users_scene if scene.library is None]
     return current if current in scenes or not scenes else scenes[0]
 
 
-def _helper(obj, scene):
+def _helper(obj: MeshObject, scene: bpy.types.Scene) -> bpy.types.Object:
     helper = bpy.data.objects.new("Koebe Helper", None)
     scene.collection.objects.link(helper)
     helper.constraints.new("COPY_TRANSFORMS").target = obj

@@ -2,10 +2,13 @@
 """One texture for two surfaces: the circle domain of one laid over the UVs of the other."""
 
 import dataclasses
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 
 from .circle_fit import fitted_circle
+from .outcomes import Progress
 from .shapes import Shape, ShapeError, map_shape
 from .triangles import as_complex, as_points, flipped_triangles
 from .upright import upright_turn
@@ -20,7 +23,7 @@ class Domain:
 
     centers: np.ndarray
     radii: np.ndarray
-    loops: list
+    loops: list[np.ndarray]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,7 +59,7 @@ class Carried:
     message: str = ""
 
 
-def read_source(shape, corner_uv):
+def read_source(shape: Shape, corner_uv: np.ndarray) -> Source:
     """The `Source` of a shape with UVs (C, 2) at its surface's corners. Raises ShapeError: no circle domain."""
     island, result = shape.island, shape.result
     uv = corner_uv[island.some_corner()].astype(np.float64)
@@ -83,7 +86,14 @@ def read_source(shape, corner_uv):
     return Source(shape, (uv - center) / radius, domain, center, radius)
 
 
-def carry(koebe, source, target, fit_holes=False, progress=None, cancel=None):
+def carry(
+    koebe: ModuleType,
+    source: Source,
+    target: Shape,
+    fit_holes: bool = False,
+    progress: Progress | None = None,
+    cancel: Any = None,
+) -> Carried:
     """The target's UVs such that the source's texture fits both: `Carried`. Raises ShapeError.
 
     The target's circle domain is laid over that of the source by the automorphism of the disk that brings its holes
@@ -115,16 +125,18 @@ def carry(koebe, source, target, fit_holes=False, progress=None, cancel=None):
     )  # fmt: skip
 
 
-def _placed(source, points):
+def _placed(source: Source, points: np.ndarray) -> np.ndarray:
     points = points / np.maximum(np.linalg.norm(points, axis=1, keepdims=True), 1.0)
     return (source.center + source.radius * points).astype(np.float32)
 
 
-def _flips(target, source, points):
+def _flips(target: Shape, source: Source, points: np.ndarray) -> np.ndarray:
     return flipped_triangles(target.island.triangles, _placed(source, points))
 
 
-def _with_matching_outer_loop(koebe, source, target, progress, cancel):
+def _with_matching_outer_loop(
+    koebe: ModuleType, source: Source, target: Shape, progress: Progress | None, cancel: Any
+) -> tuple[Shape, list[int]]:
     """The target with the loop outside that corresponds to the source's rim, and its loop for each of the source's.
 
     The loops are matched with the longest ones outside, which need not be how the source lies in the UVs.
@@ -146,7 +158,7 @@ def _with_matching_outer_loop(koebe, source, target, progress, cancel):
     return target, [next(number[int(v)] for v in loop if int(v) in number) for loop in wanted]
 
 
-def _upright_like(koebe, source, target, points):
+def _upright_like(koebe: ModuleType, source: Source, target: Shape, points: np.ndarray) -> np.ndarray:
     """Points of the target's disk turned about the middle of its hole, until up is where it is in the source."""
     ring = Domain(np.zeros_like(source.domain.centers), source.domain.radii.copy(), source.domain.loops)
     if len(ring.radii) == 2:
@@ -160,7 +172,9 @@ def _upright_like(koebe, source, target, points):
     return as_points(z)
 
 
-def _bent_onto_holes(koebe, source, target, match, points):
+def _bent_onto_holes(
+    koebe: ModuleType, source: Source, target: Shape, match: list[int], points: np.ndarray
+) -> np.ndarray:
     """Points with the rims of the holes on the source's circles, at their angles, and the others harmonic between."""
     result = target.result
     fixed, values = [result.loops[0]], [points[result.loops[0]]]

@@ -4,7 +4,7 @@
 import numpy as np
 
 
-def fitted_circle(points):
+def fitted_circle(points: np.ndarray) -> tuple[np.ndarray, float, float]:
     """Centre (2,) and radius of the circle nearest to points (n, 2), and their largest distance from it [Kåsa 1976]."""
     middle = points.mean(axis=0)
     arms = points - middle

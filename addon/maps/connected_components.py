@@ -10,7 +10,9 @@ import numpy as np
 HASTY_ROUNDS = 3
 
 
-def connected_components(count, first, second):
+def connected_components(  # type: ignore[return]  # its loop ends in no other way
+    count: int, first: np.ndarray, second: np.ndarray
+) -> np.ndarray:
     """Smallest member of the component of each of `count` nodes, joined by the edges first[i]—second[i].
 
     Every root hooks onto a smaller root that it meets, then all paths are halved until they are flat
@@ -33,7 +35,7 @@ def connected_components(count, first, second):
             low, high = low[order], high[order]
 
 
-def _flatten(label):
+def _flatten(label: np.ndarray) -> None:
     """Let every node point to its root."""
     flat = label[label]
     steep = np.flatnonzero(flat != label)

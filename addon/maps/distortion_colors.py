@@ -18,12 +18,12 @@ AREA_RAMP = np.array(
 NOT_MAPPED = (0.35, 0.35, 0.35)  # faces without an area in the UVs
 
 
-def ramp(kind):
+def ramp(kind: str) -> np.ndarray:
     """sRGB colours (n, 3) at equal steps of the legend."""
     return ANGLE_RAMP if kind == ANGLE else AREA_RAMP
 
 
-def colors(values, kind):
+def colors(values: np.ndarray, kind: str) -> np.ndarray:
     """sRGB colours (n, 3) of distortions (n,)."""
     where = values / ANGLE_END if kind == ANGLE else 0.5 + 0.5 * values / AREA_END
     stops = np.linspace(0.0, 1.0, len(ramp(kind)))
@@ -32,12 +32,12 @@ def colors(values, kind):
     return found
 
 
-def linear(srgb):
+def linear(srgb: np.ndarray) -> np.ndarray:
     """Linear values of sRGB ones."""
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
-def legend(kind):
+def legend(kind: str) -> tuple[str, list[tuple[float, str]]]:
     """Title, and (place from 0 to 1, text) of the marks."""
     if kind == ANGLE:
         return "Angle error", [(0.0, "0°"), (0.5, f"{ANGLE_END / 2:.0f}°"), (1.0, f"{ANGLE_END:.0f}°")]

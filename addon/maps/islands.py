@@ -4,13 +4,13 @@
 import numpy as np
 
 from .connected_components import connected_components
-from .surface import Island, next_corners
+from .surface import Island, Surface, next_corners
 
 # Up to so many groups a mask for each is faster than a sort.
 FEW = 16
 
 
-def whole_island(surface):
+def whole_island(surface: Surface) -> Island | None:
     """The surface as its own island, array for array, or None if a part of it is not selected or it has a seam.
 
     It is what `cut_into_islands` gives if the surface is connected and no two parts of it touch in a vertex only. The
@@ -31,7 +31,7 @@ def whole_island(surface):
     )
 
 
-def cut_into_islands(surface):
+def cut_into_islands(surface: Surface) -> list[Island]:
     """Islands of the selected faces, cut along seams, in the order of their first faces.
 
     Faces are neighbours if they share an edge that is no seam; corners are one vertex if they meet
@@ -39,6 +39,7 @@ def cut_into_islands(surface):
     three or more faces stay as they are, unless they are seams: the solver names them.
     """
     corner_face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
+    at: np.ndarray | slice
     if surface.selected.all():  # a slice takes no new memory, as indices would
         corners, at = np.arange(len(corner_face), dtype=np.int32), slice(None)
     else:
@@ -51,7 +52,7 @@ def cut_into_islands(surface):
     return _split(surface, corners, at, corner_face, corner_root, face_root)
 
 
-def _neighbours(surface, corners, edges):
+def _neighbours(surface: Surface, corners: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of corners whose edges are the same edge of two faces, and no seam."""
     # Of several writes to one place the last stays.
     first, last = np.full((2, len(surface.seam)), -1, dtype=np.int32)
@@ -70,7 +71,9 @@ def _neighbours(surface, corners, edges):
     return here, there
 
 
-def _same_vertex(corner_vertex, next_corner, here, there):
+def _same_vertex(
+    corner_vertex: np.ndarray, next_corner: np.ndarray, here: np.ndarray, there: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of corners at the two ends of the edges here—there that are one vertex."""
     opposed = corner_vertex[here] != corner_vertex[there]
     start = np.where(opposed, next_corner[there], there)
@@ -78,7 +81,14 @@ def _same_vertex(corner_vertex, next_corner, here, there):
     return np.append(here, next_corner[here]), np.append(start, end)
 
 
-def _split(surface, corners, at, corner_face, corner_root, face_root):
+def _split(
+    surface: Surface,
+    corners: np.ndarray,
+    at: np.ndarray | slice,
+    corner_face: np.ndarray,
+    corner_root: np.ndarray,
+    face_root: np.ndarray,
+) -> list[Island]:
     """The islands. `at` takes the `corners` from an array of all of them."""
     faces = np.flatnonzero(surface.selected)
     roots, islands = corners[corner_root[at] == corners], faces[face_root[faces] == faces]
@@ -122,7 +132,7 @@ def _split(surface, corners, at, corner_face, corner_root, face_root):
     return result
 
 
-def _groups(keys, values, count):
+def _groups(keys: np.ndarray, values: np.ndarray, count: int) -> list[np.ndarray]:
     """`values` with key 0, those with key 1, …, each in their order."""
     if count == 1:
         return [values]

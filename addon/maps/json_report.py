@@ -1,26 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Outcomes as JSON: the report that the batch script writes."""
 
+from typing import Any
+
 import numpy as np
 
+from .errors import elements_of, kind_of
+from .outcomes import IslandOutcome, SurfaceOutcome, Task
 from .rounding import RESOLUTION
 from .triangles import longest_edges
 from .wording import warnings
 
 
-def entries(outcome):
+def entries(outcome: SurfaceOutcome) -> list[dict[str, Any]]:
     """One dict per island: `result.to_dict()` in the mesh's vertex numbers, or the error."""
     return [_entry(outcome.task, index, one) for index, one in enumerate(outcome.islands)]
 
 
-def _entry(task, index, one):
+def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
     entry = {"object": task.name, "island": index, "island_faces": len(one.island.faces)}
     if one.error is not None:
-        error = {"name": type(one.error).__name__, "reason": str(one.error)}
-        kind = getattr(one.error, "kind", None)
+        error: dict[str, Any] = {"name": type(one.error).__name__, "reason": str(one.error)}
+        kind = kind_of(one.error)
         if kind is not None:
             error["kind"] = kind
-            error["count"] = len(one.error.elements)
+            error["count"] = len(elements_of(one.error))
         return {**entry, "error": error}
     result = one.result.to_dict()
     source = one.island.source_vertex
@@ -37,7 +41,7 @@ def _entry(task, index, one):
     return {**result, **entry, "placement": one.placement.to_dict()}
 
 
-def _below_resolution(one):
+def _below_resolution(one: IslandOutcome) -> int:
     """Flipped triangles whose longest edge in the UVs is too short to be drawn."""
     corners = one.uv[one.sheet.triangles[one.flipped]].astype(np.float64)
     return int(np.count_nonzero(longest_edges(corners) < RESOLUTION))

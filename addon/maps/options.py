@@ -3,6 +3,7 @@
 
 import dataclasses
 import math
+from typing import Any
 
 METHODS = ("gk", "ck")
 ENGINES = ("condensed", "mesh")
@@ -46,7 +47,7 @@ class Options:
 
     method: str = "gk"
     engine: str = "condensed"
-    outer: object = "auto"
+    outer: str | int = "auto"
     tolerance: float = 1e-6
     max_sweeps: int = 50
     balance: str = "area"
@@ -61,7 +62,7 @@ class Options:
     checker_size: float = 32.0
     checker_even: bool = True
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _one_of("method", self.method, METHODS)
         _one_of("engine", self.engine, ENGINES)
         _one_of("balance", self.balance, BALANCES)
@@ -83,7 +84,7 @@ class Options:
             raise OptionError(f"checker_size: {self.checker_size} is not a positive number")
         _check_layer_name(self.layer)
 
-    def solver_arguments(self):
+    def solver_arguments(self) -> dict[str, Any]:
         """Keyword arguments of `koebe.uniformize`, all but `outer`, which depends on the island."""
         return {
             "method": self.method,
@@ -96,12 +97,12 @@ class Options:
         }
 
 
-def _one_of(name, value, allowed):
+def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:
     if value not in allowed:
         raise OptionError(f"{name}: {value!r} is not one of {', '.join(allowed)}")
 
 
-def _check_layer_name(name):
+def _check_layer_name(name: str) -> None:
     if not name.strip():
         raise OptionError("layer: the name of the UV layer is empty")
     if name.startswith("."):

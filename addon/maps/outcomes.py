@@ -3,6 +3,8 @@
 
 import dataclasses
 import functools
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +13,12 @@ from .packing import Placement
 from .rounding import rounded
 from .surface import Island, Surface
 from .triangles import as_complex, as_points
+
+if TYPE_CHECKING:
+    from koebe import UniformizeResult
+
+Progress = Callable[[float, str], None]  # called with a fraction and a stage
+LATER: Any = None  # of what is not there from the start, and is not asked for before it is
 
 
 class MapError(KnownError):
@@ -28,10 +36,10 @@ class Task:
 
     name: str
     surface: Surface
-    outer: object = "auto"
+    outer: str | int = "auto"
     mirrored: bool = False
     pinned: bool = False
-    old_uv: np.ndarray = None
+    old_uv: np.ndarray | None = None
 
 
 @dataclasses.dataclass
@@ -45,46 +53,46 @@ class IslandOutcome:
     """
 
     island: Island
-    result: object = None
-    error: Exception = None
-    sheet: Island = None
-    shape: np.ndarray = None
+    result: "UniformizeResult" = LATER
+    error: Exception | None = None
+    sheet: Island = LATER
+    shape: np.ndarray = LATER
     turn: complex = 1.0
-    distortion: dict = None
-    placement: Placement = None
+    distortion: dict[str, Any] | None = None
+    placement: Placement = LATER
 
     @property
-    def unrolled(self):
+    def unrolled(self) -> bool:
         """Whether it is a rectangle: then its circles are not in the UVs."""
         return self.sheet is not self.island
 
     @property
-    def angle_error(self):
+    def angle_error(self) -> float:
         """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
         return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
 
-    def turned(self, points):
+    def turned(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 2) of the shape after the turn."""
         if self.turn == 1.0:
             return points
         return as_points(self.turn * as_complex(points))
 
     @functools.cached_property
-    def flat(self):
+    def flat(self) -> np.ndarray:
         """The sheet's vertices (n, 2) after the turn, in the unit disk."""
         return self.turned(self.shape)
 
     @functools.cached_property
-    def _rounded(self):
+    def _rounded(self) -> tuple[np.ndarray, np.ndarray]:
         return rounded(self.placement.apply(self.flat), self.sheet.triangles)
 
     @property
-    def uv(self):
+    def uv(self) -> np.ndarray:
         """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
         return self._rounded[0]
 
     @property
-    def flipped(self):
+    def flipped(self) -> np.ndarray:
         """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
         return self._rounded[1]
 
@@ -98,31 +106,31 @@ class SurfaceOutcome:
     """
 
     task: Task
-    islands: list
-    not_written: str = None
-    remarks: list = dataclasses.field(default_factory=list)
+    islands: list[IslandOutcome]
+    not_written: str | None = None
+    remarks: list[str] = dataclasses.field(default_factory=list)
 
     @property
-    def name(self):
+    def name(self) -> str:
         """Name of the surface's object."""
         return self.task.name
 
     @property
-    def mapped(self):
+    def mapped(self) -> list[IslandOutcome]:
         """The islands that have a result, unless it could not be written."""
         return [] if self.not_written else [outcome for outcome in self.islands if outcome.error is None]
 
     @property
-    def failed(self):
+    def failed(self) -> list[IslandOutcome]:
         """The islands that have an error."""
         return [outcome for outcome in self.islands if outcome.error is not None]
 
     @property
-    def converged(self):
+    def converged(self) -> bool:
         """Whether every mapped island reached the tolerance."""
         return all(outcome.result.converged for outcome in self.mapped)
 
-    def corner_uv(self):
+    def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
         corners = [outcome.sheet.corners for outcome in self.mapped]
         uv = [outcome.uv.take(outcome.sheet.corner_vertex, axis=0) for outcome in self.mapped]

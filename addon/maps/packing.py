@@ -3,6 +3,8 @@
 
 import cmath
 import dataclasses
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -20,20 +22,20 @@ SMALLEST_PLACE = 1e-6
 class Placement:
     """The similarity z -> offset + scale·exp(i·rotation)·z from the unit disk to the UV plane."""
 
-    offset: tuple = (0.5, 0.5)
+    offset: tuple[float, float] = (0.5, 0.5)
     scale: float = 0.5
     rotation: float = 0.0
 
-    def apply(self, points):
+    def apply(self, points: np.ndarray) -> np.ndarray:
         """UV coordinates (n, 2) of points (n, 2) of the unit disk."""
         return as_points(complex(*self.offset) + cmath.rect(self.scale, self.rotation) * as_complex(points))
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """Plain values, for JSON."""
         return {"offset": list(self.offset), "scale": self.scale, "rotation": self.rotation}
 
 
-def fit_placement(points, targets):
+def fit_placement(points: np.ndarray, targets: np.ndarray) -> Placement | None:
     """The placement that puts `points` (n, 2) of the disk where `targets` (n, 2) are, or None if these are one point.
 
     Centre, root mean square radius and mean direction agree.
@@ -49,19 +51,19 @@ def fit_placement(points, targets):
     return Placement((float(offset.real), float(offset.imag)), float(size), rotation)
 
 
-def pack_disks(radii, margin):
+def pack_disks(radii: Sequence[float], margin: float) -> list[Placement]:
     """Placements of disks with sizes in the given proportions, as large as they fit the unit square.
 
     Disks keep `margin` (in UV units) from each other and half of it from the border. A single disk
     has nothing to keep from: it fills the square.
     """
-    radii = np.asarray(radii, dtype=np.float64)
-    if len(radii) == 1:
+    sizes = np.asarray(radii, dtype=np.float64)
+    if len(sizes) == 1:
         return [Placement()]
-    margin = min(margin, 0.5 / len(radii))
-    relative = radii / radii.max()
+    margin = min(margin, 0.5 / len(sizes))
+    relative = sizes / sizes.max()
     order = np.argsort(-relative, kind="stable")
-    place = _nest if len(radii) <= MAX_NESTED_DISKS else _shelve
+    place = _nest if len(sizes) <= MAX_NESTED_DISKS else _shelve
     low, high, centers = 0.0, 0.5, None
     while centers is None or high - low > 0.5**BISECTIONS * high:
         scale = 0.5 * (low + high)
@@ -70,7 +72,7 @@ def pack_disks(radii, margin):
             high = scale
         else:
             low, centers = scale, tried
-    placements = [None] * len(radii)
+    placements = [Placement()] * len(sizes)
     for center, index in zip(centers, order, strict=True):
         placements[index] = Placement(
             (float(center[0]), float(center[1])), float(low * relative[index])
@@ -78,7 +80,7 @@ def pack_disks(radii, margin):
     return placements
 
 
-def _shelve(radii):
+def _shelve(radii: np.ndarray) -> np.ndarray | None:
     """Centers of disks of falling radius in rows from the bottom, or None."""
     centers, x, y, height = [], 0.0, 0.0, 0.0
     for radius in radii:
@@ -92,7 +94,7 @@ def _shelve(radii):
     return np.array(centers)
 
 
-def _nest(radii):
+def _nest(radii: np.ndarray) -> np.ndarray | None:
     """Centers of disks of falling radius, each in the lowest place where it touches two things, or None."""
     centers = np.empty((0, 2))
     for count, radius in enumerate(radii):
@@ -108,7 +110,7 @@ def _nest(radii):
     return centers
 
 
-def _touching_places(centers, radii, radius):
+def _touching_places(centers: np.ndarray, radii: np.ndarray, radius: float) -> np.ndarray:
     """Centers at which a disk touches two walls, a wall and a disk, or two disks."""
     low, high = radius, 1.0 - radius
     places = [np.array([[low, low], [low, high], [high, low], [high, high]])]

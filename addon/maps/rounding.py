@@ -19,7 +19,7 @@ REACH = 3  # units in the last place that a coordinate may move by
 STEPS = sorted(itertools.product(range(-REACH, REACH + 1), repeat=2), key=lambda step: step[0] ** 2 + step[1] ** 2)
 
 
-def rounded(points, triangles):
+def rounded(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 2) in 32 bits, and which triangles (m, 3) are flipped then.
 
     Where rounding turns a triangle over, one of its vertices takes another neighbour in the grid of the 32-bit numbers,
@@ -33,7 +33,7 @@ def rounded(points, triangles):
         return uv, flipped
     near = np.zeros(len(points), dtype=bool)
     near[triangles[turned]] = True
-    around = {}
+    around: dict[int, list[list[int]]] = {}
     for corners in triangles[near[triangles].any(axis=1)].tolist():
         for vertex in corners:
             around.setdefault(vertex, []).append(corners)
@@ -42,12 +42,12 @@ def rounded(points, triangles):
     return uv, flipped_triangles(triangles, uv)
 
 
-def _worth_it(points, triangles):
+def _worth_it(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Which triangles (k, 3) are right before they are rounded, and large enough to be drawn."""
     return (signed_areas(points, triangles) > 0.0) & (longest_edges(points[triangles]) >= RESOLUTION)
 
 
-def _turn_back(uv, corners, around):
+def _turn_back(uv: np.ndarray, corners: list[int], around: dict[int, list[list[int]]]) -> None:
     """Move one corner of a triangle by as few units in the last place as turn it back."""
     if _area(uv, corners) > 0.0:
         return
@@ -60,7 +60,7 @@ def _turn_back(uv, corners, around):
             uv[vertex] = before
 
 
-def _area(uv, corners):
+def _area(uv: np.ndarray, corners: list[int]) -> float:
     """Twice the signed area of one triangle, in 64 bits."""
     (ax, ay), (bx, by), (cx, cy) = (uv[vertex].tolist() for vertex in corners)
     return (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)

@@ -2,11 +2,17 @@
 """Shapes by their circle domains: what tells them apart, how far they are from each other."""
 
 import dataclasses
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from .errors import KnownError
 from .islands import cut_into_islands
+from .outcomes import Progress
 from .surface import Island, Surface
 from .wording import explain
+
+if TYPE_CHECKING:
+    from koebe import UniformizeResult
 
 
 class ShapeError(KnownError):
@@ -23,7 +29,7 @@ class Shape:
     name: str
     surface: Surface
     island: Island
-    result: object
+    result: "UniformizeResult"
 
 
 @dataclasses.dataclass
@@ -31,12 +37,19 @@ class Comparison:
     """How a shape compares with the first one: its distance, or why there is none."""
 
     name: str
-    distance: float = None
+    distance: float | None = None
     converged: bool = True
     message: str = ""
 
 
-def map_shape(koebe, name, surface, progress=None, cancel=None, outer="longest"):
+def map_shape(
+    koebe: ModuleType,
+    name: str,
+    surface: Surface,
+    progress: Progress | None = None,
+    cancel: Any = None,
+    outer: str | int = "longest",
+) -> Shape:
     """The `Shape` of a surface. Raises ShapeError; `koebe.Cancelled` passes.
 
     The disk is balanced where its holes do not say where its centre is.
@@ -57,13 +70,13 @@ def map_shape(koebe, name, surface, progress=None, cancel=None, outer="longest")
     return Shape(name, surface, island, result)
 
 
-def module(koebe, shape):
+def module(koebe: ModuleType, shape: Shape) -> list[tuple[str, float]]:
     """Names and values of a shape's conformal module, its loops by length."""
     values = koebe.conformal_module(shape.result)
     return list(zip(koebe.module_names(len(shape.result.loops)), values.tolist(), strict=True))
 
 
-def compare(koebe, first, other):
+def compare(koebe: ModuleType, first: Shape, other: Shape) -> Comparison:
     """The `Comparison` of two shapes: the distance of their modules, corresponding loops found by best fit."""
     mine, yours = len(first.result.loops), len(other.result.loops)
     if mine != yours:

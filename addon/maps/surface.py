@@ -63,18 +63,18 @@ class Island:
     faces: np.ndarray
 
     @functools.cached_property
-    def areas(self):
+    def areas(self) -> np.ndarray:
         """Area (t,) of each triangle."""
         return areas(self.vertices, self.triangles)
 
-    def some_corner(self):
+    def some_corner(self) -> np.ndarray:
         """One corner (n,) of the surface for each vertex."""
         corner = np.empty(len(self.source_vertex), dtype=np.int32)
         corner[self.corner_vertex] = self.corners
         return corner
 
 
-def next_corners(surface):
+def next_corners(surface: Surface) -> np.ndarray:
     """The corner (C,) that follows on each one in its face."""
     following = np.arange(1, len(surface.corner_vertex) + 1, dtype=np.int32)
     following[surface.face_start + surface.face_size - 1] = surface.face_start

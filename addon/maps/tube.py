@@ -3,16 +3,19 @@
 
 import dataclasses
 import heapq
+from collections.abc import Sequence
 
 import numpy as np
 
 from .connected_components import connected_components
 from .islands import cut_into_islands
-from .surface import next_corners
+from .surface import Island, Surface, next_corners
 from .triangles import as_complex, as_points
 
+Tube = tuple[Island, np.ndarray, Sequence[np.ndarray]]  # an island, its UVs, its outer and inner loop
 
-def unroll(surface, tubes):
+
+def unroll(surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.ndarray] | None]:
     """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
 
     A tube is (island, uv, loops): `uv` maps the island to the unit disk with a round hole; `loops` are its outer and
@@ -47,7 +50,7 @@ def unroll(surface, tubes):
     return result
 
 
-def _rectangle(sheet, island, log):
+def _rectangle(sheet: Island, island: Island, log: np.ndarray) -> np.ndarray:
     """Points (n, 2) of the sheet in the plane of i log z, in the unit disk."""
     whole = np.empty(len(sheet.source_vertex), dtype=np.int64)  # vertex of the island for each one of the sheet
     whole[sheet.corner_vertex] = island.corner_vertex
@@ -58,7 +61,7 @@ def _rectangle(sheet, island, log):
     return (points - 0.5 * (low + high)) / (0.5 * np.linalg.norm(high - low))
 
 
-def concentric(z, inner):
+def concentric(z: np.ndarray, inner: np.ndarray) -> np.ndarray:
     """Points of the unit disk after the automorphism that brings the circle through z[inner] around 0."""
     points = z[inner]
     system = np.column_stack([points.real, points.imag, np.ones(len(points))])
@@ -72,13 +75,13 @@ def concentric(z, inner):
     return (z - a) / (1.0 - np.conj(a) * z)
 
 
-def _wrapped_distance(one, two):
+def _wrapped_distance(one: np.ndarray, two: np.ndarray) -> np.ndarray:
     """Distance on the cylinder whose points are logarithms."""
     step = one - two
     return np.hypot(step.real, np.remainder(step.imag + np.pi, 2.0 * np.pi) - np.pi)
 
 
-def _cut(ends, length, loops, back):
+def _cut(ends: np.ndarray, length: np.ndarray, loops: Sequence[np.ndarray], back: np.ndarray) -> list[int]:
     """Indices of the edges (m, 2) of the shortest path from the inner loop to the rearmost vertex of the outer one.
 
     It touches the loops with its ends alone: along the rim, or over a chord of it, it would cut off a piece. So it ends
@@ -93,7 +96,9 @@ def _cut(ends, length, loops, back):
     return path
 
 
-def _shortest_paths(ends, length, starts, dead_ends, count):
+def _shortest_paths(
+    ends: np.ndarray, length: np.ndarray, starts: list[int], dead_ends: list[int], count: int
+) -> dict[int, tuple[int, int]]:
     """Vertex and edge before each vertex on its shortest path from the nearest start [Dijkstra 1959].
 
     No path goes on from one of the dead ends; with the first of them the search is over.
@@ -119,13 +124,13 @@ def _shortest_paths(ends, length, starts, dead_ends, count):
     return came
 
 
-def _branches(log, triangles):
+def _branches(log: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Integers k (n,) that make the imaginary part of log + 2πik continuous over a surface that is cut open."""
     first, second = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     jump = np.rint((log[first].imag - log[second].imag) / (2.0 * np.pi)).astype(int)
     smooth = jump == 0
     part = connected_components(len(log), first[smooth], second[smooth])
-    steps = {}
+    steps: dict[int, list[tuple[int, int]]] = {}
     links = np.stack([part[first[~smooth]], part[second[~smooth]], jump[~smooth]], axis=1)
     for a, b, k in np.unique(links, axis=0).tolist() if len(links) else ():
         steps.setdefault(a, []).append((b, k))

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from .surface import Island
 from .triangles import as_complex, blocks, spanned_areas
 
 # Axes that may be up, in this order, Z and Y: the second is for surfaces that lie flat.
@@ -13,7 +14,7 @@ AGREEMENT = 0.1
 NO_AGREEMENT = 1e-9
 
 
-def upright_turn(island, uv):
+def upright_turn(island: Island, uv: np.ndarray) -> complex:
     """The complex number of modulus 1 that turns the disk so that up points along +v as well as possible.
 
     On each triangle of the island the height has a gradient in the disk, given by the map `uv` (n, 2): divided by the

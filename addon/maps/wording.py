@@ -1,7 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The text of every result, reason and warning: what the report, the status line and the command line say."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+
+from .errors import elements_of, kind_of
+from .outcomes import IslandOutcome, SurfaceOutcome, Task
+from .surface import Island
+
+if TYPE_CHECKING:
+    import koebe
 
 # What is wrong, and what an artist can do about it, by the kind of `koebe.TopologyError`.
 REASONS = {
@@ -18,7 +28,7 @@ FEW = 6  # reasons in one message, which has to fit on the screen
 OF_THE_DISK = "below_resolution"
 
 
-def result_line(outcome):
+def result_line(outcome: SurfaceOutcome) -> str:
     """One line on a surface: loops, sweeps, roundness, angle error, flips, seconds."""
     results = [one.result for one in outcome.mapped]
     triangles = np.array([len(one.island.triangles) for one in outcome.mapped], dtype=float)
@@ -38,12 +48,12 @@ def result_line(outcome):
     return f"{outcome.name}: {', '.join(words)}"
 
 
-def failure_line(outcome):
+def failure_line(outcome: SurfaceOutcome) -> str:
     """One line on the islands of a surface that could not be mapped, or written: how many and why."""
     if outcome.not_written:
         return outcome.not_written
     failed = outcome.failed
-    reasons = {}
+    reasons: dict[str, list[IslandOutcome]] = {}
     for one in failed:
         reasons.setdefault(explain(one.error), []).append(one)
     text = "; ".join(
@@ -54,19 +64,19 @@ def failure_line(outcome):
     return f"{outcome.name}: {count}{text}"
 
 
-def explain(error):
+def explain(error: Exception | None) -> str:
     """Why the solver refused, and what to do about it."""
-    reason = REASONS.get(getattr(error, "kind", None))
+    reason, count = REASONS.get(kind_of(error) or ""), len(elements_of(error))
     if reason is None:
         return str(error)
     return reason.format(
         detail=str(error).split(":")[0],
-        pairs=counted(len(error.elements) // 2, "edge"),
-        vertices=counted(len(error.elements), "vertex", "vertices"),
+        pairs=counted(count // 2, "edge"),
+        vertices=counted(count, "vertex", "vertices"),
     )
 
 
-def warnings(task, one):
+def warnings(task: Task, one: IslandOutcome) -> list[dict[str, Any]]:
     """What to watch out for in a mapped island: kind, elements in the mesh's numbers (those of loops aside), text."""
     native = [
         _in_mesh(one.island, warning)
@@ -77,23 +87,23 @@ def warnings(task, one):
     return [*native, *({"kind": kind, "elements": [], "text": text} for kind, text in own)]
 
 
-def _in_mesh(island, warning):
+def _in_mesh(island: Island, warning: "koebe.Warning") -> dict[str, Any]:
     """A warning with its elements as the mesh numbers them."""
     number = {"vertices": island.source_vertex, "faces": island.triangle_face}.get(warning.of)
     return dict(warning if number is None else warning.renumbered(number))
 
 
-def counted(count, noun, plural=None):
+def counted(count: int, noun: str, plural: str | None = None) -> str:
     """A number and what it counts, in the plural where that is right."""
     return f"{count} {noun if count == 1 else plural or noun + 's'}"
 
 
-def few(reasons, between=". "):
+def few(reasons: Sequence[str], between: str = ". ") -> str:
     """The first of the reasons as one text, and how many more there are."""
     more = [f"And {len(reasons) - FEW} more"] if len(reasons) > FEW else []
     return between.join([*reasons[:FEW], *more])
 
 
-def lines(start, reasons):
+def lines(start: str, reasons: Sequence[str]) -> str:
     """An error for Blender's popup, which has a line for each reason where there are several."""
     return f"{start}\n{few(reasons, chr(10))}" if len(reasons) > 1 else " ".join([start, *reasons])

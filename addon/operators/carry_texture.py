@@ -4,12 +4,16 @@
 import bpy
 from bpy.props import BoolProperty
 
+from ..blender.mesh_object import MeshObject
 from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
 from ..jobs.shape_jobs import CarryJob
+from ..maps.carried_uv import Carried
 from ..maps.wording import few, lines
 from ..state import run_report
-from ..state.option_properties import UniformizeProperties
+from ..state.option_properties import option
+from ..state.run_report import report_of
+from ..state.shape_report import shapes_of
 from .modal_run import redraw
 from .shape_operator import ShapeOperator, in_object_mode
 
@@ -21,7 +25,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
     bl_idname = "uv.koebe_carry_texture"
     bl_label = "Koebe Carry Texture"
 
-    layer: UniformizeProperties.__annotations__["layer"]
+    layer: option("layer")
     fit_holes: BoolProperty(
         name="Fit Holes",
         default=False,
@@ -35,22 +39,22 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return in_object_mode(cls, context, 2)
 
-    def _new_job(self, objects):
+    def _new_job(self, objects: list[MeshObject]) -> CarryJob:
         return CarryJob(objects, self.layer, self.fit_holes)
 
-    def _finish(self, context, job):
+    def _finish(self, context: bpy.types.Context, job: CarryJob) -> set[str]:
         with transaction() as run:
             job.write(run, self.material)
             done = [one for one in job.carried if one is not None]
             if not done:
                 self.report({"ERROR"}, lines("Koebe UV: nothing was carried.", job.failures))
                 return {"CANCELLED"}
-            shapes = context.window_manager.koebe_shapes
+            shapes = shapes_of(context)
             note_group(run, shapes)
-            note_group(run, context.window_manager.koebe_uv)
+            note_group(run, report_of(context))
             shapes.carried.clear()
             for one in done:
                 run_report.record_moved(context, one.name, job.layer, one.shape.island, one)
@@ -64,7 +68,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
             return {"FINISHED"}
 
 
-def _line(one):
+def _line(one: Carried) -> str:
     """What was carried to one object, and how well it fits."""
     fit = "fitted holes, " if one.fitted else ""
     text = (

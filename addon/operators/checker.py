@@ -4,13 +4,14 @@
 import bpy
 
 from ..blender import checker, edit_mode
-from ..blender.mesh_reading import read_surface, read_uv
-from ..blender.targets import reason, target_objects
+from ..blender.mesh_object import MeshObject
+from ..blender.mesh_reading import read_layer, read_surface
+from ..blender.targets import attempt, target_objects
 from ..blender.transaction import transaction
 from ..maps.distortion import texel_density
 from ..maps.wording import few, lines
-from ..state.option_properties import UniformizeProperties
-from .uniformize import UV_OT_koebe_uniformize
+from ..state.option_properties import option
+from .uniformize import can_map
 
 
 class UV_OT_koebe_checker(bpy.types.Operator):
@@ -20,28 +21,29 @@ class UV_OT_koebe_checker(bpy.types.Operator):
     bl_label = "Koebe Checker"
     bl_options = {"REGISTER", "UNDO"}
 
-    layer: UniformizeProperties.__annotations__["layer"]
-    checker_size: UniformizeProperties.__annotations__["checker_size"]
-    checker_even: UniformizeProperties.__annotations__["checker_even"]
+    layer: option("layer")
+    checker_size: option("checker_size")
+    checker_even: option("checker_even")
 
     @classmethod
-    def poll(cls, context):
-        return UV_OT_koebe_uniformize.poll.__func__(cls, context)
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return can_map(cls, context)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         with transaction() as run:
-            objects, problems = target_objects(context), []
+            objects = target_objects(context)
+            problems: list[str] = []
             wearing = [obj for obj in objects if checker.is_on(obj)]
             sizes = [self.checker_size] * len(objects)
             if not wearing and self.checker_even and len(objects) > 1:
                 sizes = checker.even_sizes(self.checker_size, [self._density(obj) for obj in objects])
             materials = [None] * len(objects) if wearing else checker.materials(run, objects, self.layer, sizes)
             for obj, material in zip(wearing or objects, materials):
-                with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                with attempt(run, obj.name, problems):
                     checker.check(obj)
                     if wearing:
                         checker.take_off(run, obj)
-                    elif not checker.is_on(obj):  # it may be by now, as another object has the same mesh
+                    elif material and not checker.is_on(obj):  # it may be by now, as another object has the same mesh
                         checker.put_on(run, obj, material)
             if len(problems) == len(wearing or objects):
                 run.put_back()  # the new material
@@ -52,12 +54,12 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                 self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
             return {"FINISHED"}
 
-    def _density(self, obj):
+    def _density(self, obj: MeshObject) -> float:
         """Lengths in the UVs over lengths in space; 0 where there are none, or where they cannot be read."""
         if self.layer not in obj.data.uv_layers or (obj.data.is_editmode and obj.mode != "EDIT"):
             return 0.0
         surface = read_surface(obj, selected_only=False)
-        return texel_density(surface, read_uv(obj, self.layer))
+        return texel_density(surface, read_layer(obj, self.layer))
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_checker,))

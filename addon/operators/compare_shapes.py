@@ -3,10 +3,12 @@
 
 import bpy
 
+from ..blender.mesh_object import MeshObject
 from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
 from ..jobs.shape_jobs import MeasureJob
 from ..maps.wording import few
+from ..state.shape_report import shapes_of
 from .modal_run import redraw
 from .shape_operator import ShapeOperator, in_object_mode
 
@@ -20,15 +22,15 @@ class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return in_object_mode(cls, context, 1)
 
-    def _new_job(self, objects):
+    def _new_job(self, objects: list[MeshObject]) -> MeasureJob:
         return MeasureJob(objects)
 
-    def _finish(self, context, job):
+    def _finish(self, context: bpy.types.Context, job: MeasureJob) -> set[str]:
         with transaction() as run:
-            shapes = context.window_manager.koebe_shapes
+            shapes = shapes_of(context)
             note_group(run, shapes)
             shapes.source = job.names[0]
             shapes.module.clear()

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that shows distortion as colours of the faces."""
 
+from typing import Any
+
 import bpy
 
 from ..blender import distortion_attribute, edit_mode
-from ..blender.mesh_reading import read_surface, read_uv
+from ..blender.mesh_object import MeshObject
+from ..blender.mesh_reading import read_layer, read_surface
 from ..blender.noted_properties import set_property
-from ..blender.targets import reason, target_objects, with_own_meshes
-from ..blender.transaction import transaction
+from ..blender.targets import attempt, check_mesh, target_objects, with_own_meshes
+from ..blender.transaction import Transaction, transaction
 from ..maps import distortion
 from ..maps.wording import few, lines
 
@@ -30,23 +33,24 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
     layer: bpy.props.StringProperty(name="UV Layer", default="Koebe", description="UV layer to judge")
 
     @classmethod
-    def description(cls, context, properties):
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """The tooltip of each button is its own."""
         return next(text for kind, _, text in KINDS if kind == properties.kind)
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
             cls.poll_message_set("Select a mesh object, in Object Mode or in Edit Mode")
             return False
         return True
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         with transaction() as run:
-            problems, objects = [], with_own_meshes(target_objects(context))
+            objects = with_own_meshes(target_objects(context))
+            problems: list[str] = []
             with edit_mode.left_if_faster(run, context):
                 for obj in objects:
-                    with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+                    with attempt(run, obj.name, problems):
                         self._color(run, obj)
             if len(problems) == len(objects):
                 self.report({"ERROR"}, lines("Koebe UV:", problems))
@@ -57,19 +61,19 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
                 self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
             return {"FINISHED"}
 
-    def _color(self, run, obj):
+    def _color(self, run: Transaction, obj: MeshObject) -> None:
         if self.kind == "none":
-            if distortion_attribute.MEMORY_KEY in obj.data:
-                distortion_attribute.check_mesh(obj)
+            if distortion_attribute.is_on(obj.data):
+                check_mesh(obj)
             distortion_attribute.take_off(run, obj)
             return
         distortion_attribute.check(obj, self.layer)
         surface = read_surface(obj, selected_only=False)
-        colors = distortion_attribute.corner_colors(surface, read_uv(obj, self.layer), self.kind)
+        colors = distortion_attribute.corner_colors(surface, read_layer(obj, self.layer), self.kind)
         distortion_attribute.put_on(run, obj, self.kind, colors)
 
 
-def _show_colors(run, context, on):
+def _show_colors(run: Transaction, context: bpy.types.Context, on: bool) -> None:
     """Let the 3D Views of all windows show colour attributes in Solid shading, or again what they showed before."""
     for screen in dict.fromkeys(window.screen for window in context.window_manager.windows):
         views = [area.spaces.active for area in screen.areas if area.type == "VIEW_3D"]
@@ -89,7 +93,7 @@ def _show_colors(run, context, on):
             area.tag_redraw()
 
 
-def _restore_shading(views, kinds):
+def _restore_shading(views: list[Any], kinds: list[str]) -> None:
     for view, kind in zip(views, kinds, strict=True):
         view.shading.color_type = kind
 

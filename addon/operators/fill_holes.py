@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that fills holes."""
 
+from types import ModuleType
+
 import bpy
 
 from ..blender import hole_filling
 from ..blender.filled_mesh import FillPlan
-from ..blender.targets import reason, target_objects, with_own_meshes
-from ..blender.transaction import transaction
+from ..blender.targets import attempt, target_objects, with_own_meshes
+from ..blender.transaction import Transaction, transaction
 from ..jobs import native_package
 from ..maps.wording import counted, few, lines
 from ..solver.load import NativeError
@@ -32,19 +34,19 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
             cls.poll_message_set("Select a mesh object")
             return False
         return True
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         try:
             koebe = native_package.load()
         except NativeError as error:
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return {"CANCELLED"}
-        plans = []
+        plans: list[FillPlan] = []
         with transaction() as run:
             try:
                 return self._fill(run, context, koebe, plans)
@@ -52,13 +54,14 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
                 for plan in plans:
                     plan.free()
 
-    def _fill(self, run, context, koebe, plans):
-        problems, holes, faces = [], 0, 0
+    def _fill(self, run: Transaction, context: bpy.types.Context, koebe: ModuleType, plans: list[FillPlan]) -> set[str]:
+        problems: list[str] = []
+        holes, faces = 0, 0
         for obj in with_own_meshes(target_objects(context)):
-            with run.attempt(lambda error, name=obj.name: problems.append(reason(name, error))):
+            with attempt(run, obj.name, problems):
                 plans.append(FillPlan(koebe, obj, self.which))
         for plan in plans:
-            with run.attempt(lambda error, name=plan.obj.name: problems.append(reason(name, error))):
+            with attempt(run, plan.obj.name, problems):
                 plan.write(run, context)
                 holes, faces = holes + len(plan.fillings), faces + plan.faces
         if not holes:

@@ -10,7 +10,7 @@ from bl_operators.presets import AddPresetBase
 from ..blender import edit_mode
 from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
-from ..state.option_properties import OPTION_NAMES
+from ..state.option_properties import OPTION_NAMES, settings_of
 
 FOLDER = "koebe_uv"  # of the presets, within the user's
 
@@ -23,16 +23,16 @@ class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
     preset_menu = "KOEBE_MT_presets"
     preset_subdir = FOLDER
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         try:
-            return super().execute(context)
+            return super().execute(context)  # type: ignore[return-value]
         except OSError as error:
             self.report({"ERROR"}, f"Koebe UV: the preset cannot be written or removed: {error.strerror or error}")
             return {"CANCELLED"}
 
-    def add(self, context, path):
+    def add(self, context: bpy.types.Context, path: str) -> None:
         """Write the file, which may replace another, as a whole or not at all. `AddPresetBase` calls this."""
-        settings = context.scene.koebe_uv
+        settings = settings_of(context)
         lines = [f"bpy.context.scene.koebe_uv.{name} = {getattr(settings, name)!r}\n" for name in OPTION_NAMES]
         temporary = f"{path}.part"
         try:
@@ -51,11 +51,11 @@ class UV_OT_koebe_reset(bpy.types.Operator):
     bl_label = "Reset to Defaults"
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         with transaction() as run:
-            note_group(run, context.scene.koebe_uv)
+            note_group(run, settings_of(context))
             for name in OPTION_NAMES:
-                context.scene.koebe_uv.property_unset(name)
+                settings_of(context).property_unset(name)
             edit_mode.undo_all(context)
             return {"FINISHED"}
 

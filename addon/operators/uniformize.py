@@ -13,9 +13,20 @@ from ..maps.options import OptionError
 from ..maps.wording import few, lines
 from ..solver.load import NativeError
 from ..state import run_report
-from ..state.option_properties import UniformizeProperties, options_of
+from ..state.option_properties import OPTION_NAMES, UniformizeProperties, options_of
 from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders
+
+
+def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether there is a mesh to work on, in a mode in which that can be done; else it says what to do."""
+    if context.mode not in {"OBJECT", "EDIT_MESH"}:
+        cls.poll_message_set("Works in Object Mode and in Edit Mode")
+        return False
+    if not target_objects(context):
+        cls.poll_message_set("Select a mesh object")
+        return False
+    return True
 
 
 class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator):
@@ -27,25 +38,19 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
-        if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            cls.poll_message_set("Works in Object Mode and in Edit Mode")
-            return False
-        if not target_objects(context):
-            cls.poll_message_set("Select a mesh object")
-            return False
-        return True
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return can_map(cls, context)
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in UniformizeProperties.__annotations__:
+        for name in OPTION_NAMES:
             row = layout.row()
             row.active = not name.startswith("checker_") or self.checker
             row.prop(self, name)
 
-    def _job(self, context):
+    def _job(self, context: bpy.types.Context) -> Job | None:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
         try:
             selected_only = context.mode == "EDIT_MESH"
@@ -57,7 +62,7 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
             job.read_old_uv()
         return job
 
-    def _finish(self, context, job):
+    def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
         """Write what was computed, each object wholly or not at all, and say what became of it."""
         with transaction() as run:
             with edit_mode.left_if_faster(run, context):
@@ -71,7 +76,7 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
                 bpy.ops.ed.undo_push(message="Select What Is Wrong")
             return answer
 
-    def _say(self, job):
+    def _say(self, job: Job) -> set[str]:
         failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         failures += [text for _, text in job.refused]
         if not job.mapped_any:

@@ -14,8 +14,9 @@ import platform
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 
 from .wheel import KNOWN, Wheel, WheelError, remove_leftovers
 from .wheel_tags import interpreter_tag, wheel_fits
@@ -42,7 +43,7 @@ class UserFolders:
     make_own: Callable[[], Path | None]
 
 
-def load(user):
+def load(user: UserFolders) -> ModuleType:
     """The package `koebe`; `user` are the `UserFolders`.
 
     Raises NativeError, which names this interpreter and the wheels that the add-on brings, or the file at fault.
@@ -57,11 +58,11 @@ def load(user):
         raise NativeError(f"the native module does not load in {_interpreter()}: {error}") from error
 
 
-def _interpreter():
+def _interpreter() -> str:
     return f"Python {interpreter_tag()} on {sys.platform} {platform.machine()}"
 
 
-def _of_this_version(module):
+def _of_this_version(module: ModuleType) -> ModuleType:
     """The module that is loaded already, as after an update of the add-on in the same session."""
     version = getattr(module, "__version__", "unknown")
     if _checkout() is None and version != _fitting_wheel().version:
@@ -69,7 +70,7 @@ def _of_this_version(module):
     return module
 
 
-def _imported(folder):
+def _imported(folder: Path) -> ModuleType:
     """The package in that folder, whatever else there is of that name."""
     sys.path.insert(0, str(folder))
     try:
@@ -82,13 +83,13 @@ def _imported(folder):
         sys.path.remove(str(folder))
 
 
-def _checkout():
+def _checkout() -> Path | None:
     """The build folder, if this is a checkout that was built."""
     built = ADDON.parent / "build" / "python"
     return built if (ADDON.parent / "CMakeLists.txt").is_file() and (built / "koebe").is_dir() else None
 
 
-def _folder(user):
+def _folder(user: UserFolders) -> Path:
     """The folder to import the package from, with every file in it checked."""
     checkout = _checkout()
     if checkout is not None:
@@ -102,10 +103,11 @@ def _folder(user):
         except OSError as error:
             reason = f"cannot be written ({error.strerror or error})"
             problem = WheelError(folder, reason, "make room there or make it writable")
+    assert problem is not None  # there is always a folder to try
     raise problem
 
 
-def _fitting_wheel():
+def _fitting_wheel() -> Wheel:
     wheels = sorted((ADDON / "wheels").glob("koebe-*.whl"))
     fitting = [wheel for wheel in wheels if wheel_fits(wheel.name)]
     if not fitting:
@@ -114,7 +116,7 @@ def _fitting_wheel():
     return Wheel(fitting[-1])
 
 
-def _folders(wheel, user):
+def _folders(wheel: Wheel, user: UserFolders) -> Iterator[tuple[Path, Path]]:
     """Where the wheel's files are or can be, the best first, each with the file that remembers what was checked."""
     if user.extensions is not None:
         python = f"python{sys.version_info.major}.{sys.version_info.minor}"
@@ -131,11 +133,11 @@ def _folders(wheel, user):
     yield _in_place(private, wheel)
 
 
-def _in_place(place, wheel):
+def _in_place(place: Path, wheel: Wheel) -> tuple[Path, Path]:
     return place / wheel.folder_name, place / KNOWN
 
 
-def _remove_leftovers(folder, wheel, user):
+def _remove_leftovers(folder: Path, wheel: Wheel, user: UserFolders) -> None:
     """Remove what other versions have unpacked: beside this one, and where versions up to 0.1 did it."""
     remove_leftovers(folder.parent, wheel, keep=folder)
     if user.datafiles is not None:

@@ -14,12 +14,12 @@ MACHINE_SUFFIXES = {
 }
 
 
-def interpreter_tag():
+def interpreter_tag() -> str:
     """The tag of this interpreter, "cp311" in CPython 3.11."""
     return f"cp{sys.version_info.major}{sys.version_info.minor}"
 
 
-def wheel_fits(file_name):
+def wheel_fits(file_name: str) -> bool:
     """Whether this interpreter on this machine can load the wheel."""
     parts = file_name.removesuffix(".whl").split("-")
     if not file_name.endswith(".whl") or len(parts) < 5:
@@ -33,7 +33,7 @@ def wheel_fits(file_name):
     )
 
 
-def _serves(system):
+def _serves(system: str) -> bool:
     machine = platform.machine().lower()
     return system.startswith(SYSTEM_PREFIXES.get(sys.platform, ())) and system.endswith(
         MACHINE_SUFFIXES.get(machine, (machine,))

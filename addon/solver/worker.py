@@ -5,6 +5,7 @@ import contextlib
 import os
 import sys
 import threading
+from collections.abc import Callable
 
 NICENESS = 10  # steps by which the computation's threads stand back behind those that draw the window
 
@@ -15,37 +16,37 @@ class Worker:
     Python waits for the thread when it ends: to be cut off in native code could bring the program down.
     """
 
-    def __init__(self, compute):
+    def __init__(self, compute: Callable[[Callable[[float, str], None]], None]) -> None:
         self.fraction = 0.0
         self.stage = ""
         self._compute = compute
-        self._error = None
+        self._error: BaseException | None = None
         self._thread = threading.Thread(target=self._run, name="koebe")
         self._thread.start()
 
     @property
-    def running(self):
+    def running(self) -> bool:
         """Whether the computation has not ended yet."""
         return self._thread.is_alive()
 
-    def result(self):
+    def result(self) -> None:
         """Wait for the end; raise what the computation raised."""
         self._thread.join()
         if self._error is not None:
             raise self._error
 
-    def _run(self):
+    def _run(self) -> None:
         _stand_back()
         try:
             self._compute(self._progress)
         except BaseException as error:  # handed to the thread that polls
             self._error = error
 
-    def _progress(self, fraction, stage):
+    def _progress(self, fraction: float, stage: str) -> None:
         self.fraction, self.stage = fraction, stage
 
 
-def _stand_back():
+def _stand_back() -> None:
     """Lower the priority of this thread, and of those it will start, where the system has one for each thread."""
     if sys.platform == "linux":
         with contextlib.suppress(OSError):

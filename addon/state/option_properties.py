@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options as Blender properties: of the operator (redo panel) and of the scene (panel, before the run)."""
 
+from typing import Any
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
@@ -135,28 +137,38 @@ class UniformizeProperties:
 OPTION_NAMES = tuple(UniformizeProperties.__annotations__)
 
 
+def option(name: str) -> Any:
+    """The property of that option, for an operator that has the same."""
+    return UniformizeProperties.__annotations__[name]
+
+
 class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     """The scene's settings, shown in the panel."""
 
 
-def copy_options(source, target):
+def settings_of(context: bpy.types.Context) -> KoebeSettings:
+    """The scene's settings."""
+    return context.scene.koebe_uv
+
+
+def copy_options(source: Any, target: Any) -> None:
     """Set the options of the operator's properties from the settings, or the other way round."""
     for name in OPTION_NAMES:
         setattr(target, name, getattr(source, name))
 
 
-def options_of(properties):
+def options_of(properties: UniformizeProperties) -> Options:
     """The `Options` of a property group. Raises OptionError."""
     return Options(**{name: getattr(properties, name) for name in OPTION_NAMES})
 
 
-def register():
+def register() -> None:
     """Register the settings and hang them on the scene."""
     bpy.utils.register_class(KoebeSettings)
     bpy.types.Scene.koebe_uv = PointerProperty(type=KoebeSettings)
 
 
-def unregister():
+def unregister() -> None:
     """Undo `register`."""
     del bpy.types.Scene.koebe_uv
     bpy.utils.unregister_class(KoebeSettings)

@@ -16,8 +16,12 @@ from bpy.props import (
 )
 
 from ..blender.noted_properties import note_group
+from ..blender.transaction import Transaction
+from ..maps.carried_uv import Carried
 from ..maps.circle_fit import fitted_circle
 from ..maps.offending_elements import offending_elements
+from ..maps.outcomes import IslandOutcome, SurfaceOutcome
+from ..maps.surface import Island
 from ..maps.wording import explain, warnings
 
 
@@ -62,9 +66,20 @@ class KoebeReport(bpy.types.PropertyGroup):
     )
 
 
-def record(run, context, outcomes, layer, refused):
+def report_of(context: bpy.types.Context) -> KoebeReport:
+    """The report that is shown."""
+    return context.window_manager.koebe_uv
+
+
+def record(
+    run: Transaction,
+    context: bpy.types.Context,
+    outcomes: list[SurfaceOutcome],
+    layer: str,
+    refused: list[tuple[str, str]],
+) -> None:
     """Replace the report: by outcomes that were written to a UV layer, and names and reasons of what was left out."""
-    report = context.window_manager.koebe_uv
+    report = report_of(context)
     note_group(run, report)
     report.islands.clear()
     for outcome in outcomes:
@@ -86,13 +101,13 @@ def record(run, context, outcomes, layer, refused):
     report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
 
 
-def _record_failure(report, name, text):
+def _record_failure(report: KoebeReport, name: str, text: str) -> None:
     """The entry of an object that was left out as a whole."""
     entry = report.islands.add()
     entry.object_name, entry.message = name, text.removeprefix(f"{name}: ")
 
 
-def _record_result(entry, outcome, one):
+def _record_result(entry: KoebeIslandReport, outcome: SurfaceOutcome, one: IslandOutcome) -> None:
     result = one.result
     entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
     entry.angle_error = one.angle_error
@@ -111,13 +126,13 @@ def _record_result(entry, outcome, one):
         loop.radius, loop.roundness = float(radius), float(roundness)
 
 
-def record_moved(context, name, layer, island, placed):
+def record_moved(context: bpy.types.Context, name: str, layer: str, island: Island, placed: Carried) -> None:
     """Bring the entry of an object of one island up to date with new UVs of the same loops; note the report before.
 
     placed  has uv (n, 2) of the island's vertices, angle_error in degrees and flipped (k,) triangles
     """
     number = {v: i for i, v in enumerate(island.source_vertex.tolist())}
-    for entry in context.window_manager.koebe_uv.islands:
+    for entry in report_of(context).islands:
         if entry.object_name != name or entry.layer != layer or not entry.mapped:
             continue
         entry.angle_error, entry.flipped = placed.angle_error, len(placed.flipped)
@@ -128,9 +143,9 @@ def record_moved(context, name, layer, island, placed):
             loop.uv_center, loop.uv_radius = center, radius
 
 
-def active_entry(context):
+def active_entry(context: bpy.types.Context) -> KoebeIslandReport | None:
     """The island of the report whose details are shown, or None."""
-    report = context.window_manager.koebe_uv
+    report = report_of(context)
     if not 0 <= report.active < len(report.islands):
         return None
     return report.islands[report.active]
@@ -139,14 +154,14 @@ def active_entry(context):
 CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)
 
 
-def register():
+def register() -> None:
     """Register the report and hang it on the window manager, which no file keeps and no undo changes."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.WindowManager.koebe_uv = PointerProperty(type=KoebeReport)
 
 
-def unregister():
+def unregister() -> None:
     """Undo `register`."""
     del bpy.types.WindowManager.koebe_uv
     for cls in reversed(CLASSES):

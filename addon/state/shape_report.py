@@ -28,17 +28,22 @@ class KoebeShapes(bpy.types.PropertyGroup):
     carried: CollectionProperty(type=KoebeShape, description="What its texture was carried to, and how well it fits")
 
 
+def shapes_of(context: bpy.types.Context) -> KoebeShapes:
+    """What is shown of shapes."""
+    return context.window_manager.koebe_shapes
+
+
 CLASSES = (KoebeModuleNumber, KoebeShape, KoebeShapes)
 
 
-def register():
+def register() -> None:
     """Register the report and hang it on the window manager."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.WindowManager.koebe_shapes = PointerProperty(type=KoebeShapes)
 
 
-def unregister():
+def unregister() -> None:
     """Undo `register`."""
     del bpy.types.WindowManager.koebe_shapes
     for cls in reversed(CLASSES):

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drawing over an editor: lines, a bar of colours, text. Coordinates are pixels of the region."""
 
+from collections.abc import Callable
+
 import bpy
+import numpy as np
 
 SPACES = {"VIEW_3D": bpy.types.SpaceView3D, "IMAGE_EDITOR": bpy.types.SpaceImageEditor}
 TEXT = (0.92, 0.92, 0.92, 1.0)
@@ -9,27 +12,30 @@ SHADE = (0.0, 0.0, 0.0, 0.55)
 BAR = (84, 160, 200, 12)  # left, from the top, width, height of the bar: below what Blender writes there
 TEXT_SIZE = 11  # points at a resolution scale of 1
 
-_handles = {}
+Color = tuple[float, float, float, float]
+
+_handles: dict[tuple[str, str], object] = {}
 
 
-def add(space, name, draw):
+def add(space: str, name: str, draw: Callable[[], None]) -> None:
     """Call `draw` whenever the main region of such an editor has been drawn."""
     _handles[space, name] = SPACES[space].draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
 
 
-def remove(space, name):
+def remove(space: str, name: str) -> None:
     """Undo `add`."""
     SPACES[space].draw_handler_remove(_handles.pop((space, name)), "WINDOW")
 
 
-def lines(strips, color, width):
+def lines(strips: list[np.ndarray], color: Color, width: float) -> None:
     """Draw each of the strips of points (x, y), as one batch."""
     import gpu
     from gpu_extras.batch import batch_for_shader
 
     from ..blender import compat
 
-    points, pairs = [], []
+    points: list[tuple[float, float]] = []
+    pairs: list[tuple[int, int]] = []
     for strip in strips:
         pairs += [(len(points) + i, len(points) + i + 1) for i in range(len(strip) - 1)]
         points += [(float(x), float(y)) for x, y in strip]
@@ -45,14 +51,14 @@ def lines(strips, color, width):
     gpu.state.blend_set("NONE")
 
 
-def text(content, x, y, color=TEXT, centered=True):
+def text(content: str, x: float, y: float, color: Color = TEXT, centered: bool = True) -> None:
     """Write a line of text, its baseline at y, on a shadow."""
     import blf
 
     scale = bpy.context.preferences.system.ui_scale
     blf.size(0, TEXT_SIZE * scale)
     if centered:
-        x -= blf.dimensions(0, content)[0] / 2
+        x -= blf.dimensions(0, content)[0] / 2  # type: ignore[index]
     blf.enable(0, blf.SHADOW)
     blf.shadow(0, 3, *SHADE)
     blf.color(0, *color)
@@ -61,7 +67,7 @@ def text(content, x, y, color=TEXT, centered=True):
     blf.disable(0, blf.SHADOW)
 
 
-def color_bar(title, ramp, marks):
+def color_bar(title: str, ramp: np.ndarray, marks: list[tuple[float, str]]) -> None:
     """A horizontal bar of colours (n, 3) with a title over it and marks under it."""
     from gpu_extras.batch import batch_for_shader
 

@@ -10,7 +10,8 @@ from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import copy_options
+from ..state.option_properties import KoebeSettings, copy_options, settings_of
+from ..state.run_report import report_of
 from .panel_parts import KoebePanel
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import KOEBE_UL_islands, ReportPanel
@@ -22,12 +23,12 @@ class MainPanel(KoebePanel):
 
     bl_label = "Koebe UV"
 
-    def draw_header_preset(self, context):
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
         KOEBE_PT_presets.draw_panel_header(self.layout)
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.aligned_layout()
-        settings = context.scene.koebe_uv
+        settings = settings_of(context)
         column = layout.column()
         for name in ("outer", "balance", "tube", "upright", "placement", "margin", "layer"):
             row = column.row()
@@ -52,7 +53,7 @@ class MainPanel(KoebePanel):
             fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
 
 
-def draw_judges(column, context, settings):
+def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:
     """The buttons by which a map is judged: checker, distortion, circles."""
     objects = target_objects(context)
     worn = any(checker.is_on(obj) for obj in objects)
@@ -74,7 +75,7 @@ def draw_judges(column, context, settings):
         button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
         button.kind, button.layer = value, settings.layer
     if context.space_data.type == "IMAGE_EDITOR":
-        column.prop(context.window_manager.koebe_uv, "show_circles")
+        column.prop(report_of(context), "show_circles")
 
 
 class AccuracyPanel(KoebePanel):
@@ -83,9 +84,9 @@ class AccuracyPanel(KoebePanel):
     bl_label = "Accuracy"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.aligned_layout()
-        settings = context.scene.koebe_uv
+        settings = settings_of(context)
         for name in ("method", "engine", "tolerance", "max_sweeps", "polish"):
             layout.prop(settings, name)
         layout.operator(UV_OT_koebe_reset.bl_idname, icon="LOOP_BACK")
@@ -121,7 +122,7 @@ class VIEW3D_PT_koebe_shapes(View3D, ShapesPanel, bpy.types.Panel):
 
 class IMAGE_PT_koebe(UVEditor, MainPanel, bpy.types.Panel):
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return context.space_data.mode == "UV"
 
 

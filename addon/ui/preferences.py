@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on's preferences: a keyboard shortcut for those who want one."""
 
+from typing import Any
+
 import bpy
 
 from .. import __name__ as addon_name
 
 OPERATOR = "uv.koebe_uniformize"
 # Where the shortcut Shift Alt U is valid: keymap, its space type.
-KEYMAPS = (("Mesh", "EMPTY"), ("Object Mode", "EMPTY"), ("UV Editor", "EMPTY"))
+KEYMAPS: tuple[tuple[str, Any], ...] = (("Mesh", "EMPTY"), ("Object Mode", "EMPTY"), ("UV Editor", "EMPTY"))
 
 
-def update_shortcut(preferences, context):
+def update_shortcut(preferences: "KoebePreferences", context: bpy.types.Context) -> None:
     """Add or remove the shortcut, as the preference says."""
     remove_shortcut()
     keyconfig = context.window_manager.keyconfigs.addon
@@ -21,7 +23,7 @@ def update_shortcut(preferences, context):
         keymap.keymap_items.new(OPERATOR, "U", "PRESS", shift=True, alt=True)
 
 
-def remove_shortcut():
+def remove_shortcut() -> None:
     """Remove the shortcut wherever it is."""
     keyconfig = bpy.context.window_manager.keyconfigs.addon
     if keyconfig is None:
@@ -45,11 +47,11 @@ class KoebePreferences(bpy.types.AddonPreferences):
         description="Koebe Uniformize with Shift Alt U in Object Mode, Edit Mode and the UV Editor",
     )
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         self.layout.prop(self, "shortcut")
 
 
-def register():
+def register() -> None:
     """Register the preferences and set the shortcut as they say."""
     bpy.utils.register_class(KoebePreferences)
     addon = bpy.context.preferences.addons.get(addon_name)
@@ -57,7 +59,7 @@ def register():
         update_shortcut(addon.preferences, bpy.context)
 
 
-def unregister():
+def unregister() -> None:
     """Undo `register`."""
     remove_shortcut()
     bpy.utils.unregister_class(KoebePreferences)

@@ -22,7 +22,7 @@ class KOEBE_MT_presets(bpy.types.Menu):
     bl_label = "Koebe UV Presets"
     preset_subdir = FOLDER
     preset_operator = "script.execute_preset"
-    draw = bpy.types.Menu.draw_preset
+    draw = bpy.types.Menu.draw_preset  # type: ignore[assignment]
 
 
 register, unregister = bpy.utils.register_classes_factory((KOEBE_PT_presets, KOEBE_MT_presets))

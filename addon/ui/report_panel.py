@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The part of the panel that shows the last run, island by island."""
 
+from typing import Any, Literal
+
 import bpy
 
 from ..operators.select_from_report import (
@@ -9,8 +11,8 @@ from ..operators.select_from_report import (
     UV_OT_koebe_select_offenders,
 )
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import copy_options
-from ..state.run_report import active_entry
+from ..state.option_properties import copy_options, settings_of
+from ..state.run_report import KoebeIslandReport, active_entry, report_of
 from .panel_parts import KoebePanel, draw_message
 
 MAX_LOOP_BUTTONS = 40
@@ -21,7 +23,16 @@ LONG_TUBE = 0.2
 class KOEBE_UL_islands(bpy.types.UIList):
     """The islands of the last run, one a line."""
 
-    def draw_item(self, context, layout, data, item, icon, active_data, active_property):
+    def draw_item(
+        self,
+        context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        data: Any,
+        item: KoebeIslandReport,
+        icon: int,
+        active_data: Any,
+        active_property: str,
+    ) -> None:
         """The name has most of the room, as that tells the islands apart; the icon tells what was not mapped."""
         split = layout.split(factor=0.66 if item.mapped else 1.0)
         split.label(text=f"{item.object_name} {item.island + 1}", icon=island_icon(item))
@@ -29,7 +40,7 @@ class KOEBE_UL_islands(bpy.types.UIList):
             split.label(text=f"{item.flipped} flips" if item.flipped else f"{item.angle_error:.2f}°")
 
 
-def island_icon(entry):
+def island_icon(entry: KoebeIslandReport) -> Literal["CANCEL", "CHECKMARK", "ERROR"]:
     """Good, to be looked at, or not mapped."""
     if not entry.mapped:
         return "CANCEL"
@@ -41,9 +52,9 @@ class ReportPanel(KoebePanel):
 
     bl_label = "Report"
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        report = context.window_manager.koebe_uv
+        report = report_of(context)
         if not report.islands:
             layout.label(text="No run yet")
         if len(report.islands) > 1:
@@ -60,7 +71,7 @@ class ReportPanel(KoebePanel):
             layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
 
 
-def draw_result(column, entry):
+def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     """Figures of a mapped island, and buttons that select its loops and its flipped faces."""
     table = column.column(align=True)
     for name, value in (
@@ -82,9 +93,9 @@ def draw_result(column, entry):
         grid.operator(UV_OT_koebe_select_loop.bl_idname, text=text).loop = index
 
 
-def draw_unroll(layout, context, entry):
+def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """The offer to unroll a long tube."""
     if len(entry.loops) == 2 and entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
         button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")
-        copy_options(context.scene.koebe_uv, button)
+        copy_options(settings_of(context), button)
         button.tube = "unroll"

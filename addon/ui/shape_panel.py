@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The part of the panel for shapes: the fingerprint of one, its distance to others, one texture for several."""
 
+from typing import Any
+
+import bpy
+
 from ..operators.carry_texture import UV_OT_koebe_carry_texture
 from ..operators.compare_shapes import UV_OT_koebe_compare_shapes
+from ..state.option_properties import settings_of
+from ..state.shape_report import KoebeShapes, shapes_of
 from .panel_parts import KoebePanel, draw_message
 
 MAX_NUMBERS = 24  # of a module; a hole's x, y and radius a row
@@ -15,9 +21,9 @@ class ShapesPanel(KoebePanel):
     bl_label = "Shapes"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        shapes = context.window_manager.koebe_shapes
+        shapes = shapes_of(context)
         layout.operator(UV_OT_koebe_compare_shapes.bl_idname, text="Compare Shapes", icon="CON_SIZELIKE")
         if shapes.source:
             draw_module(layout.column(align=True), shapes)
@@ -25,14 +31,14 @@ class ShapesPanel(KoebePanel):
             draw_entries(layout.column(align=True), f"Distance from {shapes.source}", shapes.others, "{:.5f}")
         column = layout.column(align=True)
         texture = column.operator(UV_OT_koebe_carry_texture.bl_idname, text="Carry Texture", icon="UV_DATA")
-        texture.layer, texture.fit_holes = context.scene.koebe_uv.layer, False
+        texture.layer, texture.fit_holes = settings_of(context).layer, False
         fitted = column.operator(UV_OT_koebe_carry_texture.bl_idname, text="Carry and Fit Holes")
-        fitted.layer, fitted.fit_holes = context.scene.koebe_uv.layer, True
+        fitted.layer, fitted.fit_holes = settings_of(context).layer, True
         if len(shapes.carried):
             draw_entries(layout.column(align=True), "Holes apart, of the texture", shapes.carried, "{:.2%}")
 
 
-def draw_module(column, shapes):
+def draw_module(column: bpy.types.UILayout, shapes: KoebeShapes) -> None:
     """The module's numbers, three a row: a hole's x, y and radius."""
     column.label(text=f"Module of {shapes.source}", icon="MESH_CIRCLE")
     numbers = list(shapes.module)
@@ -52,7 +58,7 @@ def draw_module(column, shapes):
         column.label(text=f"and {len(numbers) - MAX_NUMBERS} numbers more")
 
 
-def draw_entries(column, title, entries, form):
+def draw_entries(column: bpy.types.UILayout, title: str, entries: Any, form: str) -> None:
     """One line an object: its name and its number, or why there is none."""
     column.label(text=title)
     for entry in entries[:MAX_ENTRIES]:

@@ -65,7 +65,7 @@ def test_uncut_surface_is_its_own_island_array_for_array(surface, way):
     assert island.triangles.dtype == np.int32
 
 
-@pytest.mark.parametrize("part", [dict(seams=[(1, 5)]), dict(selected=[True] * 8 + [False])], ids=["seam", "selection"])
+@pytest.mark.parametrize("part", [{"seams": [(1, 5)]}, {"selected": [True] * 8 + [False]}], ids=["seam", "selection"])
 def test_a_surface_with_a_seam_or_a_face_left_out_is_no_whole_island(surface, part):
     assert surface.whole_island(make_surface(surface, *grid(3, 3), **part)) is None
 

@@ -46,7 +46,7 @@ with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
 
 
 class Idler:
-    """A thread of this process that only sleeps: the longest it overslept is what the machine withholds from anybody."""
+    """A thread of this process that only sleeps: the longest it overslept is what the machine withholds from all."""
 
     def __init__(self):
         self.longest = 0.0
