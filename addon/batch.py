@@ -68,7 +68,7 @@ from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.maps import json_report, wording  # noqa: E402
 from koebe_uv_batch.maps.options import Options  # noqa: E402
 from koebe_uv_batch.maps.outcomes import SurfaceOutcome  # noqa: E402
-from koebe_uv_batch.solver.load import NativeError  # noqa: E402
+from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
 
 OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
 

@@ -11,7 +11,7 @@ from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
 from ..jobs import native_package
 from ..maps.wording import counted, few, lines
-from ..solver.load import NativeError
+from ..solver.errors import NativeError
 
 
 class MESH_OT_koebe_fill_holes(bpy.types.Operator):

@@ -8,7 +8,7 @@ from ..blender.mesh_object import MeshObject
 from ..blender.targets import target_objects
 from ..jobs.shape_jobs import CarryJob, MeasureJob
 from ..maps.shapes import ShapeError
-from ..solver.load import NativeError
+from ..solver.errors import NativeError
 from .modal_run import ModalRun
 
 

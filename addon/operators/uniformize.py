@@ -11,7 +11,7 @@ from ..jobs.map_job import Job
 from ..maps import wording
 from ..maps.options import OptionError
 from ..maps.wording import few, lines
-from ..solver.load import NativeError
+from ..solver.errors import NativeError
 from ..state import run_report
 from ..state.option_properties import OPTION_NAMES, UniformizeProperties, options_of
 from .modal_run import ModalRun, redraw

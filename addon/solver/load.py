@@ -18,15 +18,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 
+from .errors import NativeError
 from .wheel import KNOWN, Wheel, WheelError, remove_leftovers
 from .wheel_tags import interpreter_tag, wheel_fits
 
 ADDON = Path(__file__).resolve().parent.parent
 OWN_PLACE = ADDON / "unpacked"
-
-
-class NativeError(ImportError):
-    """The native package is missing, damaged, or was built for another interpreter."""
 
 
 @dataclasses.dataclass(frozen=True)

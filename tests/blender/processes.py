@@ -16,7 +16,7 @@ spec = importlib.util.spec_from_file_location("probe", folder + "/__init__.py", 
 sys.modules["probe"] = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(sys.modules["probe"])
 from probe.jobs import native_package
-from probe.solver.load import NativeError
+from probe.solver.errors import NativeError
 try:
     koebe = native_package.load()
     koebe.CancelToken()
