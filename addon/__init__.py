@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Koebe UV: conformal UV maps of surfaces with holes, every hole a perfect circle."""
 
+from types import ModuleType
+
 bl_info = {
     "name": "Koebe UV",
     "description": "Conformal UV maps with every hole a perfect circle",
@@ -12,35 +14,35 @@ bl_info = {
 }
 
 
-def _parts():
+def _parts() -> tuple[ModuleType, ...]:
     """The modules with something to register. Imported late: the rest of the package needs no bpy."""
-    from . import (
-        circles,
-        distortion_operator,
-        fill_operator,
-        operators,
-        panels,
-        preferences,
-        presets,
-        properties,
-        results,
-        select_operators,
-        shape_operators,
+    from .operators import (
+        carry_texture,
+        checker,
+        compare_shapes,
+        distortion,
+        fill_holes,
+        option_presets,
+        select_from_report,
+        uniformize,
     )
+    from .state import option_properties, run_report, shape_report
+    from .ui import circle_overlay, distortion_legend, menus, panels, preferences, preset_menu
 
     return (
-        properties, results, operators, select_operators, distortion_operator, circles, fill_operator, shape_operators,
-        presets, panels, preferences,
+        option_properties, run_report, shape_report,
+        uniformize, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture, option_presets,
+        distortion_legend, circle_overlay, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 
 
-def register():
+def register() -> None:
     """Called by Blender when the add-on is enabled."""
     for part in _parts():
         part.register()
 
 
-def unregister():
+def unregister() -> None:
     """Called by Blender when the add-on is disabled."""
     for part in reversed(_parts()):
         part.unregister()

@@ -18,7 +18,9 @@ import shutil
 import signal
 import sys
 import traceback
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).resolve().parent
 PACKAGE = "koebe_uv_batch"  # a name of its own: another copy of the add-on may be enabled
@@ -27,9 +29,10 @@ POLL_SECONDS = 0.05  # how soon a signal is obeyed while the computation runs
 PATIENCE_SECONDS = 10.0  # how long its next checkpoint is waited for then
 
 
-def load_package():
+def load_package() -> None:
     """Import the add-on that this script is part of, installed or not, without registering it."""
     spec = importlib.util.spec_from_file_location(PACKAGE, HERE / "__init__.py", submodule_search_locations=[str(HERE)])
+    assert spec is not None and spec.loader is not None
     package = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = package
     spec.loader.exec_module(package)
@@ -39,31 +42,50 @@ for name in {"SIGXFSZ", "SIGPIPE"} & set(dir(signal)):  # a file or a pipe that 
     signal.signal(getattr(signal, name), signal.SIG_IGN)
 load_package()
 
-from koebe_uv_batch import batch_exit  # noqa: E402
+from koebe_uv_batch.headless.exit_and_signals import (  # noqa: E402
+    BROKEN,
+    DONE,
+    INTERRUPTED,
+    NOT_CONVERGED,
+    UNMAPPABLE,
+    USAGE,
+    Signals,
+    Stop,
+    refusal,
+    say,
+    tell,
+)
 
-SIGNALS = batch_exit.Signals()  # before bpy, which as a module takes a second to load
+SIGNALS = Signals()  # before bpy, which as a module takes a second to load
 
 import bpy  # noqa: E402
-from koebe_uv_batch import batch_arguments, batch_files, batch_objects, native, report, transfer  # noqa: E402
-from koebe_uv_batch import job as koebe_job  # noqa: E402
-from koebe_uv_batch.batch_exit import Stop  # noqa: E402
+from koebe_uv_batch.blender.errors import TransferError  # noqa: E402
+from koebe_uv_batch.blender.mesh_object import MeshObject  # noqa: E402
+from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, Request, parse  # noqa: E402
+from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
+from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
+from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
+from koebe_uv_batch.maps import json_report, wording  # noqa: E402
+from koebe_uv_batch.maps.options import Options  # noqa: E402
+from koebe_uv_batch.maps.outcomes import SurfaceOutcome  # noqa: E402
+from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
 
-OUT_OF_MEMORY = Stop(batch_exit.UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
+OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
 
 
-def main():
+def main() -> int:
     """Entry point of Blender's -P and of a plain Python with the bpy module: the exit code."""
     try:
         return run()
     except Stop as stop:
-        batch_exit.tell(stop.reason)
+        tell(stop.reason)
         return stop.code
     except Exception:
         traceback.print_exc()
-        return batch_exit.BROKEN
+        return BROKEN
 
 
-def run():
+def run() -> int:
     """Read, map, save, report; return the exit code. Raises Stop where there is nothing to report on."""
     request, source = request_and_source()
     output, report_file = targets(request, source)
@@ -74,16 +96,16 @@ def run():
         refuse_what_is_read([file for file in (output, report_file) if file is not None])
         job = map_objects(request)
         code = exit_code(job)
-        content["objects"] = [entry for outcome in job.outcomes for entry in report.entries(outcome)]
+        content["objects"] = [entry for outcome in job.outcomes for entry in json_report.entries(outcome)]
     except (Stop, MemoryError) as error:
         stop = error if isinstance(error, Stop) else OUT_OF_MEMORY
-        if stop.code not in (batch_exit.BROKEN, batch_exit.UNMAPPABLE):
+        if stop.code not in (BROKEN, UNMAPPABLE):
             raise
-        batch_exit.tell(stop.reason)
+        tell(stop.reason)
         code = stop.code
         content.update(error={"name": stop.name, "reason": stop.reason}, objects=stop.objects)
     content["exit_code"] = code
-    if code not in (batch_exit.DONE, batch_exit.NOT_CONVERGED):
+    if code not in (DONE, NOT_CONVERGED):
         output = None
     else:
         content["output"] = request.output
@@ -92,147 +114,147 @@ def run():
     return code
 
 
-def request_and_source():
+def request_and_source() -> tuple[Request, str]:
     """What is asked for, and the path of the .blend file."""
     at = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
-    request = batch_arguments.parse(sys.argv[at + 1 :])
+    request = parse(sys.argv[at + 1 :])
     sources = [bpy.data.filepath] if bpy.app.binary_path else sys.argv[1:at]
     sources = [source for source in (*sources, request.source) if source]
     if len(sources) != 1:
         what = "no IN.blend" if not sources else f"more than one IN.blend: {', '.join(sources)}"
-        usage = batch_arguments.IN_BLENDER if bpy.app.binary_path else batch_arguments.WITH_BPY
-        raise Stop(batch_exit.USAGE, f"{what}; usage: {usage}")
+        usage = IN_BLENDER if bpy.app.binary_path else WITH_BPY
+        raise Stop(USAGE, f"{what}; usage: {usage}")
     return request, os.path.abspath(sources[0])
 
 
-def targets(request, source):
+def targets(request: Request, source: str) -> tuple[Target, Target | None]:
     """The files to write, of which the second may be None."""
-    output = batch_files.Target(request.output)
+    output = Target(request.output)
     if output.direct:
-        raise Stop(batch_exit.USAGE, f"--output {request.output} is no file that can be replaced")
+        raise Stop(USAGE, f"--output {request.output} is no file that can be replaced")
     if request.report is None:
         return output, None
     for other, what in ((source, "the input"), (output.path, "the output")):
-        if batch_files.is_same(request.report, other):
-            raise Stop(batch_exit.USAGE, f"--report {request.report} is {what}")
-    return output, batch_files.Target(request.report)
+        if is_same(request.report, other):
+            raise Stop(USAGE, f"--report {request.report} is {what}")
+    return output, Target(request.report)
 
 
-def open_source(source):
+def open_source(source: str) -> None:
     """Open the file, unless Blender has. What a newer Blender has saved this one reads with losses, or crashes."""
     if not bpy.data.filepath:
         try:
             bpy.ops.wm.open_mainfile(filepath=source)
         except RuntimeError as error:
             reason = str(error).strip().removeprefix("Error: ")
-            raise Stop(batch_exit.UNMAPPABLE, f"{source} cannot be read: {reason}", "FileError") from None
+            raise Stop(UNMAPPABLE, f"{source} cannot be read: {reason}", "FileError") from None
     if bpy.data.version[:2] > bpy.app.version[:2]:
         by, this = (".".join(map(str, version[:2])) for version in (bpy.data.version, bpy.app.version))
         reason = f"{source} was saved by Blender {by}, and this is {this}: data would be lost"
-        raise Stop(batch_exit.UNMAPPABLE, reason, "FileError")
+        raise Stop(UNMAPPABLE, reason, "FileError")
     SIGNALS.obey()
 
 
-def refuse_what_is_read(files):
+def refuse_what_is_read(files: list[Target]) -> None:
     """No file is written onto a library, an image or whatever else the .blend reads."""
     for path in bpy.utils.blend_paths(absolute=True):
         for file in files:
-            if os.path.exists(path) and batch_files.is_same(path, file.path):
-                raise Stop(batch_exit.USAGE, f"{file.given} is a file that the input uses")
+            if os.path.exists(path) and is_same(path, file.path):
+                raise Stop(USAGE, f"{file.given} is a file that the input uses")
 
 
-def map_objects(request):
+def map_objects(request: Request) -> Job:
     """The job that was run, its results written into the open file unless an object failed."""
-    objects = batch_objects.chosen_objects(request.names)
-    batch_objects.leave_edit_mode(objects)
-    with batch_objects.in_their_places(objects):
+    objects = chosen_objects(request.names)
+    leave_edit_mode(objects)
+    with in_their_places(objects):
         job = new_job(objects, request)
         check_outer(job)
         if request.options.placement == "keep":
             job.read_old_uv()
         compute(job)
-        if exit_code(job) != batch_exit.UNMAPPABLE:
+        if exit_code(job) != UNMAPPABLE:
             try:
                 job.write()
-            except transfer.TransferError as error:
-                raise Stop(batch_exit.UNMAPPABLE, error, "TransferError") from error
+            except TransferError as error:
+                raise Stop(UNMAPPABLE, error, "TransferError") from error
     SIGNALS.obey()
     return job
 
 
-def new_job(objects, request):
+def new_job(objects: list[MeshObject], request: Request) -> Job:
     """A job on all the objects, or the reasons why some of them cannot be mapped."""
     without_faces = [obj.name for obj in objects if len(obj.data.polygons) == 0]
     if without_faces and (request.names is not None or len(without_faces) == len(objects)):
-        raise batch_exit.refusal(dict.fromkeys(without_faces, "it has no faces"))
+        raise refusal(dict.fromkeys(without_faces, "it has no faces"))
     try:
-        return koebe_job.Job(objects, request.options)
-    except native.NativeError as error:
-        raise Stop(batch_exit.BROKEN, error, "NativeError") from error
-    except transfer.TransferError as error:
-        raise batch_exit.refusal(reasons(objects, request.options) or {"all objects": str(error)}) from error
+        return Job(objects, request.options)
+    except NativeError as error:
+        raise Stop(BROKEN, error, "NativeError") from error
+    except TransferError as error:
+        raise refusal(reasons(objects, request.options) or {"all objects": str(error)}) from error
 
 
-def reasons(objects, chosen):
+def reasons(objects: list[MeshObject], chosen: Options) -> dict[str, str]:
     """Why objects cannot be mapped, by their names."""
     found = {}
     for obj in objects:
         try:
             if len(obj.data.polygons):
-                koebe_job.Job([obj], chosen)
-        except transfer.TransferError as error:
+                Job([obj], chosen)
+        except TransferError as error:
             found[obj.name] = str(error).removeprefix(f"{obj.name}: ")
     return found
 
 
-def check_outer(job):
+def check_outer(job: Job) -> None:
     """A vertex asked for as that of the outer loop has to be one."""
     outer = job.options.outer
     for task in job.tasks if isinstance(outer, int) else ():
         if not (task.surface.corner_vertex == outer).any():
-            raise Stop(batch_exit.USAGE, f"--outer {outer}: {task.name!r} has no face at a vertex of that number")
+            raise Stop(USAGE, f"--outer {outer}: {task.name!r} has no face at a vertex of that number")
 
 
-def compute(job):
+def compute(job: Job) -> None:
     """Run the job on a thread, so that a signal is heard at once; it ends at the next checkpoint, or is left alone."""
     future = concurrent.futures.ThreadPoolExecutor(max_workers=1).submit(job.compute)
     while not concurrent.futures.wait([future], POLL_SECONDS).done:
         if SIGNALS.came:
             job.cancel_token.cancel()
             if not concurrent.futures.wait([future], PATIENCE_SECONDS).done:
-                batch_exit.tell("interrupted: nothing was written")
+                tell("interrupted: nothing was written")
                 shutil.rmtree(bpy.app.tempdir, ignore_errors=True)
-                os._exit(batch_exit.INTERRUPTED)
+                os._exit(INTERRUPTED)
     SIGNALS.obey()
     future.result()
 
 
-def exit_code(job):
+def exit_code(job: Job) -> int:
     """The code for a job that was run."""
     if any(outcome.failed for outcome in job.outcomes):
-        return batch_exit.UNMAPPABLE
-    return batch_exit.DONE if all(outcome.converged for outcome in job.outcomes) else batch_exit.NOT_CONVERGED
+        return UNMAPPABLE
+    return DONE if all(outcome.converged for outcome in job.outcomes) else NOT_CONVERGED
 
 
-def save(output, report_file, content):
+def save(output: Target | None, report_file: Target | None, content: dict[str, Any]) -> None:
     """Write the open file and the report, each of which may be None. Where the report is, the output is too."""
-    makers = {output: save_blend, report_file: lambda path: batch_files.save_json(path, content)}
+    makers = {output: save_blend, report_file: lambda path: save_json(path, content)}
     makers.pop(None, None)
-    batch_files.write_all(makers, SIGNALS.obey)
+    write_all(makers, SIGNALS.obey)
 
 
-def save_blend(path):
+def save_blend(path: str) -> None:
     """Save the open file there. Not compressed: then Blender takes no notice of a full disk."""
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, check_existing=False, compress=False)
 
 
-def tell_outcomes(outcomes):
+def tell_outcomes(outcomes: Iterable[SurfaceOutcome]) -> None:
     """The result lines of the objects, and the reasons of those that failed."""
     for outcome in outcomes:
         if outcome.mapped:
-            batch_exit.say(report.result_line(outcome), sys.stdout)
+            say(wording.result_line(outcome), sys.stdout)
         if outcome.failed:
-            batch_exit.tell(report.failure_line(outcome))
+            tell(wording.failure_line(outcome))
 
 
 if __name__ == "__main__":

@@ -50,7 +50,7 @@ def registered_addon():
     sys.modules["koebe_uv"] = package
     spec.loader.exec_module(package)
     package.register()
-    return importlib.import_module("koebe_uv.native").load()
+    return importlib.import_module("koebe_uv.jobs.native_package").load()
 
 
 def made_panel(faces):

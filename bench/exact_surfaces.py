@@ -30,7 +30,7 @@ def revolved(radius, height, around):
 
 
 def ring(inner, around, rows=None):
-    """A flat ring from radius 1 to `inner`: its map is itself. As many rows as make the faces equilateral, or `rows`."""
+    """A flat ring from radius 1 to `inner`: its map is itself. As many rows as make faces equilateral, or `rows`."""
     if rows is None:
         rows = max(1, round(-np.log(inner) * around / (2 * np.pi * np.sin(np.pi / 3))))
     radius = inner ** (np.arange(rows + 1) / rows)

@@ -6,8 +6,8 @@
 
 Of each kind of random_surfaces.py N surfaces are mapped, with options that change from one to the next. Every answer is
 checked here by code that shares nothing with the library; then every fourth surface comes again renumbered, turned and
-scaled, every tenth with one thread and with several calls at once. A kind runs in a process of its own, so that a crash is counted, not
-suffered. --write puts the tables into docs/figures.json and the page. Exit 1 if an answer was wrong.
+scaled, every tenth with one thread and with several calls at once. A kind runs in a process of its own, so that a crash
+is counted, not suffered. --write puts the tables into docs/figures.json and the page. Exit 1 if an answer was wrong.
 """
 
 import argparse

@@ -18,8 +18,8 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
-import convergence
-import figures
+import convergence  # noqa: E402
+import figures  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 KOEBE = ROOT / "build" / "koebe"

@@ -53,10 +53,10 @@ def add_other():
 
 def map_and_carry(source, target, fit_holes):
     """UVs for the first face, and for the second such that the texture of the first fits it."""
-    job = addon_module("job").Job([source], addon_module("options").Options(checker=False))
+    job = addon_module("jobs.map_job").Job([source], addon_module("maps.options").Options(checker=False))
     job.compute()
     job.write()
-    job = addon_module("shape_jobs").CarryJob([source, target], LAYER, fit_holes)
+    job = addon_module("jobs.shape_jobs").CarryJob([source, target], LAYER, fit_holes)
     job.compute()
     job.write(with_material=False)
     return job.carried[0]

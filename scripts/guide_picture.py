@@ -76,7 +76,7 @@ def main():
     output = Path(sys.argv[sys.argv.index("--") + 1]).absolute()
     scene = bpy.context.scene
     obj = next(obj for obj in scene.objects if obj.type == "MESH")
-    job = addon_module("job").Job([obj], addon_module("options").Options(tube="unroll", checker=False))
+    job = addon_module("jobs.map_job").Job([obj], addon_module("maps.options").Options(tube="unroll", checker=False))
     job.compute()
     job.write()
     obj.data.materials.append(textured(pattern()))

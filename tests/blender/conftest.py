@@ -20,20 +20,20 @@ def addon_name():
 
 @pytest.fixture(scope="session")
 def addon(addon_name):
-    """A function that imports one of the installed add-on's modules."""
+    """A function that imports one of the installed add-on's modules, by its room and name."""
     return lambda module: importlib.import_module(f"{addon_name}.{module}")
 
 
 @pytest.fixture(scope="session")
-def folder(addon):
+def folder(addon_name):
     """The folder of the installed add-on."""
-    return os.path.dirname(addon("transaction").__file__)
+    return os.path.dirname(importlib.import_module(addon_name).__file__)
 
 
 @pytest.fixture(scope="session")
 def koebe(addon):
     """The native package, as the installed add-on finds it."""
-    return addon("native").load()
+    return addon("jobs.native_package").load()
 
 
 @pytest.fixture(autouse=True)

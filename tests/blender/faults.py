@@ -6,7 +6,8 @@ import sys
 import bpy
 import fingerprint
 
-EVERY_STEP = "KOEBE_EVERY_STEP"  # in the environment: fail at every step, or, if "lines", at every line, not at a choice
+# In the environment: fail at every step, or, if it is "lines", at every line, and not at a choice of them.
+EVERY_STEP = "KOEBE_EVERY_STEP"
 
 
 class Fault:
@@ -82,7 +83,8 @@ def check_all_comes_back(folder, build, operator, options, most):
     for number in numbers:
         fault = Fault(folder, number)
         call(operator, fault, **options)
-        if not fault.fired:  # some lines less than when they were counted, as Blender brings its arrays up to date or not
+        # Some lines less than when they were counted, as Blender brings its arrays up to date or not.
+        if not fault.fired:
             missed += 1
             build()
             continue

@@ -15,12 +15,13 @@ folder = os.environ["ADDON"]
 spec = importlib.util.spec_from_file_location("probe", folder + "/__init__.py", submodule_search_locations=[folder])
 sys.modules["probe"] = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(sys.modules["probe"])
-from probe import native
+from probe.jobs import native_package
+from probe.solver.errors import NativeError
 try:
-    koebe = native.load()
+    koebe = native_package.load()
     koebe.CancelToken()
     print("LOADED", koebe.__file__, flush=True)
-except native.NativeError as error:
+except NativeError as error:
     print("REFUSED", error, flush=True)
 """
 

@@ -196,8 +196,8 @@ def test_what_cannot_be_written_after_all_is_3_with_a_report(batch, tmp_path):
     scenes.add_panel(**SMALL)
     patch = """
 def write(job):
-    raise batch.transfer.TransferError("Panel: it has gone")
-batch.koebe_job.Job.write = write
+    raise batch.TransferError("Panel: it has gone")
+batch.Job.write = write
 """
     code, out, err = batch("--output", "out.blend", "--report", "out.json", patch=patch)
     assert code == 3 and "Panel: it has gone" in err and "Traceback" not in err and outputs(tmp_path) == ["out.json"]
@@ -208,8 +208,9 @@ def test_no_native_module_is_1_with_a_report(batch, tmp_path):
     scenes.add_panel(**SMALL)
     patch = """
 def load():
-    raise batch.native.NativeError("the native module does not load: really")
-batch.native.load = load
+    raise batch.NativeError("the native module does not load: really")
+from koebe_uv_batch.jobs import native_package
+native_package.load = load
 """
     code, out, err = batch("--output", "out.blend", "--report", "out.json", patch=patch)
     assert code == 1 and "does not load: really" in err and outputs(tmp_path) == ["out.json"]
@@ -218,10 +219,10 @@ batch.native.load = load
 
 MOMENTS = {
     "read": "after(batch, 'new_job', act)",
-    "computed": "after(batch.koebe_job.Job, 'compute', act)",
+    "computed": "after(batch.Job, 'compute', act)",
     "mapped": "after(batch, 'map_objects', act)",
     "saved": "after(batch, 'save_blend', act)",
-    "report made": "after(batch.batch_files, 'save_json', act)",
+    "report made": "after(batch, 'save_json', act)",
 }
 
 
@@ -240,7 +241,7 @@ def test_a_signal_at_any_moment_is_130_and_nothing_is_written(batch, tmp_path, m
 
 def test_a_signal_between_the_two_files_lets_both_be_written(batch, tmp_path):
     scenes.add_panel(**SMALL)
-    patch = "def act():\n    os.kill(os.getpid(), signal.SIGTERM)\nafter(batch.batch_files.Target, 'put', act)"
+    patch = "def act():\n    os.kill(os.getpid(), signal.SIGTERM)\nafter(batch.Target, 'put', act)"
     code, out, err = batch("--output", "out.blend", "--report", "out.json", patch=patch)
     assert code == 0, err
     assert outputs(tmp_path) == ["out.blend", "out.json"]
@@ -259,7 +260,7 @@ def compute(job, progress=None):
     print("COMPUTING", flush=True)
     {conduct}
     raise job.koebe.Cancelled("cancelled")
-batch.koebe_job.Job.compute = compute
+batch.Job.compute = compute
 """
     process = processes.start_batch(
         addon_name, tmp_path, "--output", "out.blend", patch=patch, before=lambda: signal.signal(number, signal.SIG_DFL)

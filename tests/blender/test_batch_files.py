@@ -141,7 +141,7 @@ def test_a_report_that_cannot_be_written_leaves_no_output_either(batch, farm):
     patch = """
 def fail(path, content):
     raise OSError(28, "No space left on device")
-batch.batch_files.save_json = fail
+batch.save_json = fail
 """
     code, out, err = batch("--output", "out.blend", "--report", "out.json", patch=patch)
     assert code == 1 and "out.json" in err and "No space left" in err
@@ -152,8 +152,8 @@ MOMENTS = {
     "read": "after(batch, 'new_job', act)",
     "mapped": "after(batch, 'map_objects', act)",
     "saved": "after(batch, 'save_blend', act)",
-    "report made": "after(batch.batch_files, 'save_json', act)",
-    "output there": "after(batch.batch_files.Target, 'put', act)",
+    "report made": "after(batch, 'save_json', act)",
+    "output there": "after(batch.Target, 'put', act)",
 }
 
 

@@ -168,7 +168,7 @@ def test_where_nothing_could_be_written_no_material_is_left(addon, monkeypatch, 
     def broken(run, obj, *rest):
         raise MemoryError("none left")
 
-    monkeypatch.setattr(addon("checker"), "put_on", broken)
+    monkeypatch.setattr(addon("blender.checker"), "put_on", broken)
     with pytest.raises(RuntimeError, match="none left"):
         getattr(bpy.ops.uv, operator)()
     assert [material.name for material in bpy.data.materials] == []

@@ -23,8 +23,8 @@ def add_grid(map_uv):
 
 def values(obj, addon, kind):
     """Distortion of each face."""
-    surface = addon("transfer").read_surface(obj, False)
-    return addon("distortion").face_values(surface, scenes.corner_uv(obj.data, "Koebe"), kind)
+    surface = addon("blender.mesh_reading").read_surface(obj, False)
+    return addon("maps.distortion").face_values(surface, scenes.corner_uv(obj.data, "Koebe"), kind)
 
 
 def test_a_similarity_has_none(addon):
@@ -52,7 +52,7 @@ def test_area_counts_doublings_of_the_texel_density(addon):
 def test_faces_without_uvs_are_told_apart(addon):
     obj = add_grid(lambda x, y: (max(x, 1), y))
     assert np.isnan(values(obj, addon, "angle")).tolist() == [i % 4 == 0 for i in range(16)]
-    assert addon("distortion").colors(np.array([np.nan]), "angle")[0] == pytest.approx((0.35, 0.35, 0.35))
+    assert addon("maps.distortion_colors").colors(np.array([np.nan]), "angle")[0] == pytest.approx((0.35, 0.35, 0.35))
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

@@ -35,5 +35,5 @@ def test_every_row_says_what_is_written_and_what_becomes_of_it_on_an_error():
 
 def test_the_properties_that_it_names_are_the_ones_that_are_written(addon):
     text = " ".join(cell for row in rows() for cell in row)
-    for key in (addon("checker").MEMORY_KEY, addon("distortion_display").MEMORY_KEY):
+    for key in (addon("blender.checker").MEMORY_KEY, addon("blender.distortion_attribute").MEMORY_KEY):
         assert f"`{key}`" in text

@@ -142,6 +142,6 @@ def test_triangles_know_their_faces_in_object_mode_and_in_edit_mode(addon):
     obj.data.calc_loop_triangles()
     expected = scenes.read(obj.data.loop_triangles, "polygon_index", np.int32)
     assert expected.tolist() == [0, 0, 1, 1, 1, 1, 1, 2, 3]
-    assert np.array_equal(addon("transfer").read_surface(obj, False).triangle_face, expected)
+    assert np.array_equal(addon("blender.mesh_reading").read_surface(obj, False).triangle_face, expected)
     bpy.ops.object.mode_set(mode="EDIT")
-    assert np.array_equal(addon("transfer").read_surface(obj, False).triangle_face, expected)
+    assert np.array_equal(addon("blender.mesh_reading").read_surface(obj, False).triangle_face, expected)

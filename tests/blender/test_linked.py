@@ -62,7 +62,7 @@ def test_carrying_to_it_is_refused_too(tmp_path):
 
 
 def test_what_is_said_to_be_done_is_there_after_saving_and_opening(tmp_path):
-    """An overridden object with a mesh of this file: its UVs stay; the checker would not come off, and is not put on."""
+    """An overridden object with a mesh of this file: its UVs stay; a checker would not come off, and is not put on."""
     path = library.save_away(tmp_path, painted)
     obj = library.override(path, mesh=False)
     own = scenes.add_panel("Own", size=12)

@@ -13,7 +13,7 @@ def meanwhile(addon, monkeypatch):
     """A function: what it is given happens when the computation has ended."""
 
     def arrange(module, act):
-        kind = getattr(addon(module), {"job": "Job", "shape_jobs": "CarryJob"}[module])
+        kind = getattr(addon(module), {"jobs.map_job": "Job", "jobs.shape_jobs": "CarryJob"}[module])
         compute = kind.compute
 
         def both(self, progress=None):
@@ -76,7 +76,7 @@ def test_it_is_said_and_the_others_are_done(meanwhile, change):
         act(bpy.data.objects["Changed"])
         states_then.append(fingerprint.fingerprint())
 
-    meanwhile("job", happen)
+    meanwhile("jobs.map_job", happen)
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
     after = fingerprint.fingerprint()
     scenes.assert_circle_domain(other)
@@ -98,7 +98,7 @@ def test_alone_it_is_an_error_and_nothing_is_written(meanwhile, change):
         act(bpy.data.objects["Changed"])
         states_then.append(fingerprint.fingerprint())
 
-    meanwhile("job", happen)
+    meanwhile("jobs.map_job", happen)
     with pytest.raises(RuntimeError, match=f"Changed: .*{words}"):
         bpy.ops.uv.koebe_uniformize()
     assert fingerprint.differences(states_then[0], fingerprint.fingerprint()) == ["file: report"]
@@ -114,7 +114,7 @@ def test_a_texture_is_carried_to_the_others(meanwhile, change, who):
     bpy.ops.uv.koebe_uniformize(outer="longest")
     changed, other = two()
     scenes.select(source, changed, other)
-    meanwhile("shape_jobs", lambda: act(bpy.data.objects[who]))
+    meanwhile("jobs.shape_jobs", lambda: act(bpy.data.objects[who]))
     assert bpy.ops.uv.koebe_carry_texture() == {"FINISHED"}
     assert "Koebe" in other.data.uv_layers
     carried = [entry.name for entry in bpy.context.window_manager.koebe_shapes.carried]
@@ -130,7 +130,7 @@ def test_in_edit_mode_too(meanwhile):
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.mesh.flip_normals()
 
-    meanwhile("job", happen)
+    meanwhile("jobs.map_job", happen)
     with pytest.raises(RuntimeError, match="Changed: .*changed in the meantime"):
         bpy.ops.uv.koebe_uniformize()
     assert bpy.context.mode == "EDIT_MESH" and len(changed.data.uv_layers) == len(other.data.uv_layers) == 0
@@ -139,7 +139,7 @@ def test_in_edit_mode_too(meanwhile):
 def test_what_nobody_foresaw_is_that_of_one_object(addon, monkeypatch):
     """An error in the middle of one object's computation."""
     changed, other = two()
-    shape, calls = addon("pipeline").upright_turn, []
+    shape, calls = addon("maps.mapping").upright_turn, []
 
     def broken(island, uv):
         calls.append(island)
@@ -147,7 +147,7 @@ def test_what_nobody_foresaw_is_that_of_one_object(addon, monkeypatch):
             raise ZeroDivisionError("out of the blue")
         return shape(island, uv)
 
-    monkeypatch.setattr(addon("pipeline"), "upright_turn", broken)
+    monkeypatch.setattr(addon("maps.mapping"), "upright_turn", broken)
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
     told = {entry.object_name: entry for entry in bpy.context.window_manager.koebe_uv.islands}
     assert "out of the blue" in told["Changed"].message and told["Left alone"].mapped

@@ -1,5 +1,7 @@
 """Modes and what is seen: nobody leaves Edit Mode, nothing is half done, nothing is selected that should not be."""
 
+import contextlib
+
 import bmesh
 import bpy
 import fingerprint
@@ -166,10 +168,8 @@ def test_a_button_on_a_hidden_object_changes_nothing(make, button, mode):
     scenes.select(obj)
     states.consistent([obj, other])
     scenes.select(obj)
-    try:
+    with contextlib.suppress(RuntimeError):  # it has offenders then
         bpy.ops.uv.koebe_uniformize()
-    except RuntimeError:
-        pass  # it has offenders then
     make(obj)
     scenes.select(other)
     bpy.ops.object.mode_set(mode=mode)

@@ -22,7 +22,7 @@ else:
     bpy.ops.preferences.addon_install(filepath=package)
     bpy.ops.preferences.addon_enable(module="koebe_uv")
     module = "koebe_uv"
-native = importlib.import_module(module + ".native")
+native = importlib.import_module(module + ".jobs.native_package")
 assert native.load().__file__.startswith(str(home))
 print("BEFORE", megabytes(), flush=True)
 if bpy.app.version >= (4, 2, 0):

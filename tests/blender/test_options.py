@@ -17,20 +17,20 @@ import pytest
     ids=str,
 )  # fmt: skip
 def test_unusable_values_are_refused_by_name(addon, values):
-    options = addon("options")
+    options = addon("maps.options")
     with pytest.raises(options.OptionError, match=next(iter(values))):
         options.Options(**values)
 
 
 def test_usable_values_are_taken(addon):
-    options = addon("options")
+    options = addon("maps.options")
     chosen = options.Options(method="ck", outer=12, layer="ä" * 31, margin=0.0)
     assert chosen.solver_arguments()["method"] == "ck"
     assert chosen.outer == 12
 
 
 def test_wheels_are_told_apart_by_their_tags(addon, monkeypatch):
-    tags = addon("wheel_tags")
+    tags = addon("solver.wheel_tags")
     monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.setattr(platform, "machine", lambda: "x86_64")
     tag = tags.interpreter_tag()
@@ -58,11 +58,11 @@ def test_wheels_are_told_apart_by_their_tags(addon, monkeypatch):
 
 
 def test_without_a_wheel_that_fits_the_error_names_both_sides(addon, monkeypatch, tmp_path):
-    native = addon("native")
+    load = addon("solver.load")
     (tmp_path / "wheels").mkdir()
     (tmp_path / "wheels" / "koebe-0.1.0-cp27-cp27-plan9_vax.whl").touch()
-    monkeypatch.setattr(native, "HERE", tmp_path)
-    with pytest.raises(native.NativeError) as caught:
-        native._fitting_wheel()
-    assert addon("wheel_tags").interpreter_tag() in str(caught.value)
+    monkeypatch.setattr(load, "ADDON", tmp_path)
+    with pytest.raises(load.NativeError) as caught:
+        load._fitting_wheel()
+    assert addon("solver.wheel_tags").interpreter_tag() in str(caught.value)
     assert "cp27-cp27-plan9_vax" in str(caught.value)

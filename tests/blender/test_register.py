@@ -49,10 +49,10 @@ def test_everything_an_artist_meets_has_a_tooltip_that_teaches():
 
 
 def test_the_operators_defaults_are_the_panels_and_the_batchs(addon):
-    options = addon("options").Options()
+    options = addon("maps.options").Options()
     operator = bpy.ops.uv.koebe_uniformize.get_rna_type().properties
     settings = bpy.context.scene.koebe_uv
-    for name in addon("properties").OPTION_NAMES:
+    for name in addon("state.option_properties").OPTION_NAMES:
         default = operator[name].default
         assert getattr(settings, name) == default
         expected = getattr(options, name)

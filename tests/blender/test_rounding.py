@@ -15,20 +15,20 @@ def fan_along_the_rim(n=60, step=2e-4):
 
 @pytest.mark.parametrize("turn", np.linspace(0.1, 6.0, 7))
 def test_thin_triangles_on_a_rim_stay_right(addon, turn):
-    rounding, offenders = addon("rounding"), addon("offenders")
+    rounding, triangles_of = addon("maps.rounding"), addon("maps.triangles")
     z, triangles = fan_along_the_rim()
     z = 0.26 * np.exp(1j * turn) * z + 0.7 * (1 + 1j)
     points = np.stack([z.real, z.imag], axis=1)
     plain = points.astype(np.float32)
-    assert len(offenders.flipped_triangles(triangles, plain)) > 0
+    assert len(triangles_of.flipped_triangles(triangles, plain)) > 0
     uv, flipped = rounding.rounded(points, triangles)
     assert uv.dtype == np.float32 and len(flipped) == 0
-    assert len(offenders.flipped_triangles(triangles, uv)) == 0
+    assert len(triangles_of.flipped_triangles(triangles, uv)) == 0
     assert np.abs(uv - plain).max() <= rounding.REACH * np.spacing(np.float32(0.99))
 
 
 def test_what_is_turned_over_before_rounding_stays(addon):
-    rounding = addon("rounding")
+    rounding = addon("maps.rounding")
     points = np.array([[0.1, 0.1], [0.2, 0.9], [0.9, 0.1], [0.9, 0.9]])
     uv, flipped = rounding.rounded(points, np.array([[0, 1, 2], [2, 3, 1]]))
     assert np.array_equal(uv, points.astype(np.float32)) and flipped.tolist() == [0]

@@ -1,4 +1,6 @@
-"""Cutting surfaces into islands: laws of `surface.cut_into_islands`, on arrays."""
+"""Cutting surfaces into islands: laws of `islands.cut_into_islands`, on arrays."""
+
+import types
 
 import numpy as np
 import pytest
@@ -7,7 +9,9 @@ from scenes import panel_arrays
 
 @pytest.fixture
 def surface(addon):
-    return addon("surface")
+    """Surfaces, their islands, and the areas of triangles, under one name."""
+    parts = [addon(f"maps.{name}") for name in ("surface", "islands", "triangles")]
+    return types.SimpleNamespace(**{name: value for part in parts for name, value in vars(part).items()})
 
 
 def make_surface(module, vertices, faces, seams=(), selected=None):
@@ -61,7 +65,7 @@ def test_uncut_surface_is_its_own_island_array_for_array(surface, way):
     assert island.triangles.dtype == np.int32
 
 
-@pytest.mark.parametrize("part", [dict(seams=[(1, 5)]), dict(selected=[True] * 8 + [False])], ids=["seam", "selection"])
+@pytest.mark.parametrize("part", [{"seams": [(1, 5)]}, {"selected": [True] * 8 + [False]}], ids=["seam", "selection"])
 def test_a_surface_with_a_seam_or_a_face_left_out_is_no_whole_island(surface, part):
     assert surface.whole_island(make_surface(surface, *grid(3, 3), **part)) is None
 
@@ -71,8 +75,8 @@ def test_a_surface_with_a_loose_vertex_is_no_whole_island(surface):
     assert surface.whole_island(make_surface(surface, [*vertices, (9.0, 9.0, 9.0)], quads)) is None
 
 
-def test_areas_are_those_of_the_cross_product_however_many_triangles(surface, monkeypatch):
-    monkeypatch.setattr(surface, "BLOCK", 7)
+def test_areas_are_those_of_the_cross_product_however_many_triangles(addon, surface, monkeypatch):
+    monkeypatch.setattr(addon("maps.triangles"), "BLOCK", 7)
     random = np.random.default_rng(3)
     points, triangles = random.normal(size=(40, 3)), random.integers(0, 40, size=(23, 3)).astype(np.int32)
     a, b, c = (points[triangles[:, k]] for k in range(3))
@@ -166,7 +170,7 @@ def test_nothing_selected_gives_no_island(surface):
 
 
 def test_components_agree_with_a_search(addon):
-    connected_components = addon("components").connected_components
+    connected_components = addon("maps.connected_components").connected_components
     random = np.random.default_rng(7)
     for count, edges in [(1, 0), (50, 20), (200, 150), (200, 400), (500, 499)]:
         first, second = random.integers(0, count, edges), random.integers(0, count, edges)
@@ -179,7 +183,7 @@ def test_components_agree_with_a_search(addon):
 
 
 def test_components_of_a_long_path_and_of_a_star_with_a_high_hub_take_few_rounds(addon, monkeypatch):
-    components = addon("components")
+    components = addon("maps.connected_components")
     monkeypatch.setattr(components.itertools, "count", lambda: range(20))
     path = np.random.default_rng(1).permutation(20000)
     assert not components.connected_components(20000, path[:-1], path[1:]).any()

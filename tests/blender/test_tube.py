@@ -117,7 +117,7 @@ def test_the_unit_disks_automorphism_makes_the_annulus_concentric(addon):
     turn = np.exp(2j * np.pi * np.arange(40) / 40)
     z = np.concatenate([turn, 0.3 * turn])
     moved = (z - (0.4 + 0.2j)) / (1 - np.conj(0.4 + 0.2j) * z)
-    found = addon("tube").concentric(moved, np.arange(40, 80))
+    found = addon("maps.tube").concentric(moved, np.arange(40, 80))
     assert np.abs(found[:40]) == pytest.approx(1) and np.abs(found[40:]) == pytest.approx(0.3)
 
 

@@ -16,7 +16,7 @@ def test_result_waits_and_progress_is_seen(addon):
         may_end.wait(10)
         seen.append(threading.current_thread())
 
-    worker = addon("worker").Worker(compute)
+    worker = addon("solver.worker").Worker(compute)
     while worker.stage != "factor":
         assert worker.running
     assert worker.fraction == 0.25
@@ -30,7 +30,7 @@ def test_an_error_is_raised_where_the_result_is_asked_for(addon):
     def compute(progress):
         raise ValueError("from the thread")
 
-    worker = addon("worker").Worker(compute)
+    worker = addon("solver.worker").Worker(compute)
     with pytest.raises(ValueError, match="from the thread"):
         worker.result()
 
@@ -39,6 +39,6 @@ def test_an_error_is_raised_where_the_result_is_asked_for(addon):
 def test_the_thread_stands_back_and_nobody_else(addon):
     here = os.getpriority(os.PRIO_PROCESS, 0)
     seen = []
-    addon("worker").Worker(lambda progress: seen.append(os.getpriority(os.PRIO_PROCESS, 0))).result()
-    assert seen == [min(here + addon("worker").NICENESS, 19)]
+    addon("solver.worker").Worker(lambda progress: seen.append(os.getpriority(os.PRIO_PROCESS, 0))).result()
+    assert seen == [min(here + addon("solver.worker").NICENESS, 19)]
     assert os.getpriority(os.PRIO_PROCESS, 0) == here

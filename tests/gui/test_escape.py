@@ -9,7 +9,7 @@ import sys, threading
 sys.path.insert(0, {str(ROOT / "tests" / "blender")!r})
 if not hasattr(heart, 'held'):
     module = lambda name: next(m for n, m in sys.modules.items() if n.endswith('koebe_uv.' + name))
-    worker, run = module('worker').Worker, module('modal_run').ModalRun
+    worker, run = module('solver.worker').Worker, module('operators.modal_run').ModalRun
     progress, running, modal, compute = worker._progress, worker.running, run.modal, worker._run
     def held(self, fraction, stage):
         progress(self, fraction, stage)

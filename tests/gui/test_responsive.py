@@ -14,7 +14,7 @@ FOLDER = ROOT / "out" / "samples"
 # The operator's own account: what came in, what it answered, when.
 WATCH = """
 import sys, time
-name = next(n for n in sys.modules if n.endswith('koebe_uv.operators'))
+name = next(n for n in sys.modules if n.endswith('koebe_uv.operators.uniformize'))
 operator = sys.modules[name].UV_OT_koebe_uniformize
 if not hasattr(heart, 'answers'):
     inner = operator.modal
@@ -46,7 +46,7 @@ with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
 
 
 class Idler:
-    """A thread of this process that only sleeps: the longest it overslept is what the machine withholds from anybody."""
+    """A thread of this process that only sleeps: the longest it overslept is what the machine withholds from all."""
 
     def __init__(self):
         self.longest = 0.0

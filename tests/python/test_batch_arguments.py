@@ -41,10 +41,10 @@ WRONG = [
 
 @pytest.mark.parametrize("words", WRONG, ids=ascii)
 def test_wrong_usage_is_2_in_one_line(batch, capsys, words):
-    with pytest.raises(batch("batch_exit").Stop) as stop:
-        batch("batch_arguments").parse(words)
+    with pytest.raises(batch("headless.exit_and_signals").Stop) as stop:
+        batch("headless.arguments").parse(words)
     assert stop.value.code == 2
-    batch("batch_exit").tell(stop.value.reason)
+    batch("headless.exit_and_signals").tell(stop.value.reason)
     out, err = capsys.readouterr()
     assert out == "" and err.startswith("koebe: ") and err.count("\n") == 1 and len(err) > 20
 
@@ -60,7 +60,7 @@ def test_wrong_usage_is_2_in_one_line(batch, capsys, words):
 )  # fmt: skip
 def test_names_are_divided_as_in_a_csv_file(batch, values, names):
     words = [*OUT, *(f"--objects={value}" for value in values)]
-    assert batch("batch_arguments").parse(words).names == names
+    assert batch("headless.arguments").parse(words).names == names
 
 
 def test_every_name_can_be_asked_for(batch):
@@ -68,12 +68,12 @@ def test_every_name_can_be_asked_for(batch):
     for _ in range(2000):
         names = ["".join(noise.choices('ab ,"\'\\\n\tö🍳', k=noise.randint(1, 8))) for _ in range(noise.randint(1, 4))]
         value = ",".join('"' + name.replace('"', '""') + '"' for name in names)
-        assert batch("batch_arguments").parse([*OUT, f"--objects={value}"]).names == names
+        assert batch("headless.arguments").parse([*OUT, f"--objects={value}"]).names == names
 
 
 def test_the_defaults_are_those_of_the_options(batch):
-    request = batch("batch_arguments").parse(OUT)
-    assert request.options == batch("options").Options() and request.names is None and request.report is None
+    request = batch("headless.arguments").parse(OUT)
+    assert request.options == batch("maps.options").Options() and request.names is None and request.report is None
     assert (request.source, request.output) == (None, "out.blend")
 
 
@@ -81,13 +81,13 @@ def test_all_that_is_in_range_is_taken(batch):
     words = "in.blend --output o.blend --report r.json --method ck --engine mesh --outer 2147483647 --tolerance 1e-300"
     words += " --max-sweeps 2147483647 --balance none --polish --threads 1024 --no-upright --tube unroll --margin 0"
     words += " --placement keep --no-checker --checker-size 1e6 --no-checker-even"
-    request = batch("batch_arguments").parse([*words.split(), "--layer", "ö" * 31])
+    request = batch("headless.arguments").parse([*words.split(), "--layer", "ö" * 31])
     assert request.options.outer == request.options.max_sweeps == 2**31 - 1 and request.options.layer == "ö" * 31
 
 
 def test_help_tells_the_exit_codes(batch, capsys):
     with pytest.raises(SystemExit) as end:
-        batch("batch_arguments").parse(["--help"])
+        batch("headless.arguments").parse(["--help"])
     assert end.value.code == 0
     text = " ".join(capsys.readouterr().out.split())
     assert all(word in text for word in ("130 interrupted", "4 not converged", "blender -b IN.blend", "--objects"))

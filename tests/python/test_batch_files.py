@@ -22,19 +22,19 @@ spec = importlib.util.spec_from_file_location(
     "addon_without_bpy", {str(ADDON / "__init__.py")!r}, submodule_search_locations=[{str(ADDON)!r}])
 sys.modules["addon_without_bpy"] = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(sys.modules["addon_without_bpy"])
-from addon_without_bpy import batch_files
+from addon_without_bpy.headless import files
 """
 
 
 @pytest.fixture(scope="module")
 def files():
     exec(LOAD)
-    return importlib.import_module("addon_without_bpy.batch_files")
+    return importlib.import_module("addon_without_bpy.headless.files")
 
 
 @pytest.fixture
 def stop(files):
-    return importlib.import_module("addon_without_bpy.batch_exit").Stop
+    return importlib.import_module("addon_without_bpy.headless.exit_and_signals").Stop
 
 
 @pytest.fixture
@@ -140,8 +140,8 @@ def test_devices_and_pipes_are_written_and_not_replaced(files, folder):
 
 
 def test_the_file_into_which_the_process_prints_is_continued(folder):
-    script = f"{LOAD}\nprint('first', flush=True)\nreport = batch_files.Target(sys.argv[1])\n"
-    script += "batch_files.write_all({report: lambda path: batch_files.save_json(path, {'a': 1})}, int)\nprint('last')"
+    script = f"{LOAD}\nprint('first', flush=True)\nreport = files.Target(sys.argv[1])\n"
+    script += "files.write_all({report: lambda path: files.save_json(path, {'a': 1})}, int)\nprint('last')"
     for name in ("/dev/fd/1", "log"):
         for mode in "wa":
             with open("log", mode) as log:
@@ -224,13 +224,13 @@ def test_what_killed_runs_left_is_removed_when_it_is_a_day_old(files, folder):
 def test_killed_at_any_moment_both_are_whole_and_the_report_is_last(folder):
     script = f"""{LOAD}
 import os
-targets = [batch_files.Target(name) for name in ("a.blend", "a.json")]
+targets = [files.Target(name) for name in ("a.blend", "a.json")]
 for number in range(100000):
     def write(path, content=b"%06d" % number * 30000):
         with open(path, "wb") as file:
             file.write(content)
     print(number, flush=True)
-    batch_files.write_all(dict.fromkeys(targets, write), int)
+    files.write_all(dict.fromkeys(targets, write), int)
 """
     noise = random.Random(5)
     for _ in range(8):

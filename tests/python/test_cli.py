@@ -152,7 +152,8 @@ def test_vertices_of_no_face_and_faces_of_no_area_stay_in_the_file(tmp_path):
     assert np.array_equal(out.vertices, [[9, 9, 9], *vertices, [8, 8, 8]])
     assert out.faces[-1] == (1, 1, 2) and len(out.faces) == len(quads) + 1
     warnings = json.loads((tmp_path / "report.json").read_text())["warnings"]
-    assert any(w["kind"] == "collapsed_faces" and w["elements"] == [len(quads)] for w in warnings), warnings  # the number of the face passed over
+    # The number of the face that was passed over.
+    assert any(w["kind"] == "collapsed_faces" and w["elements"] == [len(quads)] for w in warnings), warnings
 
 
 def test_svg_shows_every_circle(mesh):
@@ -383,10 +384,10 @@ def test_an_interrupt_is_130_and_nothing_is_written(tmp_path, command, number):
         text=True,
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # nohup and & start with some ignored
     )
-    with contextlib.suppress(BrokenPipeError):  # the command does not wait for the end of its input
-        with open(tmp_path / "in.obj", "w") as pipe:  # opens when the command does, after it set its handlers
-            run.send_signal(number)
-            pipe.write(obj_text(*perforated()))
+    # The command does not wait for the end of its input; this opens when the command does, after it set its handlers.
+    with contextlib.suppress(BrokenPipeError), open(tmp_path / "in.obj", "w") as pipe:
+        run.send_signal(number)
+        pipe.write(obj_text(*perforated()))
     stdout, stderr = run.communicate(timeout=60)
     assert run.returncode == INTERRUPTED, stderr
     assert stdout == "" and stderr.count("\n") == 1

@@ -46,7 +46,8 @@ def test_the_files_that_a_page_names_exist(page):
     missing = [
         name
         for name in sorted(named)
-        if not name.startswith(MADE) and not any((base / name).exists() for base in (ROOT, ROOT / "native", ROOT / "docs"))
+        if not name.startswith(MADE)
+        and not any((base / name).exists() for base in (ROOT, ROOT / "native", ROOT / "docs"))
     ]
     assert not missing
 

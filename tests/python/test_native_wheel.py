@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-SOURCE = Path(__file__).resolve().parents[2] / "addon" / "native_wheel.py"
+SOURCE = Path(__file__).resolve().parents[2] / "addon" / "solver" / "wheel.py"
 NAME = "koebe-1.2.3-cp311-cp311-manylinux_2_35_x86_64"
 INFO = "koebe-1.2.3.dist-info"
 

@@ -21,7 +21,7 @@ NOT_FROM_BLENDER = (
     "the order must name", "a circle domain has one circle", "the first circle must be", "the match must name",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
 )  # fmt: skip
-OPTION_ERRORS = "options.py", "batch.py"  # the panel's fields cannot take such values
+OPTION_ERRORS = "maps/options.py", "batch.py"  # the panel's fields cannot take such values
 
 
 def literals(node):
@@ -42,14 +42,15 @@ def key(message):
 
 
 def addon_messages():
-    for path in sorted((ROOT / "addon").glob("*.py")):
-        if path.name in OPTION_ERRORS:
+    for path in sorted((ROOT / "addon").rglob("*.py")):
+        name = path.relative_to(ROOT / "addon").as_posix()
+        if name in OPTION_ERRORS:
             continue
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call) and node.exc.args:
                 for text in literals(node.exc.args[0]):
                     if key(text):  # else another error's message, passed on
-                        yield path.name, text
+                        yield name, text
 
 
 def native_messages():
@@ -74,15 +75,15 @@ def topology_kinds():
 
 
 def reasons():
-    source = ast.parse((ROOT / "addon" / "report.py").read_text(encoding="utf-8"))
+    source = ast.parse((ROOT / "addon" / "maps" / "wording.py").read_text(encoding="utf-8"))
     for node in source.body:
         if isinstance(node, ast.Assign) and node.targets[0].id == "REASONS":
             return ast.literal_eval(node.value)
-    raise AssertionError("addon/report.py has no REASONS")
+    raise AssertionError("addon/maps/wording.py has no REASONS")
 
 
 def test_messages_are_found_where_they_are_raised():
-    assert len(list(addon_messages())) >= 10 and len(list(native_messages())) >= 8 and len(topology_kinds()) == 5
+    assert len(list(addon_messages())) >= 42 and len(list(native_messages())) >= 8 and len(topology_kinds()) == 5
 
 
 @pytest.mark.parametrize(("file", "message"), [*addon_messages(), *native_messages()])

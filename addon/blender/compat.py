@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every difference between Blender versions that the add-on meets, found by feature, not by number."""
+
+import functools
+from typing import Any
+
+import bpy
+import numpy as np
+
+
+def corner_uv(layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:
+    """UV coordinates (C, 2) of a UV layer, in 32 bits. The mesh must not be in Edit Mode."""
+    values = np.empty(2 * len(layer.data), dtype=np.float32)
+    collection, name = _uv_collection(layer)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, 2)
+
+
+def set_corner_uv(layer: bpy.types.MeshUVLoopLayer, uv: np.ndarray) -> None:
+    """Write UV coordinates (C, 2) into a UV layer. The mesh must not be in Edit Mode."""
+    collection, name = _uv_collection(layer)
+    collection.foreach_set(name, np.ascontiguousarray(uv, dtype=np.float32).ravel())
+
+
+def _uv_collection(layer: bpy.types.MeshUVLoopLayer) -> tuple[Any, str]:
+    if hasattr(layer, "uv"):  # 3.5 on
+        return layer.uv, "vector"
+    return layer.data, "uv"
+
+
+def any_pin(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> bool:
+    """Whether some corner is pinned in a UV layer of the mesh. The mesh must not be in Edit Mode."""
+    if not hasattr(layer, "pin"):  # before 3.5
+        return bool(read(layer.data, "pin_uv", bool).any())
+    pins = mesh.attributes.get(f".pn.{layer.name}")
+    return pins is not None and bool(read(pins.data, "value", bool).any())
+
+
+def slow_mode_change() -> bool:
+    """Whether leaving and entering Edit Mode takes longer than to write the corners of a mesh one by one."""
+    return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # 3.5 on it takes half the time
+
+
+def read(collection: Any, name: str, dtype: type, width: int = 1) -> np.ndarray:
+    """One property of all items of a collection, as an array (n,) or (n, width)."""
+    values: np.ndarray = np.empty(len(collection) * width, dtype=dtype)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def read_indices(collection: Any, name: str, width: int = 1) -> np.ndarray:
+    """Like `read`, for indices, as int32.
+
+    Blender copies them in one go into unsigned integers only; into signed ones it takes each by itself.
+    """
+    return read(collection, name, np.uint32, width).view(np.int32)
+
+
+def corner_indices(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex (C,) and edge (C,) of each corner. The mesh must not be in Edit Mode."""
+    names = (".corner_vert", ".corner_edge")
+    if all(name in mesh.attributes for name in names):  # 3.6 on, and much faster there
+        vertex, edge = (read(mesh.attributes[name].data, "value", np.int32) for name in names)
+        return vertex, edge
+    return read_indices(mesh.loops, "vertex_index"), read_indices(mesh.loops, "edge_index")
+
+
+def seam_edges(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Whether each edge (E,) is a seam. The mesh must not be in Edit Mode."""
+    name = _seam_attribute()
+    if name is None:
+        return read(mesh.edges, "use_seam", bool)
+    seams = mesh.attributes.get(name)
+    if seams is None or (seams.domain, seams.data_type) != ("EDGE", "BOOLEAN"):  # something else that has the name
+        return np.zeros(len(mesh.edges), dtype=bool)
+    return read(seams.data, "value", bool)
+
+
+@functools.cache
+def _seam_attribute() -> str | None:
+    """Name of the attribute that holds seams, which is faster to read than the edges; None where there is none."""
+    probe = bpy.data.meshes.new("Koebe probe")
+    try:
+        probe.vertices.add(2)
+        probe.edges.add(1)
+        probe.edges[0].use_seam = True
+        return next((name for name in ("uv_seam", ".uv_seam") if name in probe.attributes), None)
+    finally:
+        bpy.data.meshes.remove(probe)
+
+
+def vertex_positions(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Positions (V, 3) of the vertices, in 32 bits. The mesh must not be in Edit Mode."""
+    if "position" in mesh.attributes:  # 3.5 on, and much faster there
+        return read(mesh.attributes["position"].data, "vector", np.float32, 3)
+    return read(mesh.vertices, "co", np.float32, 3)
+
+
+def chosen_faces(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Whether each face (P,) is selected and not hidden. The mesh must not be in Edit Mode."""
+    return _face_flag(mesh, ".select_poly") & ~_face_flag(mesh, ".hide_poly")
+
+
+def _face_flag(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    if name not in mesh.attributes:  # then it is false everywhere
+        return np.zeros(len(mesh.polygons), dtype=bool)
+    return read(mesh.attributes[name].data, "value", bool)
+
+
+def enable_nodes(material: bpy.types.Material) -> None:
+    """Give a new material its node tree (5.0 on it has one from the start)."""
+    if material.node_tree is None:
+        material.use_nodes = True
+
+
+def flat_shader(name: str) -> Any:
+    """A built-in shader of the gpu module for points with two coordinates."""
+    import gpu
+
+    try:
+        return gpu.shader.from_builtin(name)
+    except ValueError:  # before 3.4 to 4.0 the names said how many coordinates
+        return gpu.shader.from_builtin(f"2D_{name}")
+
+
+def user_folder(package: str) -> str:
+    """A folder for the add-on's own files, made if it is missing."""
+    if package.startswith("bl_ext.") and hasattr(bpy.utils, "extension_path_user"):
+        return bpy.utils.extension_path_user(package, create=True)
+    return bpy.utils.user_resource("DATAFILES", path="koebe_uv", create=True)

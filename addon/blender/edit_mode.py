@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Enters and leaves Edit Mode, and finds back to the modes and the selection of objects that were."""
+
+import contextlib
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+
+from . import compat
+from .errors import TransferError
+from .mesh_object import MeshObject
+from .targets import check_mesh
+from .transaction import Transaction
+
+
+def check(context: bpy.types.Context, obj: MeshObject) -> None:
+    """Raise TransferError unless Edit Mode can be entered with the object."""
+    check_mesh(obj)
+    if obj.library is not None or obj.override_library is not None:
+        raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
+    if not _visible(context, obj):
+        raise TransferError(
+            f"{obj.name}: it is not in local view: leave that first" if _out_of_local_view(context, obj)
+            else f"{obj.name}: it is hidden: show it first"
+        )  # fmt: skip
+
+
+def _out_of_local_view(context: bpy.types.Context, obj: MeshObject) -> bool:
+    space: Any = context.space_data
+    local = space is not None and space.type == "VIEW_3D" and space.local_view is not None
+    return local and not obj.local_view_get(space)
+
+
+def _visible(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
+    space: Any = context.space_data
+    if space is not None and space.type == "VIEW_3D":
+        return obj.visible_get(view_layer=context.view_layer, viewport=space)  # which may be in local view
+    return obj.visible_get(view_layer=context.view_layer)
+
+
+def enter(run: Transaction, context: bpy.types.Context, obj: MeshObject) -> None:
+    """Make the object the active one and enter Edit Mode with it alone, unless it is there; call `check` first."""
+    if obj.mode == "EDIT":
+        return
+    for elements in (obj.data.vertices, obj.data.edges, obj.data.polygons):  # which Edit Mode makes consistent
+        run.before_write(elements.foreach_set, "select", compat.read(elements, "select", bool))
+    layer = context.view_layer
+    run.before_write(_restore, layer, *_state(layer))
+    if context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    _select_objects(layer, [obj.name])
+    layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="EDIT")
+    if obj.mode != "EDIT":
+        raise TransferError(f"{obj.name}: Blender does not enter Edit Mode with it")
+
+
+def undo_all(context: bpy.types.Context) -> None:
+    """Let the undo step of the running operator hold the whole file, as it does in Object Mode.
+
+    In Edit Mode it holds the edited meshes alone, without slots, custom properties, selected objects and settings; but
+    Blender keeps the whole file beside it once a data-block was added or removed.
+    """
+    if context.mode == "EDIT_MESH":
+        bpy.data.meshes.remove(bpy.data.meshes.new("Koebe undo"))
+
+
+@contextlib.contextmanager
+def left_if_faster(run: Transaction, context: bpy.types.Context) -> Iterator[None]:
+    """Object Mode inside, where Blender writes faster there, and where it is sure to find back."""
+    layer = context.view_layer
+    if context.mode != "EDIT_MESH" or compat.slow_mode_change() or not _all_come_back(context):
+        yield
+        return
+    state = _state(layer)
+    run.before_write(_restore, layer, *state)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield
+    _restore(layer, *state)
+
+
+def _all_come_back(context: bpy.types.Context) -> bool:
+    """Whether every object that is in Edit Mode is a mesh, seen and selected: Blender enters it with no others."""
+    edited = [obj for obj in bpy.data.objects if obj.mode == "EDIT"]
+    return all(
+        obj.type == "MESH" and obj.name in context.view_layer.objects and obj.select_get() and _visible(context, obj)
+        for obj in edited
+    )
+
+
+def _state(layer: Any) -> tuple[list[str], list[str], str | None]:
+    """Names of the objects that are selected, of those in Edit Mode, and of the active one."""
+    selected = [obj.name for obj in layer.objects if obj.select_get(view_layer=layer)]
+    edited = [obj.name for obj in layer.objects if obj.mode == "EDIT"]
+    return selected, edited, layer.objects.active and layer.objects.active.name
+
+
+def _restore(layer: Any, selected: list[str], edited: list[str], active: str | None) -> None:
+    now = [obj for obj in layer.objects if obj.mode == "EDIT"]
+    if now:
+        layer.objects.active = now[0]
+        bpy.ops.object.mode_set(mode="OBJECT")
+    if edited:
+        with _in_sight([layer.objects[name] for name in edited]):
+            _select_objects(layer, edited)
+            layer.objects.active = layer.objects[active if active in edited else edited[0]]
+            bpy.ops.object.mode_set(mode="EDIT")
+    _select_objects(layer, selected)
+    layer.objects.active = layer.objects.get(active) if active else None
+
+
+def _select_objects(layer: Any, names: list[str]) -> None:
+    for obj in layer.objects:
+        if obj.select_get(view_layer=layer) != (obj.name in names):
+            obj.select_set(obj.name in names, view_layer=layer)
+
+
+@contextlib.contextmanager
+def _in_sight(objects: list[bpy.types.Object]) -> Iterator[None]:
+    """All these objects shown and selectable: Blender enters Edit Mode with no others."""
+    hidden = [(obj, obj.hide_get(), obj.hide_viewport, obj.hide_select) for obj in objects]
+    for obj in objects:
+        obj.hide_set(False)
+        obj.hide_viewport = obj.hide_select = False
+    try:
+        yield
+    finally:
+        for obj, eye, screen, arrow in hidden:
+            obj.hide_set(eye)
+            obj.hide_viewport, obj.hide_select = screen, arrow

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender mesh -> arrays. Reads everything and writes nothing."""
+
+import contextlib
+from collections.abc import Iterator
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..maps.surface import Surface
+from . import compat
+from .mesh_object import MeshObject
+
+
+def read_surface(obj: MeshObject, selected_only: bool) -> Surface:
+    """The object's mesh as a `Surface`, in world space but for the translation.
+
+    In Edit Mode the mesh's arrays are brought up to date first. With `selected_only` the surface is
+    that of the selected faces. A mirrored object keeps its face order: lengths and angles are those
+    of the world, and the UVs stay counter-clockwise in the mesh's own order.
+    """
+    bring_up_to_date(obj)
+    with arrays(obj) as mesh:
+        mesh.calc_loop_triangles()
+        vertex, edge = compat.corner_indices(mesh)
+        size = compat.read_indices(mesh.polygons, "loop_total")
+        return Surface(
+            positions=_world_positions(obj, mesh),
+            corner_vertex=vertex,
+            corner_edge=edge,
+            face_start=compat.read_indices(mesh.polygons, "loop_start"),
+            face_size=size,
+            seam=compat.seam_edges(mesh),
+            selected=compat.chosen_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
+            triangle_corners=compat.read_indices(mesh.loop_triangles, "loops", 3),
+            triangle_face=np.repeat(np.arange(len(size), dtype=np.int32), size - 2),  # as Blender orders them
+        )
+
+
+def bring_up_to_date(obj: MeshObject) -> None:
+    """Let the mesh's arrays hold what was edited until now."""
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+
+
+@contextlib.contextmanager
+def arrays(obj: MeshObject) -> Iterator[bpy.types.Mesh]:
+    """The object's mesh, to be read; in Edit Mode as it was when it was last brought up to date.
+
+    There Blender hides its UVs, and from 3.6 on hands over the rest one by one: then it is a copy for the time, in
+    which Blender shares what it can.
+    """
+    if obj.mode != "EDIT":
+        yield obj.data
+        return
+    try:
+        yield obj.to_mesh()  # of the object itself, without modifiers and shape keys
+    finally:
+        obj.to_mesh_clear()
+
+
+def _world_positions(obj: MeshObject, mesh: bpy.types.Mesh) -> np.ndarray:
+    positions = compat.vertex_positions(mesh).astype(np.float64)
+    to_world = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
+    if np.array_equal(to_world, np.eye(3)):
+        return positions
+    return np.einsum("ij,kj->ik", positions, to_world)
+
+
+def read_mark(obj: MeshObject) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Arrays that are others as soon as the mesh's faces, their directions or its vertices' places are others.
+
+    In Edit Mode they are those of the last time the mesh's arrays were brought up to date.
+    """
+    with arrays(obj) as mesh:
+        vertex, _ = compat.corner_indices(mesh)
+        return compat.read_indices(mesh.polygons, "loop_start"), vertex, compat.vertex_positions(mesh)
+
+
+def read_uv(obj: MeshObject, layer_name: str) -> np.ndarray | None:
+    """UVs (C, 2) of the layer of that name, or else of the active one, or None.
+
+    In Edit Mode they are those of `read_surface`, of the last time the mesh's arrays were brought up to date.
+    """
+    layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
+    return None if layer is None else read_layer(obj, layer.name)
+
+
+def read_layer(obj: MeshObject, layer_name: str) -> np.ndarray:
+    """UVs (C, 2) of the layer of that name, as of `read_uv`."""
+    with arrays(obj) as mesh:
+        return compat.corner_uv(mesh.uv_layers[layer_name])
+
+
+def has_pins(obj: MeshObject, layer_name: str) -> bool:
+    """Whether UVs of that layer are pinned; in Edit Mode as of `read_surface`."""
+    if layer_name not in obj.data.uv_layers:
+        return False
+    with arrays(obj) as mesh:
+        return compat.any_pin(mesh, mesh.uv_layers[layer_name])
+
+
+def active_vertex(obj: MeshObject) -> int | None:
+    """Index of the active vertex of an object in Edit Mode, or None."""
+    if obj.mode != "EDIT":
+        return None
+    active = bmesh.from_edit_mesh(obj.data).select_history.active
+    return active.index if isinstance(active, bmesh.types.BMVert) else None

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Selects elements of meshes in Edit Mode, each mesh's selection noted before."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import bmesh
+import bpy
+
+from ..maps.offending_elements import EDGES, FACES, VERTICES
+from .mesh_object import MeshObject, mesh_objects
+from .targets import with_own_meshes
+from .transaction import Transaction
+
+
+def select_only(
+    run: Transaction, context: bpy.types.Context, chosen: Sequence[tuple[MeshObject, str, Iterable[int]]]
+) -> None:
+    """Select these elements and nothing else: `chosen` lists (object in Edit Mode, kind, indices).
+
+    The select mode becomes that of the kinds. Indices that no longer exist are passed over.
+    """
+    kinds = {kind for _, kind, _ in chosen}
+    objects = list(dict.fromkeys(obj for obj, _, _ in chosen))
+    note_selection(run, context, _edited(context))  # of all, as the select mode is theirs too
+    context.tool_settings.mesh_select_mode = (VERTICES in kinds, EDGES in kinds, FACES in kinds)
+    meshes = {obj: bmesh.from_edit_mesh(obj.data) for obj in objects}
+    for mesh in meshes.values():
+        select_none(mesh)
+    for obj, kind, indices in chosen:
+        mesh = meshes[obj]
+        elements = _by_kind(mesh)[kind]
+        elements.ensure_lookup_table()
+        for index in indices:
+            if index < len(elements):
+                elements[index].select_set(True)
+    for obj, mesh in meshes.items():
+        mesh.select_flush_mode()
+        bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+def select_none(mesh: bmesh.types.BMesh) -> None:
+    """Deselect all of a bmesh."""
+    for elements in (mesh.faces, mesh.edges, mesh.verts):
+        for element in elements:
+            element.select_set(False)
+    mesh.select_history.clear()
+
+
+def _by_kind(mesh: bmesh.types.BMesh) -> dict[str, Any]:
+    return {VERTICES: mesh.verts, EDGES: mesh.edges, FACES: mesh.faces}
+
+
+def _edited(context: bpy.types.Context) -> list[MeshObject]:
+    return with_own_meshes(obj for obj in mesh_objects(context.view_layer.objects) if obj.mode == "EDIT")
+
+
+def note_selection(run: Transaction, context: bpy.types.Context, objects: list[MeshObject]) -> None:
+    """Note the select mode, and what is selected in the meshes of objects in Edit Mode."""
+    for obj in objects:
+        run.before_write(_restore_selection, obj, *_selection(bmesh.from_edit_mesh(obj.data)))
+    run.before_write(_restore_select_mode, context.tool_settings, tuple(context.tool_settings.mesh_select_mode))
+
+
+def _selection(mesh: bmesh.types.BMesh) -> tuple[list[list[bool]], list[tuple[str, int]], int | None]:
+    """Whether each vertex, edge and face is selected, and what was in which order last, by number."""
+    sequences = (mesh.verts, mesh.edges, mesh.faces)
+    for elements in sequences:
+        elements.index_update()
+    flags = [[element.select for element in elements] for elements in sequences]
+    history = [(VERTICES if isinstance(one, bmesh.types.BMVert) else EDGES if isinstance(one, bmesh.types.BMEdge)
+                else FACES, one.index) for one in mesh.select_history]  # fmt: skip
+    active = mesh.faces.active
+    return flags, history, None if active is None else active.index
+
+
+def _restore_selection(
+    obj: MeshObject, flags: list[list[bool]], history: list[tuple[str, int]], active: int | None
+) -> None:
+    mesh = bmesh.from_edit_mesh(obj.data)
+    select_none(mesh)
+    by_kind = _by_kind(mesh)
+    for elements, chosen in zip(by_kind.values(), flags, strict=True):
+        elements.ensure_lookup_table()
+        for element, selected in zip(elements, chosen, strict=True):
+            if selected:
+                element.select_set(True)
+    for kind, index in history:
+        mesh.select_history.add(by_kind[kind][index])
+    mesh.faces.active = None if active is None else mesh.faces[active]
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+def _restore_select_mode(settings: bpy.types.ToolSettings, mode: tuple[bool, bool, bool]) -> None:
+    settings.mesh_select_mode = mode
+
+
+def edges_along(obj: MeshObject, vertices: list[int]) -> list[int | None]:
+    """Edges of an object in Edit Mode along a closed loop of vertices; None for each that is no longer there."""
+    mesh = bmesh.from_edit_mesh(obj.data)
+    mesh.verts.ensure_lookup_table()
+    pairs = zip(vertices, vertices[1:] + vertices[:1], strict=True)
+    known = [[mesh.verts[v] for v in pair if v < len(mesh.verts)] for pair in pairs if pair[0] != pair[1]]
+    edges = [mesh.edges.get(pair) if len(pair) == 2 else None for pair in known]
+    return [None if edge is None else edge.index for edge in edges]

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects an operator is for, whether their meshes can be written, and whether they still are what was read."""
+
+import dataclasses
+import traceback
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
+
+import bpy
+import numpy as np
+
+from ..maps.errors import KnownError
+from .errors import TransferError
+from .mesh_object import MeshObject, mesh_objects
+from .mesh_reading import bring_up_to_date, read_mark
+from .transaction import Transaction
+
+GONE = "it was deleted or renamed in the meantime"
+
+
+def target_objects(context: bpy.types.Context) -> list[MeshObject]:
+    """The mesh objects in Edit Mode, or else the selected ones; the active one first."""
+    objects = context.objects_in_mode_unique_data if context.mode == "EDIT_MESH" else context.selected_objects
+    return sorted(mesh_objects(objects), key=lambda obj: obj != context.active_object)
+
+
+def with_own_meshes(objects: Iterable[MeshObject]) -> list[MeshObject]:
+    """The first one of the objects for each mesh."""
+    first: dict[str, MeshObject] = {}
+    for obj in objects:
+        first.setdefault(obj.data.name_full, obj)
+    return list(first.values())
+
+
+def check_readable(obj: MeshObject) -> None:
+    """Raise TransferError where the object does not have its mesh as it is now."""
+    mesh = obj.data
+    if mesh.is_editmode and obj.mode != "EDIT":
+        raise TransferError(f"{obj.name}: its mesh is in Edit Mode through another object: leave that first")
+    users = [obj] if mesh.users == 1 else [other for other in bpy.data.objects if other.data == mesh]
+    if any(other.mode not in {"OBJECT", "EDIT"} for other in users):
+        raise TransferError(f"{obj.name}: its mesh is being sculpted or painted: leave that mode first")
+
+
+def check_mesh(obj: MeshObject) -> None:
+    """Raise TransferError unless the object's mesh can be read and written, and what is written stays in the file."""
+    mesh = obj.data
+    if mesh.library is not None:
+        raise TransferError(f"{obj.name}: its mesh is linked from another file: make it local first")
+    if mesh.override_library is not None:
+        raise TransferError(f"{obj.name}: its mesh is a library override, which keeps no UVs: make it local first")
+    check_readable(obj)
+
+
+@dataclasses.dataclass(frozen=True)
+class Target:
+    """An object that was read, to be written later. It is found by its name: it may be gone by then."""
+
+    name: str
+    mark: tuple[np.ndarray, ...]
+
+    @classmethod
+    def of(cls, obj: MeshObject) -> "Target":
+        """The target that this object is, whose surface was just read."""
+        return cls(obj.name, read_mark(obj))
+
+    @property
+    def obj(self) -> MeshObject | None:
+        """The object of that name in this file, or None."""
+        return bpy.data.objects.get((self.name, None))
+
+    def find(self) -> MeshObject:
+        """The object. Raises TransferError if it is gone, is another mesh now, or cannot be written any more."""
+        obj = self.obj
+        if obj is None or obj.type != "MESH":
+            raise TransferError(f"{self.name}: {GONE}")
+        check_mesh(obj)
+        bring_up_to_date(obj)
+        if not all(map(_same, read_mark(obj), self.mark)):
+            raise TransferError(f"{self.name}: its mesh has changed in the meantime")
+        return obj
+
+
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two arrays are, bit for bit: a place that is no number is the same as itself."""
+    return one.shape == other.shape and bool((one.view(np.int32) == other.view(np.int32)).all())
+
+
+def attempt(run: Transaction, name: str, problems: list[str]) -> AbstractContextManager[None]:
+    """A part of the run that may fail for itself: the reason goes to the problems, with the object's name first."""
+    return run.attempt(lambda error: problems.append(reason(name, error)))
+
+
+def reason(name: str, error: Exception) -> str:
+    """Why the object of that name failed, its name first. What nobody foresaw goes to the console in full."""
+    if isinstance(error, KnownError):
+        text = str(error)
+        return text if text.startswith(f"{name}: ") else f"{name}: {text}"
+    if bpy.data.objects.get((name, None)) is None:
+        return f"{name}: {GONE}"
+    traceback.print_exception(type(error), error, error.__traceback__)
+    return f"{name}: {type(error).__name__}, which nobody foresaw: {error}"

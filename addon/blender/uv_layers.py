@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the coordinates of one UV layer, in Object Mode and in Edit Mode, and nothing else."""
+
+import itertools
+import struct
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..maps.surface import Surface
+from . import compat
+from .errors import TransferError
+from .mesh_object import MeshObject
+from .mesh_reading import arrays
+from .transaction import Transaction
+
+MAX_UV_LAYERS = 8  # Blender's limit
+
+
+def check_layer(obj: MeshObject, layer_name: str) -> None:
+    """Raise TransferError unless the mesh has that UV layer, or could get it."""
+    mesh = obj.data
+    if layer_name in mesh.uv_layers:
+        return
+    if len(mesh.uv_layers) >= MAX_UV_LAYERS:
+        raise TransferError(
+            f"{obj.name}: it has {MAX_UV_LAYERS} UV layers, which is all that Blender allows: delete one"
+        )
+    if layer_name in mesh.attributes:
+        raise TransferError(
+            f"{obj.name}: the attribute {layer_name!r} is no UV layer: choose another layer name"
+        )
+
+
+def planned_uv(obj: MeshObject, layer_name: str, count: int, corners: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """The UVs (count, 2) of all corners once those of some of them are `uv` (m, 2): in a new layer the others are zero.
+
+    In Edit Mode the others are those of the last time the mesh's arrays were brought up to date.
+    """
+    values = np.zeros((count, 2), dtype=np.float32)
+    if layer_name in obj.data.uv_layers:
+        with arrays(obj) as mesh:
+            values = compat.corner_uv(mesh.uv_layers[layer_name])
+    # Each point as one number, which NumPy moves five times as fast as a pair.
+    points = np.ascontiguousarray(uv, dtype=np.float32).view(np.complex64)[:, 0]
+    values.view(np.complex64)[:, 0][corners] = points
+    return values
+
+
+def write_uv(
+    run: Transaction, obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surface, faces: np.ndarray
+) -> None:
+    """Set the UVs (C, 2) of all corners in the layer of that name, make it if missing, make it active.
+
+    In Edit Mode only the corners of the `faces` (P,) bool of the surface that was read are written.
+    """
+    mesh = obj.data
+    run.before_write(_restore_layers, mesh, *_layers(mesh))
+    if layer_name not in mesh.uv_layers:
+        made = mesh.uv_layers.new(name=layer_name, do_init=False)
+        if made is None or made.name != layer_name:
+            raise TransferError(f"{obj.name}: the name {layer_name!r} is taken: choose another layer name")
+    else:
+        with arrays(obj) as old:
+            run.before_write(_write, obj, layer_name, compat.corner_uv(old.uv_layers[layer_name]), surface, faces)
+    _write(obj, layer_name, values, surface, faces)
+    mesh.uv_layers.active = mesh.uv_layers[layer_name]
+
+
+def _write(obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surface, faces: np.ndarray) -> None:
+    if obj.mode != "EDIT":
+        compat.set_corner_uv(obj.data.uv_layers[layer_name], values)
+        obj.data.update()
+        return
+    # Blender hands over the corners of an edited mesh one by one.
+    edited = bmesh.from_edit_mesh(obj.data)
+    layer = edited.loops.layers.uv[layer_name]
+    chosen = np.ascontiguousarray(values[np.repeat(faces, surface.face_size)])
+    points = struct.iter_unpack("=2f", chosen)  # type: ignore[arg-type]  # an array is a buffer
+    for face in itertools.compress(edited.faces, faces.tolist()):
+        for corner in face.loops:
+            corner[layer].uv = next(points)
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+def _layers(mesh: bpy.types.Mesh) -> tuple[list[str], Any, list[bool], list[bool]]:
+    """Names of the UV layers, and the places of those that are active, for rendering and for cloning."""
+    layers = list(mesh.uv_layers)
+    render, clone = ([getattr(layer, flag) for layer in layers] for flag in ("active_render", "active_clone"))
+    return [layer.name for layer in layers], mesh.uv_layers.active_index, render, clone
+
+
+def _restore_layers(mesh: bpy.types.Mesh, names: list[str], active: int, render: list[bool], clone: list[bool]) -> None:
+    for name in [layer.name for layer in mesh.uv_layers if layer.name not in names]:
+        mesh.uv_layers.remove(mesh.uv_layers[name])
+    for layer, for_render, for_clone in zip(mesh.uv_layers, render, clone):
+        if for_render:
+            layer.active_render = True
+        if for_clone:
+            layer.active_clone = True
+    if names:
+        mesh.uv_layers.active_index = active
+    mesh.update()

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line of the batch script: what is out of range is wrong usage, said in one line."""
+
+import argparse
+import csv
+import dataclasses
+from typing import NoReturn
+
+from ..maps import options
+from .exit_and_signals import USAGE, Stop
+
+LARGEST = 2**31 - 1  # of the native module's whole numbers
+CHECKER_SIZES = (1e-3, 1e6)  # squares across the UV square that a 32-bit texture coordinate can tell apart
+IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
+WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
+
+
+@dataclasses.dataclass(frozen=True)
+class Request:
+    """What to do: files as they were given, names of objects or None for all, and the options of the map."""
+
+    source: str | None
+    output: str
+    report: str | None
+    names: list[str] | None
+    options: options.Options
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise Stop(USAGE, message)
+
+
+def parse(arguments: list[str]) -> Request:
+    """The request. Raises Stop if it is wrong; ends the program after --help."""
+    default = options.Options()
+    parser = _Parser(
+        prog="batch.py", usage=f"{IN_BLENDER}\n       {WITH_BPY}", allow_abbrev=False,
+        description="Map the objects of a .blend file without a window.",
+        epilog="Exit code: 0 done, 1 something broke, 2 wrong usage, 3 the file or an object cannot be mapped "
+        "(no OUT.blend), 4 not converged (OUT.blend is written), 130 interrupted (nothing is written).",
+    )  # fmt: skip
+    parser.add_argument("source", nargs="?", metavar="IN.blend", help="opened by the script, if no file is open yet")
+    parser.add_argument("--output", required=True, metavar="OUT.blend")
+    parser.add_argument("--report", metavar="OUT.json")
+    parser.add_argument(
+        "--objects", action="append", metavar="A,B,...",
+        help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
+    )  # fmt: skip
+    parser.add_argument("--method", choices=options.METHODS, default=default.method)
+    parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
+    parser.add_argument("--outer", type=_outer_loop, default=default.outer, metavar="auto|longest|VERTEX")
+    parser.add_argument("--tolerance", type=float, default=default.tolerance)
+    parser.add_argument("--max-sweeps", type=_whole_number, default=default.max_sweeps)
+    parser.add_argument("--balance", choices=options.BALANCES, default=default.balance)
+    parser.add_argument("--polish", action=argparse.BooleanOptionalAction, default=default.polish)
+    parser.add_argument("--threads", type=_whole_number, default=default.threads, help="0: all cores")
+    parser.add_argument("--upright", action=argparse.BooleanOptionalAction, default=default.upright)
+    parser.add_argument("--tube", choices=options.TUBES, default=default.tube)
+    parser.add_argument("--layer", default=default.layer, help="UV layer to write")
+    parser.add_argument("--placement", choices=options.PLACEMENTS, default=default.placement)
+    parser.add_argument("--margin", type=float, default=default.margin, help="between islands, in UV units")
+    parser.add_argument("--checker", action=argparse.BooleanOptionalAction, default=default.checker)
+    parser.add_argument("--checker-size", type=_checker_size, default=default.checker_size, metavar="SQUARES")
+    parser.add_argument("--checker-even", action=argparse.BooleanOptionalAction, default=default.checker_even)
+    values = vars(parser.parse_args(arguments))
+    files = {name: values.pop(name) for name in ("source", "output", "report")}
+    names = values.pop("objects")
+    try:
+        chosen = options.Options(**values)
+    except (options.OptionError, UnicodeError) as error:
+        raise Stop(USAGE, error) from None
+    return Request(**files, names=None if names is None else _split(names), options=chosen)
+
+
+def _whole_number(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and int(text) <= LARGEST):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to {LARGEST}")
+    return int(text)
+
+
+def _outer_loop(text: str) -> str | int:
+    return text if text in ("auto", "longest") else _whole_number(text)
+
+
+def _checker_size(text: str) -> float:
+    least, most = CHECKER_SIZES
+    if not least <= float(text) <= most:
+        raise argparse.ArgumentTypeError(f"{text} is not from {least:g} to {most:g}")
+    return float(text)
+
+
+def _split(texts: list[str]) -> list[str]:
+    """The names in the values of --objects: commas divide them, except in double quotes, as in a CSV file."""
+    try:
+        names = [name for text in texts for name in next(csv.reader([text], strict=True), None) or [""]]
+    except csv.Error as error:
+        raise Stop(USAGE, f"--objects: {error}") from None
+    if "" in names:
+        raise Stop(USAGE, "--objects: a name is empty")
+    return names

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One run on Blender objects: read, map, write. The operator and the batch script share it.
+
+`Job.compute` touches no Blender data and may run on any thread; everything else belongs to the main one.
+"""
+
+import dataclasses
+from contextlib import AbstractContextManager
+
+import bpy
+
+from ..blender import checker, map_writing, mesh_reading, uv_layers
+from ..blender.errors import TransferError
+from ..blender.mesh_object import MeshObject
+from ..blender.targets import Target, check_mesh, reason, with_own_meshes
+from ..blender.transaction import Transaction, transaction
+from ..maps.mapping import map_surfaces
+from ..maps.options import Options
+from ..maps.outcomes import LATER, Progress, SurfaceOutcome, Task
+from ..maps.wording import few
+from . import native_package
+
+
+class Job:
+    """Maps the surfaces of some mesh objects. Objects that share a mesh count once.
+
+    targets   the objects that were read; tasks and outcomes are in their order
+    refused   name and reason of each object that was left out
+    """
+
+    def __init__(
+        self,
+        objects: list[MeshObject],
+        options: Options,
+        selected_only: bool = False,
+        refused: list[tuple[str, str]] | None = None,
+    ) -> None:
+        """Read the objects. Raises NativeError, or TransferError if none can be mapped.
+
+        One that could not be written later is left out; without a list `refused` for these it ends everything.
+        """
+        self.koebe = native_package.load()
+        self.options = options
+        self.refused = [] if refused is None else refused
+        self.targets: list[Target] = []
+        self.tasks: list[Task] = []
+        for obj in with_own_meshes(objects):
+            try:
+                self._add(obj, selected_only)
+            except Exception as error:
+                if refused is None:
+                    raise
+                refused.append((obj.name, reason(obj.name, error)))
+        if not self.targets:
+            reasons = [text for _, text in self.refused]
+            raise TransferError(
+                few(reasons) if reasons
+                else "no faces are selected" if selected_only else "there is no mesh with faces"
+            )  # fmt: skip
+        if options.outer == "active" and all(task.outer == "auto" for task in self.tasks):
+            raise TransferError(
+                "the outer loop is to be that of the active vertex, but no vertex is active: "
+                "select one on the loop, in Edit Mode"
+            )
+        self.cancel_token = self.koebe.CancelToken()
+        self.outcomes: list[SurfaceOutcome] = LATER
+
+    def _add(self, obj: MeshObject, selected_only: bool) -> None:
+        check_mesh(obj)
+        surface = mesh_reading.read_surface(obj, selected_only)
+        if not surface.selected.any():
+            return
+        uv_layers.check_layer(obj, self.options.layer)
+        outer = self.options.outer
+        if outer == "active":
+            vertex = mesh_reading.active_vertex(obj)
+            outer = "auto" if vertex is None else vertex
+        self.targets.append(Target.of(obj))
+        mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
+        self.tasks.append(Task(obj.name, surface, outer, mirrored, pinned))
+
+    def compute(self, progress: Progress | None = None) -> None:
+        """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
+        self.outcomes = map_surfaces(self.koebe, self.tasks, self.options, progress, self.cancel_token)
+
+    def read_old_uv(self) -> None:
+        """Note where the islands are now, for the placement "keep": call it before anything changes."""
+        self.tasks = [self._with_old_uv(*pair) for pair in zip(self.targets, self.tasks, strict=True)]
+
+    def _with_old_uv(self, target: Target, task: Task) -> Task:
+        obj = target.obj
+        assert obj is not None  # it was read a moment ago
+        return dataclasses.replace(task, old_uv=mesh_reading.read_uv(obj, self.options.layer))
+
+    @property
+    def mapped_any(self) -> bool:
+        """Whether there is anything to write, or was written."""
+        return any(outcome.mapped for outcome in self.outcomes)
+
+    def write(self, run: Transaction | None = None) -> None:
+        """Write the UV layer of every object with a mapped island, and put the checker on if asked.
+
+        One object that cannot be written is left as it was, and its outcome gets the reason. Without a transaction
+        `run` it ends everything, and all are left as they were.
+        """
+        if run is None:
+            with transaction() as run:
+                self.write(run)
+                lost = [outcome.not_written for outcome in self.outcomes if outcome.not_written]
+                if lost:
+                    raise TransferError(". ".join(lost))
+            return
+        plans, start = [], run.mark()
+        for target, outcome in zip(self.targets, self.outcomes, strict=True):
+            if outcome.mapped:
+                with self._attempt(run, outcome):
+                    plans.append((outcome, self._plan(target, outcome)))
+        materials = self._checkers(run, [plan for _, plan in plans])
+        for (outcome, plan), material in zip(plans, materials, strict=True):
+            with self._attempt(run, outcome):
+                self._write_one(run, outcome, plan, material)
+        if not self.mapped_any:
+            run.put_back(start)  # the new material
+
+    @staticmethod
+    def _attempt(run: Transaction, outcome: SurfaceOutcome) -> AbstractContextManager[None]:
+        def failed(error: Exception) -> None:
+            outcome.not_written = reason(outcome.name, error)
+
+        return run.attempt(failed)
+
+    def _plan(self, target: Target, outcome: SurfaceOutcome) -> map_writing.Plan:
+        return map_writing.plan(target, self.options.layer, outcome.task.surface, *outcome.corner_uv())
+
+    def _checkers(self, run: Transaction, plans: list[map_writing.Plan]) -> list[bpy.types.Material | None]:
+        """The checker for each object, or None."""
+        if not self.options.checker:
+            return [None] * len(plans)
+        sizes = [self.options.checker_size] * len(plans)
+        if self.options.checker_even and len(plans) > 1:
+            sizes = checker.even_sizes(sizes[0], [plan.density for plan in plans])
+        return [*checker.materials(run, [plan.obj for plan in plans], self.options.layer, sizes)]
+
+    def _write_one(
+        self, run: Transaction, outcome: SurfaceOutcome, plan: map_writing.Plan, material: bpy.types.Material | None
+    ) -> None:
+        map_writing.write(run, plan)
+        if material is not None:
+            try:
+                checker.check(plan.obj)
+            except TransferError as error:  # the map is there all the same
+                outcome.remarks.append(f"it has no checker. {error}")
+            else:
+                checker.put_on(run, plan.obj, material)

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cuts a surface along its seams into islands."""
+
+import numpy as np
+
+from .connected_components import connected_components
+from .surface import Island, Surface, next_corners
+
+# Up to so many groups a mask for each is faster than a sort.
+FEW = 16
+
+
+def whole_island(surface: Surface) -> Island | None:
+    """The surface as its own island, array for array, or None if a part of it is not selected or it has a seam.
+
+    It is what `cut_into_islands` gives if the surface is connected and no two parts of it touch in a vertex only. The
+    solver finds out, so that nobody need look twice.
+    """
+    used = np.zeros(len(surface.positions), dtype=bool)
+    used[surface.corner_vertex] = True
+    if not (surface.selected.all() and used.all()) or surface.seam.any():
+        return None
+    return Island(
+        vertices=surface.positions,
+        triangles=surface.corner_vertex[surface.triangle_corners].astype(np.int32, copy=False),
+        triangle_face=surface.triangle_face,
+        source_vertex=np.arange(len(surface.positions), dtype=np.int32),
+        corners=np.arange(len(surface.corner_vertex), dtype=np.int32),
+        corner_vertex=surface.corner_vertex,
+        faces=np.arange(len(surface.face_size)),
+    )
+
+
+def cut_into_islands(surface: Surface) -> list[Island]:
+    """Islands of the selected faces, cut along seams, in the order of their first faces.
+
+    Faces are neighbours if they share an edge that is no seam; corners are one vertex if they meet
+    at the end of such an edge. So surfaces that touch in a vertex only come apart there. Edges with
+    three or more faces stay as they are, unless they are seams: the solver names them.
+    """
+    corner_face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
+    at: np.ndarray | slice
+    if surface.selected.all():  # a slice takes no new memory, as indices would
+        corners, at = np.arange(len(corner_face), dtype=np.int32), slice(None)
+    else:
+        corners = at = np.flatnonzero(surface.selected[corner_face]).astype(np.int32)
+    here, there = _neighbours(surface, corners, surface.corner_edge[at])
+    next_corner = next_corners(surface)
+    joined = _same_vertex(surface.corner_vertex, next_corner, here, there)
+    corner_root = connected_components(len(surface.corner_vertex), *joined)
+    face_root = connected_components(len(surface.face_size), corner_face[here], corner_face[there])
+    return _split(surface, corners, at, corner_face, corner_root, face_root)
+
+
+def _neighbours(surface: Surface, corners: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of corners whose edges are the same edge of two faces, and no seam."""
+    # Of several writes to one place the last stays.
+    first, last = np.full((2, len(surface.seam)), -1, dtype=np.int32)
+    last[edges] = corners
+    first[edges[::-1]] = corners[::-1]
+    two = first != last
+    joined = two & ~surface.seam
+    crowded = None
+    if np.count_nonzero(last >= 0) + np.count_nonzero(two) < len(corners):  # some edge has more than two
+        crowded = (np.bincount(edges, minlength=len(surface.seam)) > 2) & ~surface.seam
+        joined &= ~crowded
+    here, there = first[joined], last[joined]
+    if crowded is not None:
+        of_crowded = corners[crowded[edges]]
+        here, there = np.append(here, first[surface.corner_edge[of_crowded]]), np.append(there, of_crowded)
+    return here, there
+
+
+def _same_vertex(
+    corner_vertex: np.ndarray, next_corner: np.ndarray, here: np.ndarray, there: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of corners at the two ends of the edges here—there that are one vertex."""
+    opposed = corner_vertex[here] != corner_vertex[there]
+    start = np.where(opposed, next_corner[there], there)
+    end = np.where(opposed, there, next_corner[there])
+    return np.append(here, next_corner[here]), np.append(start, end)
+
+
+def _split(
+    surface: Surface,
+    corners: np.ndarray,
+    at: np.ndarray | slice,
+    corner_face: np.ndarray,
+    corner_root: np.ndarray,
+    face_root: np.ndarray,
+) -> list[Island]:
+    """The islands. `at` takes the `corners` from an array of all of them."""
+    faces = np.flatnonzero(surface.selected)
+    roots, islands = corners[corner_root[at] == corners], faces[face_root[faces] == faces]
+    rank_of_root = np.zeros(len(face_root), dtype=np.int32)
+    rank_of_root[islands] = np.arange(len(islands), dtype=np.int32)
+    island_of_face = rank_of_root[face_root]
+
+    root_island = island_of_face[corner_face[roots]]
+    root_vertex = surface.corner_vertex[roots]
+    order = np.lexsort((root_vertex, root_island))  # stable: equal ones stay in the order of their roots
+    roots, root_island, root_vertex = roots[order], root_island[order], root_vertex[order]
+    rank = np.zeros(len(corner_root), dtype=np.int32)
+    rank[roots] = np.arange(len(roots), dtype=np.int32)
+    vertex_of_corner = rank[corner_root]
+
+    count = len(islands)
+    triangles = np.flatnonzero(surface.selected[surface.triangle_face])
+    triangle_groups = _groups(island_of_face[surface.triangle_face[triangles]], triangles, count)
+    corner_groups = _groups(island_of_face[corner_face[at]], corners, count)
+    face_groups = _groups(island_of_face[faces], faces, count)
+    first_vertex = np.searchsorted(root_island, np.arange(count + 1)).tolist()
+
+    result = []
+    for i in range(count):
+        begin, end = first_vertex[i], first_vertex[i + 1]
+        island_triangles = vertex_of_corner[surface.triangle_corners[triangle_groups[i]]]
+        island_corners = vertex_of_corner[corner_groups[i]]
+        island_triangles -= begin
+        island_corners -= begin
+        result.append(
+            Island(
+                vertices=surface.positions[root_vertex[begin:end]],
+                triangles=island_triangles,
+                triangle_face=surface.triangle_face[triangle_groups[i]],
+                source_vertex=root_vertex[begin:end],
+                corners=corner_groups[i],
+                corner_vertex=island_corners,
+                faces=face_groups[i],
+            )
+        )
+    return result
+
+
+def _groups(keys: np.ndarray, values: np.ndarray, count: int) -> list[np.ndarray]:
+    """`values` with key 0, those with key 1, …, each in their order."""
+    if count == 1:
+        return [values]
+    if count <= FEW:
+        return [values[keys == key] for key in range(count)]
+    order = np.argsort(keys.astype(np.min_scalar_type(count)), kind="stable")  # of short numbers: in one pass
+    ends = np.cumsum(np.bincount(keys, minlength=count))
+    return np.split(values[order], ends[:-1])

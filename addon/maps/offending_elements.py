@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which elements of a mesh an error is about."""
+
+import numpy as np
+
+from .errors import elements_of, kind_of
+from .outcomes import IslandOutcome
+from .surface import Island, Surface
+
+VERTICES, EDGES, FACES = "vertices", "edges", "faces"
+# Kinds of `koebe.TopologyError` whose elements are vertices worth showing.
+SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus")
+
+
+def offending_elements(surface: Surface, failure: IslandOutcome) -> tuple[str, np.ndarray]:
+    """(VERTICES, EDGES or FACES, indices) of what to show for an island that could not be mapped.
+
+    Where the error names nothing that could be seen, as on a closed surface, that is the whole island.
+    """
+    kind, elements, island = kind_of(failure.error), elements_of(failure.error), failure.island
+    not_finite = np.flatnonzero(~np.isfinite(island.vertices).all(axis=1))
+    if len(not_finite):
+        return VERTICES, np.unique(island.source_vertex[not_finite])
+    if kind == "nonmanifold_edge":
+        return EDGES, _crowded_edges(surface, island)
+    if kind in SHOWN_BY_VERTICES and len(elements):
+        return VERTICES, island.source_vertex[np.asarray(elements)]
+    return FACES, island.faces
+
+
+def _crowded_edges(surface: Surface, island: Island) -> np.ndarray:
+    """Edges with three or more faces of the island, seams aside."""
+    uses = np.bincount(surface.corner_edge[island.corners], minlength=len(surface.seam))
+    return np.flatnonzero((uses > 2) & ~surface.seam)

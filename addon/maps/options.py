@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of one run, shared by the operator and the batch script."""
+
+import dataclasses
+import math
+from typing import Any
+
+METHODS = ("gk", "ck")
+ENGINES = ("condensed", "mesh")
+OUTER_LOOPS = ("auto", "longest", "active")
+BALANCES = ("none", "area")
+TUBES = ("annulus", "unroll")
+PLACEMENTS = ("pack", "together", "keep")
+
+# Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
+MAX_LAYER_NAME_BYTES = 63
+
+
+# Blender keeps values of its own under these names from 4.0 on, of edges, faces or vertices: where a UV layer has the
+# name, it reads the one for the other, and ends when it writes.
+BLENDERS_OWN = {
+    "position", "material_index", "uv_seam", "sharp_edge", "sharp_face", "custom_normal", "crease_edge", "crease_vert",
+    "bevel_weight_edge", "bevel_weight_vert", "freestyle_edge", "freestyle_face",
+}  # fmt: skip
+
+
+class OptionError(ValueError):
+    """An option has a value that cannot be used."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Options:
+    """What to compute and what to write.
+
+    outer         "auto", "longest", "active" (the loop of the active vertex, in Edit Mode) or the index of a
+                  mesh vertex on the loop which becomes the unit circle
+    tolerance     change of the circles between two sweeps, in units of the disk's radius
+    polish        lower the angle error at the end, circles as they are; takes many times as long
+    upright       turn every island so that the world's up is up in the UV Editor, else as computed
+    tube          what an island with two loops becomes: "annulus", or "unroll" (a rectangle with a wrap seam)
+    placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
+                  "keep" (every island goes where it was before)
+    margin        between islands, in units of the UV square
+    checker_size  squares across the UV square of the first object
+    checker_even  the other objects' squares are as large in space; else as many across the UV square
+    """
+
+    method: str = "gk"
+    engine: str = "condensed"
+    outer: str | int = "auto"
+    tolerance: float = 1e-6
+    max_sweeps: int = 50
+    balance: str = "area"
+    polish: bool = False
+    threads: int = 0
+    upright: bool = True
+    tube: str = "annulus"
+    layer: str = "Koebe"
+    placement: str = "pack"
+    margin: float = 0.02
+    checker: bool = True
+    checker_size: float = 32.0
+    checker_even: bool = True
+
+    def __post_init__(self) -> None:
+        _one_of("method", self.method, METHODS)
+        _one_of("engine", self.engine, ENGINES)
+        _one_of("balance", self.balance, BALANCES)
+        _one_of("tube", self.tube, TUBES)
+        _one_of("placement", self.placement, PLACEMENTS)
+        if isinstance(self.outer, str):
+            _one_of("outer", self.outer, OUTER_LOOPS)
+        elif self.outer < 0:
+            raise OptionError(f"outer: {self.outer} is not a vertex index")
+        if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
+            raise OptionError(f"tolerance: {self.tolerance} is not a positive number")
+        if self.max_sweeps < 1:
+            raise OptionError(f"max_sweeps: {self.max_sweeps} is less than 1")
+        if self.threads < 0:
+            raise OptionError(f"threads: {self.threads} is negative")
+        if not 0.0 <= self.margin < 0.5:
+            raise OptionError(f"margin: {self.margin} is not in [0, 0.5)")
+        if not (math.isfinite(self.checker_size) and self.checker_size > 0.0):
+            raise OptionError(f"checker_size: {self.checker_size} is not a positive number")
+        _check_layer_name(self.layer)
+
+    def solver_arguments(self) -> dict[str, Any]:
+        """Keyword arguments of `koebe.uniformize`, all but `outer`, which depends on the island."""
+        return {
+            "method": self.method,
+            "engine": self.engine,
+            "tolerance": self.tolerance,
+            "max_sweeps": self.max_sweeps,
+            "balance": self.balance,
+            "polish": self.polish,
+            "threads": self.threads,
+        }
+
+
+def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:
+    if value not in allowed:
+        raise OptionError(f"{name}: {value!r} is not one of {', '.join(allowed)}")
+
+
+def _check_layer_name(name: str) -> None:
+    if not name.strip():
+        raise OptionError("layer: the name of the UV layer is empty")
+    if name.startswith("."):
+        raise OptionError("layer: Blender keeps names that start with a dot to itself")
+    if name in BLENDERS_OWN:
+        raise OptionError(f"layer: Blender uses the name {name!r} itself")
+    if len(name.encode("utf-8")) > MAX_LAYER_NAME_BYTES:
+        raise OptionError(f"layer: the name is longer than {MAX_LAYER_NAME_BYTES} bytes")

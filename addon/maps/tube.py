@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Unrolls annuli to conformal rectangles, with a wrap seam in the UVs only."""
+
+import dataclasses
+import heapq
+from collections.abc import Sequence
+
+import numpy as np
+
+from .connected_components import connected_components
+from .islands import cut_into_islands
+from .surface import Island, Surface, next_corners
+from .triangles import as_complex, as_points
+
+Tube = tuple[Island, np.ndarray, Sequence[np.ndarray]]  # an island, its UVs, its outer and inner loop
+
+
+def unroll(surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.ndarray] | None]:
+    """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
+
+    A tube is (island, uv, loops): `uv` maps the island to the unit disk with a round hole; `loops` are its outer and
+    inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: around is along u,
+    from loop to loop is along v. Both are conformal, so angles stay. The cut runs along a short path of edges from
+    loop to loop, which ends at the back, where y is largest; a vertex on it comes out once for either side. The
+    rectangle is centred at 0 and lies in the unit disk.
+    """
+    if not tubes:
+        return []
+    following = next_corners(surface)
+    vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
+    seam, selected, opened = surface.seam.copy(), np.zeros_like(surface.selected), []
+    for island, uv, loops in tubes:
+        log = np.log(concentric(as_complex(uv), loops[1]))
+        vertex[island.corners] = island.corner_vertex
+        edges, first, uses = np.unique(surface.corner_edge[island.corners], return_index=True, return_counts=True)
+        inside = (uses == 2) & ~surface.seam[edges]  # to cut along a boundary cuts nothing
+        edges, corners = edges[inside], island.corners[first[inside]]
+        ends = np.stack([vertex[corners], vertex[following[corners]]], axis=1)
+        length = _wrapped_distance(log[ends[:, 0]], log[ends[:, 1]])
+        path = edges[_cut(ends, length, loops, island.vertices[:, 1])]
+        seam[path], selected[island.faces] = True, True
+        opened.append((log, len(path) > 0))
+    sheets = cut_into_islands(dataclasses.replace(surface, seam=seam, selected=selected))
+    with_first_face = {int(sheet.faces[0]): sheet for sheet in sheets}
+    result = []
+    for (island, _, _), (log, cut) in zip(tubes, opened, strict=True):
+        sheet = with_first_face[int(island.faces[0])]
+        whole = cut and len(sheet.faces) == len(island.faces)  # else the path has cut off a piece
+        result.append((sheet, _rectangle(sheet, island, log)) if whole else None)
+    return result
+
+
+def _rectangle(sheet: Island, island: Island, log: np.ndarray) -> np.ndarray:
+    """Points (n, 2) of the sheet in the plane of i log z, in the unit disk."""
+    whole = np.empty(len(sheet.source_vertex), dtype=np.int64)  # vertex of the island for each one of the sheet
+    whole[sheet.corner_vertex] = island.corner_vertex
+    log = log[whole]
+    flat = 1j * (log + 2j * np.pi * _branches(log, sheet.triangles))
+    points = as_points(flat)
+    low, high = points.min(axis=0), points.max(axis=0)
+    return (points - 0.5 * (low + high)) / (0.5 * np.linalg.norm(high - low))
+
+
+def concentric(z: np.ndarray, inner: np.ndarray) -> np.ndarray:
+    """Points of the unit disk after the automorphism that brings the circle through z[inner] around 0."""
+    points = z[inner]
+    system = np.column_stack([points.real, points.imag, np.ones(len(points))])
+    x, y, rest = np.linalg.lstsq(system, np.abs(points) ** 2, rcond=None)[0]  # circle fit, Kåsa 1976
+    center = 0.5 * complex(x, y)
+    radius, distance = np.sqrt(rest + abs(center) ** 2), abs(center)
+    near, far = distance - radius, distance + radius
+    if distance < 1e-15:
+        return z
+    a = (1.0 + near * far - np.sqrt((1.0 - near**2) * (1.0 - far**2))) / (near + far) * center / distance
+    return (z - a) / (1.0 - np.conj(a) * z)
+
+
+def _wrapped_distance(one: np.ndarray, two: np.ndarray) -> np.ndarray:
+    """Distance on the cylinder whose points are logarithms."""
+    step = one - two
+    return np.hypot(step.real, np.remainder(step.imag + np.pi, 2.0 * np.pi) - np.pi)
+
+
+def _cut(ends: np.ndarray, length: np.ndarray, loops: Sequence[np.ndarray], back: np.ndarray) -> list[int]:
+    """Indices of the edges (m, 2) of the shortest path from the inner loop to the rearmost vertex of the outer one.
+
+    It touches the loops with its ends alone: along the rim, or over a chord of it, it would cut off a piece. So it ends
+    at the rearmost vertex that can be reached like that; there is one wherever the surface hangs together.
+    """
+    outer = loops[0][np.argsort(-back[loops[0]], kind="stable")].tolist()
+    came = _shortest_paths(ends, length, loops[1].tolist(), outer, len(back))
+    vertex, path = next((v for v in outer if v in came), None), []
+    while vertex in came:
+        vertex, used = came[vertex]
+        path.append(used)
+    return path
+
+
+def _shortest_paths(
+    ends: np.ndarray, length: np.ndarray, starts: list[int], dead_ends: list[int], count: int
+) -> dict[int, tuple[int, int]]:
+    """Vertex and edge before each vertex on its shortest path from the nearest start [Dijkstra 1959].
+
+    No path goes on from one of the dead ends; with the first of them the search is over.
+    """
+    both = np.concatenate([ends[:, 0], ends[:, 1]])
+    order = np.argsort(both, kind="stable")
+    first = np.searchsorted(both[order], np.arange(count + 1)).tolist()
+    others = np.concatenate([ends[:, 1], ends[:, 0]])[order].tolist()
+    edge = np.tile(np.arange(len(ends)), 2)[order].tolist()
+    length, came, ending = length.tolist(), {}, set(dead_ends)
+    best, queue = dict.fromkeys(starts, 0.0), [(0.0, vertex) for vertex in starts]
+    while queue:
+        distance, vertex = heapq.heappop(queue)
+        if vertex == dead_ends[0]:
+            break
+        if distance > best[vertex] or vertex in ending:
+            continue
+        for i in range(first[vertex], first[vertex + 1]):
+            reached = distance + length[edge[i]]
+            if reached < best.get(others[i], np.inf):
+                best[others[i]], came[others[i]] = reached, (vertex, edge[i])
+                heapq.heappush(queue, (reached, others[i]))
+    return came
+
+
+def _branches(log: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Integers k (n,) that make the imaginary part of log + 2πik continuous over a surface that is cut open."""
+    first, second = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    jump = np.rint((log[first].imag - log[second].imag) / (2.0 * np.pi)).astype(int)
+    smooth = jump == 0
+    part = connected_components(len(log), first[smooth], second[smooth])
+    steps: dict[int, list[tuple[int, int]]] = {}
+    links = np.stack([part[first[~smooth]], part[second[~smooth]], jump[~smooth]], axis=1)
+    for a, b, k in np.unique(links, axis=0).tolist() if len(links) else ():
+        steps.setdefault(a, []).append((b, k))
+        steps.setdefault(b, []).append((a, -k))
+    turns = np.zeros(len(log), dtype=int)
+    reached, queue = {int(part[0]): 0}, [int(part[0])]
+    while queue:
+        a = queue.pop()
+        for b, k in steps.get(a, ()):
+            if b not in reached:
+                reached[b] = reached[a] + k
+                queue.append(b)
+    for a, k in reached.items():
+        turns[part == a] = k
+    return turns

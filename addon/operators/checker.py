@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that puts the checker on objects and takes it off."""
+
+import bpy
+
+from ..blender import checker, edit_mode
+from ..blender.mesh_object import MeshObject
+from ..blender.mesh_reading import read_layer, read_surface
+from ..blender.targets import attempt, target_objects
+from ..blender.transaction import transaction
+from ..maps.distortion import texel_density
+from ..maps.wording import few, lines
+from ..state.option_properties import option
+from .uniformize import can_map
+
+
+class UV_OT_koebe_checker(bpy.types.Operator):
+    """Put the checker on the selected objects, or take it off again and give them their materials back"""
+
+    bl_idname = "uv.koebe_checker"
+    bl_label = "Koebe Checker"
+    bl_options = {"REGISTER", "UNDO"}
+
+    layer: option("layer")
+    checker_size: option("checker_size")
+    checker_even: option("checker_even")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return can_map(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        with transaction() as run:
+            objects = target_objects(context)
+            problems: list[str] = []
+            wearing = [obj for obj in objects if checker.is_on(obj)]
+            sizes = [self.checker_size] * len(objects)
+            if not wearing and self.checker_even and len(objects) > 1:
+                sizes = checker.even_sizes(self.checker_size, [self._density(obj) for obj in objects])
+            materials = [None] * len(objects) if wearing else checker.materials(run, objects, self.layer, sizes)
+            for obj, material in zip(wearing or objects, materials):
+                with attempt(run, obj.name, problems):
+                    checker.check(obj)
+                    if wearing:
+                        checker.take_off(run, obj)
+                    elif material and not checker.is_on(obj):  # it may be by now, as another object has the same mesh
+                        checker.put_on(run, obj, material)
+            if len(problems) == len(wearing or objects):
+                run.put_back()  # the new material
+                self.report({"ERROR"}, lines("Koebe UV:", problems))
+                return {"CANCELLED"}
+            edit_mode.undo_all(context)
+            if problems:
+                self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
+            return {"FINISHED"}
+
+    def _density(self, obj: MeshObject) -> float:
+        """Lengths in the UVs over lengths in space; 0 where there are none, or where they cannot be read."""
+        if self.layer not in obj.data.uv_layers or (obj.data.is_editmode and obj.mode != "EDIT"):
+            return 0.0
+        surface = read_surface(obj, selected_only=False)
+        return texel_density(surface, read_layer(obj, self.layer))
+
+
+register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_checker,))

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that fills holes."""
+
+from types import ModuleType
+
+import bpy
+
+from ..blender import hole_filling
+from ..blender.filled_mesh import FillPlan
+from ..blender.targets import attempt, target_objects, with_own_meshes
+from ..blender.transaction import Transaction, transaction
+from ..jobs import native_package
+from ..maps.wording import counted, few, lines
+from ..solver.errors import NativeError
+
+
+class MESH_OT_koebe_fill_holes(bpy.types.Operator):
+    """Fill holes with real faces that continue the surface around them. They are selected afterwards, and the UVs
+    are continued into them: the inside of a hole's circle is used. This changes the mesh"""
+
+    bl_idname = "mesh.koebe_fill_holes"
+    bl_label = "Koebe Fill Holes"
+    bl_options = {"REGISTER", "UNDO"}
+
+    which: bpy.props.EnumProperty(
+        name="Loops",
+        items=[
+            (hole_filling.HOLES, "Holes", "All boundary loops but the longest of each connected part"),
+            (hole_filling.SELECTED, "Selected", "The boundary loops whose edges are all selected"),
+            (hole_filling.ALL, "All", "All boundary loops: the surface is closed"),
+        ],
+        default=hole_filling.HOLES,
+        description="Boundary loops to fill",
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
+            cls.poll_message_set("Select a mesh object")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            koebe = native_package.load()
+        except NativeError as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return {"CANCELLED"}
+        plans: list[FillPlan] = []
+        with transaction() as run:
+            try:
+                return self._fill(run, context, koebe, plans)
+            finally:
+                for plan in plans:
+                    plan.free()
+
+    def _fill(self, run: Transaction, context: bpy.types.Context, koebe: ModuleType, plans: list[FillPlan]) -> set[str]:
+        problems: list[str] = []
+        holes, faces = 0, 0
+        for obj in with_own_meshes(target_objects(context)):
+            with attempt(run, obj.name, problems):
+                plans.append(FillPlan(koebe, obj, self.which))
+        for plan in plans:
+            with attempt(run, plan.obj.name, problems):
+                plan.write(run, context)
+                holes, faces = holes + len(plan.fillings), faces + plan.faces
+        if not holes:
+            self.report({"ERROR"}, lines("Koebe UV: nothing was filled.", problems))
+            return {"CANCELLED"}
+        text = f"Koebe UV: {counted(holes, 'hole')} filled with {faces} faces"
+        self.report({"WARNING" if problems else "INFO"}, f"{text}. {few(problems)}" if problems else text)
+        return {"FINISHED"}
+
+
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_koebe_fill_holes,))

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that keep the panel's options as a preset, and that set them back to the defaults."""
+
+import contextlib
+import os
+
+import bpy
+from bl_operators.presets import AddPresetBase
+
+from ..blender import edit_mode
+from ..blender.noted_properties import note_group
+from ..blender.transaction import transaction
+from ..state.option_properties import OPTION_NAMES, settings_of
+
+FOLDER = "koebe_uv"  # of the presets, within the user's
+
+
+class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
+    """Keep the options of the panel under a name, or remove a preset"""
+
+    bl_idname = "uv.koebe_preset_add"
+    bl_label = "Add Koebe UV Preset"
+    preset_menu = "KOEBE_MT_presets"
+    preset_subdir = FOLDER
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            return super().execute(context)  # type: ignore[return-value]
+        except OSError as error:
+            self.report({"ERROR"}, f"Koebe UV: the preset cannot be written or removed: {error.strerror or error}")
+            return {"CANCELLED"}
+
+    def add(self, context: bpy.types.Context, path: str) -> None:
+        """Write the file, which may replace another, as a whole or not at all. `AddPresetBase` calls this."""
+        settings = settings_of(context)
+        lines = [f"bpy.context.scene.koebe_uv.{name} = {getattr(settings, name)!r}\n" for name in OPTION_NAMES]
+        temporary = f"{path}.part"
+        try:
+            with open(temporary, "w", encoding="utf-8") as file:
+                file.writelines(["import bpy\n", *lines])
+            os.replace(temporary, path)
+        finally:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+
+
+class UV_OT_koebe_reset(bpy.types.Operator):
+    """Give all options of the panel their default values"""
+
+    bl_idname = "uv.koebe_reset"
+    bl_label = "Reset to Defaults"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        with transaction() as run:
+            note_group(run, settings_of(context))
+            for name in OPTION_NAMES:
+                settings_of(context).property_unset(name)
+            edit_mode.undo_all(context)
+            return {"FINISHED"}
+
+
+CLASSES = (UV_OT_koebe_preset_add, UV_OT_koebe_reset)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

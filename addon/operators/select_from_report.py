@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators that select what the report speaks of: offending elements, flipped faces, a boundary loop."""
+
+import json
+
+import bpy
+
+from ..blender import edit_mode
+from ..blender.errors import TransferError
+from ..blender.mesh_object import MeshObject
+from ..blender.selection import edges_along, select_only
+from ..blender.transaction import Transaction, transaction
+from ..jobs.map_job import Job
+from ..maps.offending_elements import EDGES, FACES, offending_elements
+from ..state.run_report import KoebeIslandReport, active_entry
+from .modal_run import OperatorBase
+
+
+def active_object(context: bpy.types.Context) -> MeshObject | None:
+    """The mesh object of the island whose details are shown, or None if there is none of that name any more."""
+    entry = active_entry(context)
+    obj = context.view_layer.objects.get(entry.object_name) if entry is not None else None
+    return obj if obj is not None and obj.type == "MESH" else None
+
+
+class ReportOperator(OperatorBase):
+    """Mixed into the operators that select in Edit Mode what the report's island tells."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if active_object(context) is None:
+            cls.poll_message_set("There is no report, or its object is gone")
+            return False
+        return context.mode in {"OBJECT", "EDIT_MESH"}
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        """Kind and numbers of the elements to select."""
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        entry, obj = active_entry(context), active_object(context)
+        assert entry is not None and obj is not None  # as `poll` has seen
+        try:
+            edit_mode.check(context, obj)
+            with transaction() as run:
+                edit_mode.enter(run, context, obj)
+                select_only(run, context, [(obj, *self._chosen(obj, entry))])
+                edit_mode.undo_all(context)
+                return {"FINISHED"}
+        except TransferError as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return {"CANCELLED"}
+
+
+class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the elements that keep this island from being mapped"""
+
+    bl_idname = "uv.koebe_select_offenders"
+    bl_label = "Select What Is Wrong"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not super().poll(context):
+            return False
+        if not active_entry(context).offenders:
+            cls.poll_message_set("None of its elements is wrong")
+            return False
+        return True
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        return json.loads(entry.offenders)
+
+
+class UV_OT_koebe_select_flipped(ReportOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the faces of this island that are turned over in the UVs: their area there is zero
+    or negative, so a texture shows mirrored or not at all"""
+
+    bl_idname = "uv.koebe_select_flipped"
+    bl_label = "Select Flipped Faces"
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        return FACES, json.loads(entry.flipped_faces or "[]")
+
+
+class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the edges of a boundary loop of this island: the rim of the disk or a hole"""
+
+    bl_idname = "uv.koebe_select_loop"
+    bl_label = "Select Boundary Loop"
+
+    loop: bpy.props.IntProperty(
+        name="Loop", min=0, description="Number of the loop: 0 is the outer one, the rim of the disk"
+    )
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        if self.loop >= len(entry.loops):
+            raise TransferError(f"{obj.name}: the island has {len(entry.loops)} loops")
+        found = edges_along(obj, json.loads(entry.loops[self.loop].vertices))
+        edges = [edge for edge in found if edge is not None]
+        if len(edges) < len(found):
+            raise TransferError(f"{obj.name}: its mesh has changed since it was mapped: the loop is no longer there")
+        return EDGES, edges
+
+
+def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> bool:
+    """Select what is wrong with the islands that failed, in the objects in Edit Mode; whether there is any."""
+    chosen = []
+    for target, outcome in zip(job.targets, job.outcomes, strict=True):
+        obj = target.obj
+        if obj is not None and obj.mode == "EDIT" and not outcome.not_written:
+            found = (offending_elements(outcome.task.surface, failure) for failure in outcome.failed)
+            chosen += [(obj, kind, elements) for kind, elements in found]
+    if chosen:
+        select_only(run, context, chosen)
+    return bool(chosen)
+
+
+CLASSES = (UV_OT_koebe_select_offenders, UV_OT_koebe_select_flipped, UV_OT_koebe_select_loop)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

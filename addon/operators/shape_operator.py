@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the operators on shapes have in common."""
+
+import bpy
+
+from ..blender.errors import TransferError
+from ..blender.mesh_object import MeshObject
+from ..blender.targets import target_objects
+from ..jobs.shape_jobs import CarryJob, MeasureJob
+from ..maps.shapes import ShapeError
+from ..solver.errors import NativeError
+from .modal_run import ModalRun
+
+
+class ShapeOperator(ModalRun):
+    """What the operators on shapes have in common."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def _new_job(self, objects: list[MeshObject]) -> CarryJob | MeasureJob:
+        raise NotImplementedError
+
+    def _job(self, context: bpy.types.Context) -> CarryJob | MeasureJob | None:
+        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
+        try:
+            return self._new_job(target_objects(context))
+        except (NativeError, TransferError) as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            return super().execute(context)
+        except ShapeError as error:
+            return self._refuse(error)
+
+    def _end(self, context: bpy.types.Context) -> set[str]:
+        try:
+            return super()._end(context)
+        except ShapeError as error:
+            return self._refuse(error)
+
+    def _refuse(self, error: ShapeError) -> set[str]:
+        self.report({"ERROR"}, f"Koebe UV: {error}")
+        return {"CANCELLED"}
+
+
+def in_object_mode(cls: type[bpy.types.Operator], context: bpy.types.Context, least: int) -> bool:
+    """Whether so many objects at least are selected, the active one among them; else it says what to do."""
+    if context.mode != "OBJECT":
+        cls.poll_message_set("Works in Object Mode, on whole objects")
+        return False
+    if len(target_objects(context)) < least or context.active_object not in context.selected_objects:
+        cls.poll_message_set(
+            "Select mesh objects, the active one among them" if least == 1
+            else "Select the other surfaces, then the one whose texture it is: it must be the active one"
+        )  # fmt: skip
+        return False
+    return context.active_object.type == "MESH"

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which wheel serves which interpreter, by the tags in its file name (PEP 425)."""
+
+import platform
+import sys
+
+# Platform tags by sys.platform and platform.machine(); Blender on Linux needs glibc, so no musllinux.
+SYSTEM_PREFIXES = {"linux": ("linux_", "manylinux"), "win32": ("win_",), "darwin": ("macosx_",)}
+MACHINE_SUFFIXES = {
+    "x86_64": ("x86_64", "amd64", "universal2"),
+    "amd64": ("x86_64", "amd64", "universal2"),
+    "aarch64": ("aarch64", "arm64"),
+    "arm64": ("aarch64", "arm64", "universal2"),
+}
+
+
+def interpreter_tag() -> str:
+    """The tag of this interpreter, "cp311" in CPython 3.11."""
+    return f"cp{sys.version_info.major}{sys.version_info.minor}"
+
+
+def wheel_fits(file_name: str) -> bool:
+    """Whether this interpreter on this machine can load the wheel."""
+    parts = file_name.removesuffix(".whl").split("-")
+    if not file_name.endswith(".whl") or len(parts) < 5:
+        return False
+    python, abi, systems = parts[-3:]
+    tag = interpreter_tag()
+    return (
+        tag in python.split(".")
+        and abi in (tag, "abi3")
+        and any(_serves(system) for system in systems.split("."))
+    )
+
+
+def _serves(system: str) -> bool:
+    machine = platform.machine().lower()
+    return system.startswith(SYSTEM_PREFIXES.get(sys.platform, ())) and system.endswith(
+        MACHINE_SUFFIXES.get(machine, (machine,))
+    )

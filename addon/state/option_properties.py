@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options as Blender properties: of the operator (redo panel) and of the scene (panel, before the run)."""
+
+from typing import Any
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+
+from ..maps.options import Options
+
+DEFAULTS = Options()
+
+
+class UniformizeProperties:
+    """What the artist can choose. Mixed into the operator and the scene's settings."""
+
+    method: EnumProperty(
+        name="Method",
+        items=[
+            ("gk", "Generalized Koebe", "Rounds the holes in pairs: fewer steps for the same roundness"),
+            ("ck", "Conventional Koebe", "Rounds one hole at a time: the classical iteration, for comparison"),
+        ],
+        default=DEFAULTS.method,
+        description="Iteration that makes the holes round",
+    )
+    engine: EnumProperty(
+        name="Engine",
+        items=[
+            ("condensed", "Condensed", "Eliminates the surface once and iterates on the holes' boundaries: fast"),
+            ("mesh", "Mesh", "Fills the holes with triangles and solves on all of it in every step: slow"),
+        ],
+        default=DEFAULTS.engine,
+        description="How the steps of the iteration are computed. Both give the same map",
+    )
+    outer: EnumProperty(
+        name="Outer Loop",
+        items=[
+            ("auto", "Automatic", "Choose the boundary loop that leaves the surface the most even scale"),
+            ("longest", "Longest", "The longest boundary loop becomes the outer circle"),
+            ("active", "Active Vertex", "The boundary loop of the active vertex becomes the outer circle (Edit Mode)"),
+        ],
+        default=DEFAULTS.outer,
+        description="Boundary loop that becomes the rim of the disk. All others become round holes inside it",
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        default=DEFAULTS.tolerance,
+        min=1e-12,
+        max=1e-2,
+        precision=8,
+        description="Stop when no circle moves by more than this between two sweeps, in units of the disk's radius",
+    )
+    max_sweeps: IntProperty(
+        name="Max Sweeps",
+        default=DEFAULTS.max_sweeps,
+        min=1,
+        soft_max=200,
+        description="Stop after this many sweeps over all holes, and say so if the tolerance was not reached",
+    )
+    balance: EnumProperty(
+        name="Balance",
+        items=[
+            ("none", "None", "Leave the disk as computed"),
+            ("area", "Area", "Move the disk's centre for even texel density. Angles and circles stay exact"),
+        ],
+        default=DEFAULTS.balance,
+        description="Use of the freedom that a conformal map leaves: which point becomes the centre of the disk",
+    )
+    polish: BoolProperty(
+        name="Polish",
+        default=DEFAULTS.polish,
+        description="At the end, lower the angle error once more: points move between the circles and along them, the "
+        "circles stay. A few percent less on fine meshes, a quarter on coarse ones; takes 1 to 20 times as long",
+    )
+    upright: BoolProperty(
+        name="Upright",
+        default=DEFAULTS.upright,
+        description="Turn every island so that the world's up (+Z, or +Y for what lies flat) is up in the UV Editor. "
+        "A conformal map leaves the turn of the disk open",
+    )
+    tube: EnumProperty(
+        name="Tube",
+        items=[
+            ("annulus", "Annulus", "A ring, nothing cut: texels get smaller towards the hole, very much on long tubes"),
+            ("unroll", "Unrolled", "A rectangle, cut along a short path at the back (in the UVs only): even texels. "
+             "Angles stay"),
+        ],
+        default=DEFAULTS.tube,
+        description="What an island with two boundary loops becomes: a sleeve, a limb, a vase without a bottom",
+    )
+    layer: StringProperty(
+        name="UV Layer",
+        default=DEFAULTS.layer,
+        maxlen=63,
+        description="UV layer to write. Made if missing; other layers stay as they are",
+    )
+    placement: EnumProperty(
+        name="Placement",
+        items=[
+            ("pack", "Per Object", "The islands of each object share the UV square. One island alone fills it"),
+            ("together", "Together", "The islands of all objects share one UV square, as on a common texture"),
+            ("keep", "In Place", "Every island keeps the position, size and rotation that it has in the UV layer. "
+             "If one has none yet, all are packed"),
+        ],
+        default=DEFAULTS.placement,
+        description="Where the islands' disks lie in the UV square",
+    )
+    margin: FloatProperty(
+        name="Margin",
+        default=DEFAULTS.margin,
+        min=0.0,
+        max=0.25,
+        description="Space between islands, in units of the UV square",
+    )
+    checker: BoolProperty(
+        name="Checker",
+        default=DEFAULTS.checker,
+        description="Show a checker on the surface: its squares stay square where the map is conformal. "
+        "The material slots come back when it is taken off",
+    )
+    checker_size: FloatProperty(
+        name="Squares",
+        default=DEFAULTS.checker_size,
+        min=1.0,
+        soft_max=256.0,
+        max=4096.0,
+        description="Checker squares across the UV square, of the active object if there are several",
+    )
+    checker_even: BoolProperty(
+        name="Even Squares",
+        default=DEFAULTS.checker_even,
+        description="The squares are equally large on all objects. Off: equally many across each UV square, "
+        "so that their size shows the texel density",
+    )
+
+
+OPTION_NAMES = tuple(UniformizeProperties.__annotations__)
+
+
+def option(name: str) -> Any:
+    """The property of that option, for an operator that has the same."""
+    return UniformizeProperties.__annotations__[name]
+
+
+class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
+    """The scene's settings, shown in the panel."""
+
+
+def settings_of(context: bpy.types.Context) -> KoebeSettings:
+    """The scene's settings."""
+    return context.scene.koebe_uv
+
+
+def copy_options(source: Any, target: Any) -> None:
+    """Set the options of the operator's properties from the settings, or the other way round."""
+    for name in OPTION_NAMES:
+        setattr(target, name, getattr(source, name))
+
+
+def options_of(properties: UniformizeProperties) -> Options:
+    """The `Options` of a property group. Raises OptionError."""
+    return Options(**{name: getattr(properties, name) for name in OPTION_NAMES})
+
+
+def register() -> None:
+    """Register the settings and hang them on the scene."""
+    bpy.utils.register_class(KoebeSettings)
+    bpy.types.Scene.koebe_uv = PointerProperty(type=KoebeSettings)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    del bpy.types.Scene.koebe_uv
+    bpy.utils.unregister_class(KoebeSettings)

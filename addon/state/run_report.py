@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The last run's report, island by island, kept with the window manager for the panel to show."""
+
+import json
+
+import bpy
+import numpy as np
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from ..blender.noted_properties import note_group
+from ..blender.transaction import Transaction
+from ..maps.carried_uv import Carried
+from ..maps.circle_fit import fitted_circle
+from ..maps.offending_elements import offending_elements
+from ..maps.outcomes import IslandOutcome, SurfaceOutcome
+from ..maps.surface import Island
+from ..maps.wording import explain, warnings
+
+
+class KoebeLoopReport(bpy.types.PropertyGroup):
+    """A boundary loop of an island."""
+
+    vertices: StringProperty(description="Vertices of the mesh along the loop, as JSON")
+    radius: FloatProperty(description="Radius of its circle in the unit disk")
+    roundness: FloatProperty(description="Deviation from a circle before the last step, as in the paper")
+    uv_center: FloatVectorProperty(size=2, description="Centre of its circle in the UVs")
+    uv_radius: FloatProperty(description="Radius of its circle in the UVs, 0 if it is no circle there")
+
+
+class KoebeIslandReport(bpy.types.PropertyGroup):
+    """An island of the last run."""
+
+    object_name: StringProperty(description="Name of the object whose island this is")
+    island: IntProperty(description="Number of the island among those of its object")
+    mapped: BoolProperty(description="Whether the island has UVs now")
+    converged: BoolProperty(description="Whether the tolerance was reached")
+    message: StringProperty(description="Why the island could not be mapped, or what to watch out for")
+    offenders: StringProperty(description="Kind and numbers of the elements at fault, as JSON")
+    layer: StringProperty(description="UV layer that was written")
+    sweeps: IntProperty(description="Sweeps over all holes")
+    angle_error: FloatProperty(description="Mean difference of the angles on the surface and in the UVs, degrees")
+    roundness: FloatProperty(description="Largest deviation from a circle before the last step")
+    flipped: IntProperty(description="Triangles that are turned over in the UVs")
+    flipped_faces: StringProperty(description="Their faces, as JSON")
+    seconds: FloatProperty(description="Time of the computation")
+    loops: CollectionProperty(type=KoebeLoopReport, description="Boundary loops, the outer one first")
+
+
+class KoebeReport(bpy.types.PropertyGroup):
+    """The last run."""
+
+    islands: CollectionProperty(type=KoebeIslandReport, description="Islands of the last run")
+    active: IntProperty(name="Island", description="Island whose details are shown")
+    show_circles: BoolProperty(
+        name="Circles",
+        default=True,
+        description="Draw the circles of the last run over the UVs, with the numbers of the report's loops",
+    )
+
+
+def report_of(context: bpy.types.Context) -> KoebeReport:
+    """The report that is shown."""
+    return context.window_manager.koebe_uv
+
+
+def record(
+    run: Transaction,
+    context: bpy.types.Context,
+    outcomes: list[SurfaceOutcome],
+    layer: str,
+    refused: list[tuple[str, str]],
+) -> None:
+    """Replace the report: by outcomes that were written to a UV layer, and names and reasons of what was left out."""
+    report = report_of(context)
+    note_group(run, report)
+    report.islands.clear()
+    for outcome in outcomes:
+        if outcome.not_written:
+            _record_failure(report, outcome.name, outcome.not_written)
+            continue
+        for index, one in enumerate(outcome.islands):
+            entry = report.islands.add()
+            entry.object_name, entry.island, entry.layer = outcome.name, index, layer
+            if one.error is None:
+                _record_result(entry, outcome, one)
+            else:
+                entry.message = explain(one.error)
+                kind, elements = offending_elements(outcome.task.surface, one)
+                entry.offenders = json.dumps([kind, elements.tolist()])
+    for name, text in refused:
+        _record_failure(report, name, text)
+    # What has to be looked at comes first.
+    report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
+
+
+def _record_failure(report: KoebeReport, name: str, text: str) -> None:
+    """The entry of an object that was left out as a whole."""
+    entry = report.islands.add()
+    entry.object_name, entry.message = name, text.removeprefix(f"{name}: ")
+
+
+def _record_result(entry: KoebeIslandReport, outcome: SurfaceOutcome, one: IslandOutcome) -> None:
+    result = one.result
+    entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
+    entry.angle_error = one.angle_error
+    entry.roundness = float(result.roundness.max())
+    entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
+    entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
+    entry.message = "; ".join([*(warning["text"] for warning in warnings(outcome.task, one)), *outcome.remarks])
+    centers = one.placement.apply(one.turned(result.centers))
+    for vertices, center, radius, roundness in zip(
+        result.loops, centers, result.radii, result.roundness, strict=True
+    ):
+        loop = entry.loops.add()
+        loop.uv_center = center
+        loop.uv_radius = 0.0 if one.unrolled else one.placement.scale * float(radius)
+        loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
+        loop.radius, loop.roundness = float(radius), float(roundness)
+
+
+def record_moved(context: bpy.types.Context, name: str, layer: str, island: Island, placed: Carried) -> None:
+    """Bring the entry of an object of one island up to date with new UVs of the same loops; note the report before.
+
+    placed  has uv (n, 2) of the island's vertices, angle_error in degrees and flipped (k,) triangles
+    """
+    number = {v: i for i, v in enumerate(island.source_vertex.tolist())}
+    for entry in report_of(context).islands:
+        if entry.object_name != name or entry.layer != layer or not entry.mapped:
+            continue
+        entry.angle_error, entry.flipped = placed.angle_error, len(placed.flipped)
+        entry.flipped_faces = json.dumps(np.unique(island.triangle_face[placed.flipped]).tolist())
+        for loop in entry.loops:
+            rim = [number[v] for v in json.loads(loop.vertices) if v in number]
+            center, radius, _ = fitted_circle(placed.uv[rim].astype(np.float64))
+            loop.uv_center, loop.uv_radius = center, radius
+
+
+def active_entry(context: bpy.types.Context) -> KoebeIslandReport | None:
+    """The island of the report whose details are shown, or None."""
+    report = report_of(context)
+    if not 0 <= report.active < len(report.islands):
+        return None
+    return report.islands[report.active]
+
+
+CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)
+
+
+def register() -> None:
+    """Register the report and hang it on the window manager, which no file keeps and no undo changes."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.WindowManager.koebe_uv = PointerProperty(type=KoebeReport)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    del bpy.types.WindowManager.koebe_uv
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The circles of the last run, drawn over the UVs in the UV Editor, with the numbers of the report."""
+
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+
+from ..blender.targets import target_objects
+from ..state.run_report import KoebeIslandReport, report_of
+from . import drawing
+
+RIM, HOLE = (1.0, 1.0, 1.0, 0.55), (1.0, 0.62, 0.12, 0.95)
+SEGMENTS = 96
+WIDTH = 2.0
+ROOM = 9.0  # pixels of radius that hold a number; smaller circles have theirs outside, above to the right
+SMALLEST_NUMBER = 3.0  # pixels of radius below which a circle has no number
+
+
+def visible_islands(context: bpy.types.Context) -> Iterator[KoebeIslandReport]:
+    """Islands of the report whose circles lie where the UV Editor shows UVs now."""
+    report = report_of(context)
+    targets = {obj.name: obj for obj in target_objects(context)}
+    for entry in report.islands:
+        obj = targets.get(entry.object_name)
+        if entry.mapped and obj is not None:
+            active = obj.data.uv_layers.active
+            if active is not None and active.name == entry.layer:
+                yield entry
+
+
+def draw() -> None:
+    """Draw them, if asked."""
+    context = bpy.context
+    space, report = context.space_data, report_of(context)
+    if space.mode != "UV" or not report.show_circles or context.mode not in {"OBJECT", "EDIT_MESH"}:
+        return
+    to_region = context.region.view2d.view_to_region
+    turn = np.exp(2j * np.pi * np.arange(SEGMENTS + 1) / SEGMENTS)
+    unit = np.stack([turn.real, turn.imag], axis=1)
+    rims: list[np.ndarray] = []
+    holes: list[np.ndarray] = []
+    numbers: list[tuple[str, float, float]] = []
+    for entry in visible_islands(context):
+        for index, loop in enumerate(entry.loops):
+            if loop.uv_radius == 0.0:
+                continue
+            x, y = to_region(*loop.uv_center, clip=False)
+            right, _ = to_region(loop.uv_center[0] + loop.uv_radius, loop.uv_center[1], clip=False)
+            strip = np.array([x, y]) + (right - x) * unit
+            (holes if index else rims).append(strip)
+            if index and right - x > SMALLEST_NUMBER:
+                aside = 0.0 if right - x > ROOM else right - x + 5.0
+                numbers.append((str(index), x + aside, y - 4.0 + aside))
+    drawing.lines(rims, RIM, WIDTH)
+    drawing.lines(holes, HOLE, WIDTH)
+    for content, x, y in numbers:
+        drawing.text(content, x, y)
+
+
+def register() -> None:
+    """Draw in every UV Editor."""
+    drawing.add("IMAGE_EDITOR", "circles", draw)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    drawing.remove("IMAGE_EDITOR", "circles")

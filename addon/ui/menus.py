@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The entries in Blender's menus: U, UV, and Clean Up."""
+
+import bpy
+
+from ..operators.fill_holes import MESH_OT_koebe_fill_holes
+from ..operators.uniformize import UV_OT_koebe_uniformize
+from ..state.option_properties import copy_options, settings_of
+
+
+def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    """The entry in the U menu and in the UV Editor's UV menu, with the panel's options."""
+    layout = self.layout
+    layout.separator()
+    layout.operator_context = "INVOKE_DEFAULT"
+    copy_options(settings_of(context), layout.operator(UV_OT_koebe_uniformize.bl_idname))
+
+
+def draw_clean_up_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    """The entry beside Blender's own Fill Holes."""
+    self.layout.operator(MESH_OT_koebe_fill_holes.bl_idname)
+
+
+MENUS = {
+    "VIEW3D_MT_uv_map": draw_menu,
+    "IMAGE_MT_uvs": draw_menu,
+    "VIEW3D_MT_edit_mesh_clean": draw_clean_up_menu,
+}
+
+
+def register() -> None:
+    """Append the entries."""
+    for menu, draw in MENUS.items():
+        getattr(bpy.types, menu).append(draw)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    for menu, draw in MENUS.items():
+        getattr(bpy.types, menu).remove(draw)

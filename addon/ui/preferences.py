@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's preferences: a keyboard shortcut for those who want one."""
+
+from typing import Any
+
+import bpy
+
+from .. import __name__ as addon_name
+
+OPERATOR = "uv.koebe_uniformize"
+# Where the shortcut Shift Alt U is valid: keymap, its space type.
+KEYMAPS: tuple[tuple[str, Any], ...] = (("Mesh", "EMPTY"), ("Object Mode", "EMPTY"), ("UV Editor", "EMPTY"))
+
+
+def update_shortcut(preferences: "KoebePreferences", context: bpy.types.Context) -> None:
+    """Add or remove the shortcut, as the preference says."""
+    remove_shortcut()
+    keyconfig = context.window_manager.keyconfigs.addon
+    if not preferences.shortcut or keyconfig is None:  # there is none in background
+        return
+    for name, space in KEYMAPS:
+        keymap = keyconfig.keymaps.new(name=name, space_type=space)
+        keymap.keymap_items.new(OPERATOR, "U", "PRESS", shift=True, alt=True)
+
+
+def remove_shortcut() -> None:
+    """Remove the shortcut wherever it is."""
+    keyconfig = bpy.context.window_manager.keyconfigs.addon
+    if keyconfig is None:
+        return
+    for name, _ in KEYMAPS:
+        keymap = keyconfig.keymaps.get(name)
+        items = [] if keymap is None else [item for item in keymap.keymap_items if item.idname == OPERATOR]
+        for item in items:
+            keymap.keymap_items.remove(item)
+
+
+class KoebePreferences(bpy.types.AddonPreferences):
+    """Shown under the add-on's entry in Blender's preferences."""
+
+    bl_idname = addon_name
+
+    shortcut: bpy.props.BoolProperty(
+        name="Shortcut Shift Alt U",
+        default=False,
+        update=update_shortcut,
+        description="Koebe Uniformize with Shift Alt U in Object Mode, Edit Mode and the UV Editor",
+    )
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.prop(self, "shortcut")
+
+
+def register() -> None:
+    """Register the preferences and set the shortcut as they say."""
+    bpy.utils.register_class(KoebePreferences)
+    addon = bpy.context.preferences.addons.get(addon_name)
+    if addon is not None and addon.preferences is not None:
+        update_shortcut(addon.preferences, bpy.context)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    remove_shortcut()
+    bpy.utils.unregister_class(KoebePreferences)

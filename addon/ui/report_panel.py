@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The part of the panel that shows the last run, island by island."""
+
+from typing import Any, Literal
+
+import bpy
+
+from ..operators.select_from_report import (
+    UV_OT_koebe_select_flipped,
+    UV_OT_koebe_select_loop,
+    UV_OT_koebe_select_offenders,
+)
+from ..operators.uniformize import UV_OT_koebe_uniformize
+from ..state.option_properties import copy_options, settings_of
+from ..state.run_report import KoebeIslandReport, active_entry, report_of
+from .panel_parts import KoebePanel, draw_message
+
+MAX_LOOP_BUTTONS = 40
+# Radius of an annulus's hole, in units of its rim, below which texels differ by the inverse: better unrolled.
+LONG_TUBE = 0.2
+
+
+class KOEBE_UL_islands(bpy.types.UIList):
+    """The islands of the last run, one a line."""
+
+    def draw_item(
+        self,
+        context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        data: Any,
+        item: KoebeIslandReport,
+        icon: int,
+        active_data: Any,
+        active_property: str,
+    ) -> None:
+        """The name has most of the room, as that tells the islands apart; the icon tells what was not mapped."""
+        split = layout.split(factor=0.66 if item.mapped else 1.0)
+        split.label(text=f"{item.object_name} {item.island + 1}", icon=island_icon(item))
+        if item.mapped:
+            split.label(text=f"{item.flipped} flips" if item.flipped else f"{item.angle_error:.2f}°")
+
+
+def island_icon(entry: KoebeIslandReport) -> Literal["CANCEL", "CHECKMARK", "ERROR"]:
+    """Good, to be looked at, or not mapped."""
+    if not entry.mapped:
+        return "CANCEL"
+    return "CHECKMARK" if entry.converged and not entry.flipped and not entry.message else "ERROR"
+
+
+class ReportPanel(KoebePanel):
+    """The last run, island by island."""
+
+    bl_label = "Report"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        report = report_of(context)
+        if not report.islands:
+            layout.label(text="No run yet")
+        if len(report.islands) > 1:
+            layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
+        entry = active_entry(context)
+        if entry is None:
+            return
+        layout.label(text=f"{entry.object_name}, island {entry.island + 1}", icon=island_icon(entry))
+        draw_message(layout, entry.message)
+        if entry.mapped:
+            draw_unroll(layout, context, entry)
+            draw_result(layout.column(), entry)
+        elif entry.offenders:
+            layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
+
+
+def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
+    """Figures of a mapped island, and buttons that select its loops and its flipped faces."""
+    table = column.column(align=True)
+    for name, value in (
+        ("Angle error", f"{entry.angle_error:.2f}°"),
+        ("Roundness", f"{entry.roundness:.1e}"),
+        ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged"),
+        ("Flipped", f"{entry.flipped}"),
+        ("Time", f"{entry.seconds:.2f} s"),
+    ):
+        split = table.split(factor=0.45)
+        split.label(text=name)
+        split.label(text=value)
+    if entry.flipped:
+        column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
+    column.label(text="Select Loop")
+    grid = column.grid_flow(row_major=True, columns=4, even_columns=True, align=True)
+    for index in range(min(len(entry.loops), MAX_LOOP_BUTTONS)):
+        text = "Rim" if index == 0 else f"{index}"
+        grid.operator(UV_OT_koebe_select_loop.bl_idname, text=text).loop = index
+
+
+def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
+    """The offer to unroll a long tube."""
+    if len(entry.loops) == 2 and entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
+        button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")
+        copy_options(settings_of(context), button)
+        button.tube = "unroll"
