@@ -78,7 +78,7 @@ void require_count_fits(std::size_t count, const std::string& element, std::size
 
 /// Not by CGAL, which makes a stream of each line: that takes a third of the command's whole time. tinyobjloader
 /// changes the last digits of numbers, and Assimp keeps 32 bits.
-PolygonMesh read_obj(std::string bytes)
+PolygonMesh read_obj(std::string_view bytes)
 {
     std::vector<double> coordinates;
     PolygonMesh mesh;
@@ -110,17 +110,17 @@ PolygonMesh read_obj(std::string bytes)
 
 /// The header by CGAL. Not by read_OFF, which makes room for as many corners as a face says, and reads outside its
 /// arrays if a colour has two numbers; nor can it say which element is wrong.
-PolygonMesh read_off(std::string bytes)
+PolygonMesh read_off(std::string_view bytes)
 {
     require_off_header(bytes);
-    std::istringstream file(bytes);
+    std::istringstream file{std::string(bytes)};
     const CGAL::File_scanner_OFF header(file);
     if (file.fail()) throw InputError("the file does not start with OFF and three counts");
     if (file.peek() == '.') throw InputError("the header has no number of edges");  // it was taken from a coordinate
     require_count_fits(header.size_of_vertices(), "vertex", bytes.size());
     require_count_fits(header.size_of_facets(), "face", bytes.size());
     const std::size_t end = file.eof() ? bytes.size() : static_cast<std::size_t>(file.tellg());
-    TextLines lines(std::string_view(bytes).substr(end));
+    TextLines lines(bytes.substr(end));
     PolygonMesh mesh;
     mesh.vertices.resize(static_cast<Eigen::Index>(header.size_of_vertices()), 3);
     for (std::size_t v = 0; v < header.size_of_vertices(); ++v)
@@ -209,12 +209,12 @@ void require_ply_properties(PlyElement& element, bool is_vertex, bool is_face)
 
 /// Not by read_PLY, which follows a null pointer if x, red or source has another type than it expects; nor can it say
 /// which element is wrong.
-PolygonMesh read_ply(std::string bytes)
+PolygonMesh read_ply(std::string_view bytes)
 {
     if (!bytes.starts_with("ply")) throw InputError("the file does not start with 'ply'");
     const std::size_t size = bytes.size(), end = bytes.find("\nend_header"), data = bytes.find('\n', end + 1);
-    if (end == std::string::npos || data == std::string::npos) throw InputError("the header has no 'end_header'");
-    std::istringstream file(ply_header(std::string_view(bytes).substr(0, end)) + bytes.substr(data + 1));
+    if (end == bytes.npos || data == bytes.npos) throw InputError("the header has no 'end_header'");
+    std::istringstream file(ply_header(bytes.substr(0, end)) + std::string(bytes.substr(data + 1)));
     CGAL::IO::internal::PLY_reader header(false);
     if (!header.init(file)) throw InputError("the header's format or a count is not one of PLY");
     Soup soup;
@@ -240,7 +240,7 @@ PolygonMesh read_ply(std::string bytes)
 
 // ---------------------------------------------------------------- STL
 
-PolygonMesh read_stl(std::string bytes)
+PolygonMesh read_stl(std::string_view bytes)
 {
     constexpr std::size_t header_bytes = 84, facet_bytes = 50;  // the header ends with the number of facets
     std::uint32_t count = 0;
@@ -249,10 +249,10 @@ PolygonMesh read_stl(std::string bytes)
     // Binary files, too, may start with "solid": the length is the better witness.
     const bool is_binary = bytes.size() == header_bytes + facet_bytes * count;
     const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-    const bool is_text = !is_binary && std::string_view(bytes).substr(first).starts_with("solid");
+    const bool is_text = !is_binary && bytes.substr(first).starts_with("solid");
     if (!is_text && !has_that_many)
         throw InputError("neither a text STL, which starts with 'solid', nor a binary one of the length it says");
-    std::istringstream file(std::move(bytes));
+    std::istringstream file{std::string(bytes)};
     Soup soup;
     // Not read_STL, which tries the one after the other and keeps what the first one left.
     const bool was_read = is_text ? CGAL::IO::internal::parse_ASCII_STL(file, soup.points, soup.polygons)

@@ -4,13 +4,13 @@
 
 #include "io/polygon_mesh.h"
 
-#include <string>
+#include <string_view>
 
 namespace koebe::io {
 
-PolygonMesh read_obj(std::string bytes);
-PolygonMesh read_off(std::string bytes);
-PolygonMesh read_ply(std::string bytes);
-PolygonMesh read_stl(std::string bytes);
+PolygonMesh read_obj(std::string_view bytes);
+PolygonMesh read_off(std::string_view bytes);
+PolygonMesh read_ply(std::string_view bytes);
+PolygonMesh read_stl(std::string_view bytes);
 
 }  // namespace koebe::io

@@ -89,7 +89,7 @@ PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension)
 {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
-    PolygonMesh mesh = reader_for(extension)(std::string(bytes));
+    PolygonMesh mesh = reader_for(extension)(bytes);
     require_a_mesh(mesh);
     return mesh;
 }

@@ -125,8 +125,8 @@ void require_circle_domain(const std::vector<Circle>& circles)
     for (std::size_t i = 1; i < circles.size(); ++i) {
         const bool inside = circles[i].radius >= least_radius && std::abs(circles[i].center) + circles[i].radius < 1.0;
         if (!inside)
-            throw InputError("a circle does not lie in the unit disk, or its radius is below 1e-100 (number listed)", ElementKind::loops,
-                             {static_cast<Index>(i)});
+            throw InputError("a circle does not lie in the unit disk, or its radius is below 1e-100 (number listed)",
+                             ElementKind::loops, {static_cast<Index>(i)});
         for (std::size_t j = 1; j < i; ++j)
             if (!(std::abs(circles[i].center - circles[j].center) > circles[i].radius + circles[j].radius))
                 throw InputError("the circles of two loops meet: the mesh is too coarse there (their numbers listed)",
