@@ -16,7 +16,7 @@ namespace koebe {
 namespace {
 
 namespace fs = std::filesystem;
-using Reader = PolygonMesh (*)(std::string);
+using Reader = PolygonMesh (*)(std::string_view);
 
 Reader reader_for(const std::string& filed)
 {
