@@ -13,7 +13,10 @@ export CXX="${CXX:-c++}"                                    # as in the main bui
 
 rm -rf "$work"
 mkdir -p "$out"
-pip wheel --quiet --no-deps --no-build-isolation --wheel-dir "$work/plain" .
+# The library itself is compiled already where the command is.
+library=$PWD/build/native/libkoebe.a
+pip wheel --quiet --no-deps --no-build-isolation --wheel-dir "$work/plain" \
+    --config-settings=cmake.define.KOEBE_CORE_LIBRARY="$([ ! -f "$library" ] || echo "$library")" .
 tag=$(basename "$work"/plain/koebe-*.whl | cut -d- -f2-4)   # VERSION-PYTHON-ABI
 
 # The linker's libraries go inside; the platform tag is the oldest that fits. Then they get private names.

@@ -4,7 +4,7 @@
 #include "core/connectivity.h"
 #include "flow/curvature.h"
 #include "flow/flat_layout.h"
-#include "iteration/circle_change.h"
+#include "iteration/convergence.h"
 
 #include <algorithm>
 #include <cmath>

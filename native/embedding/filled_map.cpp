@@ -1,7 +1,7 @@
 #include "embedding/filled_map.h"
 
 #include "circles/circle_fit.h"
-#include "core/resolution.h"
+#include "core/tolerances.h"
 #include "embedding/roomy_rim.h"
 #include "foldover/patch_shapes.h"
 #include "planar/planar_predicates.h"

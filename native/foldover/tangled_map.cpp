@@ -1,6 +1,6 @@
 #include "foldover/tangled_map.h"
 
-#include "core/resolution.h"
+#include "core/tolerances.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 

@@ -1,6 +1,6 @@
 #include "foldover/untangle_patch.h"
 
-#include "core/resolution.h"
+#include "core/tolerances.h"
 #include "foldover/patch_problem.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "iteration/disk_patch.h"
 
-#include "holes/hole_filling.h"
+#include "holes/fan_filling.h"
 #include "surface/harmonic_map.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include "circles/boundary_angles.h"
 #include "circles/circle_fit.h"
 #include "core/memory_limit.h"
-#include "iteration/circle_change.h"
 #include "iteration/condensed_state.h"
+#include "iteration/convergence.h"
 #include "iteration/grounded_state.h"
 #include "iteration/sparse_state.h"
 #include "iteration/sweep_order.h"
@@ -93,8 +93,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
             context.advance(1.0 - std::pow(0.5, outcome.sweeps + static_cast<double>(s + 1) / order.size()));
         }
         ++outcome.sweeps;
-        // With two loops the step reads nothing of the state it replaces: it is exact.
-        outcome.converged = circle_change(at_sweep_start, now) < options.tolerance || loop_count == 2;
+        outcome.converged = has_converged(at_sweep_start, now, options.tolerance);
     }
     return outcome;
 }

@@ -4,7 +4,7 @@
 #include "circles/circle_fit.h"
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
-#include "iteration/circle_change.h"
+#include "iteration/convergence.h"
 #include "iteration/sweep_order.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
@@ -188,7 +188,7 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
         }
         ++outcome.sweeps;
         outcome.raised_angles = state.take_raised();
-        outcome.converged = circle_change(at_sweep_start, now) < options.tolerance || loops.size() == 2;
+        outcome.converged = has_converged(at_sweep_start, now, options.tolerance);
     }
     return result;
 }

@@ -1,7 +1,7 @@
 #include "pipeline/map_report.h"
 
 #include "circles/circle_fit.h"
-#include "core/resolution.h"
+#include "core/tolerances.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>

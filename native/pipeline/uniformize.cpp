@@ -11,13 +11,13 @@
 #include "foldover/angle_polish.h"
 #include "linear/dense_spd.h"
 #include "pipeline/domain.h"
+#include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
 #include "pipeline/loop_images.h"
 #include "pipeline/map_from_loops.h"
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
 #include "pipeline/outer_loop.h"
-#include "pipeline/promise.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // UVs as Blender stores them: u = (1 + x) / 2, v = (1 + y) / 2, rounded to 32-bit floats.
 #pragma once
 
-#include "core/resolution.h"
+#include "core/tolerances.h"
 #include "core/types.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "conformal/disk_map.h"
 #include "core/errors.h"
 #include "core/topology.h"
-#include "holes/hole_filling.h"
+#include "holes/fan_filling.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_mesh.h"
 #include "quality/distortion.h"

@@ -1,4 +1,4 @@
-// What a map promises, looked at without the library's own check (pipeline/promise.h).
+// What a map promises, looked at without the library's own check (pipeline/final_check.h).
 #pragma once
 
 #include "surface_facts.h"

@@ -7,8 +7,8 @@
 #include "core/halfedge_mesh.h"
 #include "core/topology.h"
 #include "flaps/flaps.h"
-#include "holes/hole_fairing.h"
-#include "holes/hole_filling.h"
+#include "holes/fair_filling.h"
+#include "holes/fan_filling.h"
 #include "pipeline/canonical_form.h"
 #include "surface/intrinsic_metric.h"
 

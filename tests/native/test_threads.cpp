@@ -4,7 +4,7 @@
 
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
-#include "holes/hole_fairing.h"
+#include "holes/fair_filling.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "shape/loop_matching.h"

@@ -14,7 +14,9 @@ from .errors import InputError, SolverError, TopologyError
 Progress = Callable[[float, str], Any]
 
 
-def _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish) -> "_koebe.UniformizeOptions":
+def _options(
+    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any
+) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = choice(method, "method", _koebe.Method)
     options.engine = choice(engine, "engine", _koebe.Engine)

@@ -37,9 +37,11 @@ def as_triangles(triangles: Any, vertex_count: int | None = None) -> np.ndarray:
     if len(faces) > _MOST_FACES:
         raise InputError(f"the mesh has {len(faces)} faces; there may be {_MOST_FACES}")
     limit = _MOST_VERTICES if vertex_count is None else vertex_count
-    _refuse(((faces < 0) | (faces >= limit)).any(axis=1), "faces name a vertex that does not exist (faces listed)", "faces")
+    missing: np.ndarray = np.any((faces < 0) | (faces >= limit), axis=1)
+    _refuse(missing, "faces name a vertex that does not exist (faces listed)", "faces")
     a, b, c = faces.T
-    _refuse((a == b) | (b == c) | (c == a), "faces name the same vertex twice (faces listed)", "faces")
+    twice: np.ndarray = (a == b) | (b == c) | (c == a)
+    _refuse(twice, "faces name the same vertex twice (faces listed)", "faces")
     return faces.astype(np.int32, copy=False)
 
 

@@ -6,13 +6,14 @@ OpenBLAS chooses its kernels while it is loaded, and a release older than the pr
 
 import contextlib
 import os
+from collections.abc import Iterator
 
 import numpy  # noqa: F401  (may bring an OpenBLAS of its own, which shall choose for itself)
 
 _CHOICE = "OPENBLAS_CORETYPE"
 
 
-def _core_type():
+def _core_type() -> str | None:
     """The kernels for this processor, None where only OpenBLAS itself can tell."""
     try:
         with open("/proc/cpuinfo", encoding="ascii", errors="replace") as lines:
@@ -25,7 +26,7 @@ def _core_type():
 
 
 @contextlib.contextmanager
-def _fast_kernels():
+def _fast_kernels() -> Iterator[None]:
     """Within it a newly loaded OpenBLAS takes the kernels for this processor; a value the user has set stays."""
     core_type = None if _CHOICE in os.environ else _core_type()
     if core_type:

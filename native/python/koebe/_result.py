@@ -8,12 +8,11 @@ import numpy as np
 from ._arrays import as_loops
 from ._native import _koebe
 
-
 # What the elements of a warning are, by its kind: "vertices", "faces", "loops" or "none".
 WARNING_ELEMENTS: dict[str, str] = dict(_koebe.warning_elements)
 
 
-class Warning(dict):
+class Warning(dict[str, Any]):
     """What to watch out for: a dict of kind, elements and text, which are attributes too.
 
     kind       what it is about, one of the keys of koebe.WARNING_ELEMENTS
@@ -81,7 +80,7 @@ class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
 
 
 class Step(TypedDict):
-    """A step of the Koebe iteration: the two loops it opened, the change of all circles, the mean e(gamma_k) after it."""
+    """A step of the Koebe iteration: the loops it opened, the change of all circles, the mean e(gamma_k) after it."""
 
     step: int
     pair: list[int]

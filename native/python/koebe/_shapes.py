@@ -38,16 +38,19 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
              'canonical': by canonical_order
     The second loop is moved to the middle of the unit disk and the third's centre onto the positive y axis. Returns
     3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, none without: lengths in the unit disk. Equal if and only
-    if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError, also where
-    circles are not those of the iteration, as the mesh is too coarse for them.
+    if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError, also
+    where circles are not those of the iteration, as the mesh is too coarse for them.
     """
     _require_own_circles(result)
     centers, radii = as_circles(result)
     if isinstance(order, str):
         if order != "canonical":
             raise OptionError(f"order must be None, 'canonical' or a list of loops, not {order!r}")
-        order = canonical_order(result)
-    chosen = np.arange(len(radii), dtype=np.int32) if order is None else as_indices(order, "order", len(radii), "loops")
+        chosen = canonical_order(result)
+    elif order is None:
+        chosen = np.arange(len(radii), dtype=np.int32)
+    else:
+        chosen = as_indices(order, "order", len(radii), "loops")
     if len(chosen) != len(radii):
         raise InputError(f"the order must name each of the {len(radii)} loops once")
     return _koebe.conformal_module(centers, radii, chosen)
@@ -112,7 +115,7 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
     With one hole the circles leave the rotation free, and without a hole everything: the free part is the identity's.
     """
     a, b = as_circles(source), as_circles(target)
-    chosen = [] if match is None else as_indices(match, "match", len(b[1]), "loops")
+    chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(b[1]), "loops")
     if match is not None and not len(chosen):
         raise InputError("the match must name each of the target's loops once, the outer one first")
     return DomainAlignment(_koebe.align_domains(*a, *b, chosen))

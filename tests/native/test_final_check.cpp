@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 #include "core/errors.h"
 #include "core/memory_limit.h"
-#include "pipeline/promise.h"
+#include "pipeline/final_check.h"
 #include "pipeline/refinement.h"
 #include "pipeline/uniformize.h"
 #include "planar/boundary_crossings.h"

@@ -1,4 +1,4 @@
-#include "holes/hole_filling.h"
+#include "holes/fan_filling.h"
 
 #include "core/errors.h"
 #include "core/halfedge_mesh.h"

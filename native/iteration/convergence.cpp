@@ -1,4 +1,4 @@
-#include "iteration/circle_change.h"
+#include "iteration/convergence.h"
 
 #include "circles/circle_fit.h"
 
@@ -25,6 +25,11 @@ double circle_change(const CircleState& before, const CircleState& after)
         squares += std::norm(after.circles[k].center - old.center) + radius_change * radius_change;
     }
     return std::sqrt(squares);
+}
+
+bool has_converged(const CircleState& before_sweep, const CircleState& after, double tolerance)
+{
+    return after.circles.size() == 2 || circle_change(before_sweep, after) < tolerance;
 }
 
 }  // namespace koebe

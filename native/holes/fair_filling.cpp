@@ -1,4 +1,4 @@
-#include "holes/hole_fairing.h"
+#include "holes/fair_filling.h"
 
 #include "core/errors.h"
 #include "core/silent_cgal.h"

@@ -20,4 +20,8 @@ CircleState circle_state(const std::vector<VectorXcd>& images, Circle (*fit)(con
 /// circles of radius 0 at the origin.
 double circle_change(const CircleState& before, const CircleState& after);
 
+/// Whether the circles have moved by less than the tolerance in a sweep. With two loops one step is exact: it reads
+/// nothing of the state it replaces.
+bool has_converged(const CircleState& before_sweep, const CircleState& after, double tolerance);
+
 }  // namespace koebe

@@ -1,4 +1,4 @@
-#include "pipeline/promise.h"
+#include "pipeline/final_check.h"
 
 #include "circles/crowded_circles.h"
 #include "planar/boundary_crossings.h"

@@ -1,11 +1,16 @@
-#include "io/off_text.h"
-
 #include "core/errors.h"
+#include "io/format_readers.h"
+#include "io/polygon_soup.h"
+#include "io/text_numbers.h"
+
+#include <CGAL/IO/OFF.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace koebe::io {
 namespace {
@@ -32,8 +37,8 @@ std::string_view first_word(TextLines& lines)
     return word;
 }
 
-}  // namespace
-
+/// CGAL computes with the counts in 32 bits before anybody can look at them.
+/// @throws InputError the file is not a text in three dimensions, or a count is more than the file can hold
 void require_off_header(std::string_view bytes)
 {
     std::string_view text = bytes;
@@ -55,6 +60,9 @@ void require_off_header(std::string_view bytes)
     }
 }
 
+/// The next line that says something: three coordinates, which a fourth number divides if they are homogeneous, and
+/// perhaps a normal, a colour or texture coordinates.
+/// @return false: the line is missing, or is not these numbers
 bool read_off_vertex(TextLines& lines, bool is_homogeneous, double* point)
 {
     std::string_view word = first_word(lines);
@@ -66,6 +74,8 @@ bool read_off_vertex(TextLines& lines, bool is_homogeneous, double* point)
     return true;
 }
 
+/// The next line that says something: a number of corners, as many vertices from `first` on, and perhaps a colour.
+/// @return false: the line is missing, is cut short or names a vertex that is not there
 bool read_off_face(TextLines& lines, std::vector<Index>& corners, Index first, std::size_t vertex_count)
 {
     Index count = 0, vertex = 0;
@@ -76,6 +86,35 @@ bool read_off_face(TextLines& lines, std::vector<Index>& corners, Index first, s
         corners.push_back(vertex - first);
     }
     return count >= 0;
+}
+
+}  // namespace
+
+/// The header by CGAL. Not by read_OFF, which makes room for as many corners as a face says, and reads outside its
+/// arrays if a colour has two numbers; nor can it say which element is wrong.
+PolygonMesh read_off(std::string_view bytes)
+{
+    require_off_header(bytes);
+    std::istringstream file{std::string(bytes)};
+    const CGAL::File_scanner_OFF header(file);
+    if (file.fail()) throw InputError("the file does not start with OFF and three counts");
+    if (file.peek() == '.') throw InputError("the header has no number of edges");  // it was taken from a coordinate
+    require_count_fits(header.size_of_vertices(), "vertex", bytes.size());
+    require_count_fits(header.size_of_facets(), "face", bytes.size());
+    const std::size_t end = file.eof() ? bytes.size() : static_cast<std::size_t>(file.tellg());
+    TextLines lines(bytes.substr(end));
+    PolygonMesh mesh;
+    mesh.vertices.resize(static_cast<Eigen::Index>(header.size_of_vertices()), 3);
+    for (std::size_t v = 0; v < header.size_of_vertices(); ++v)
+        if (!read_off_vertex(lines, header.is_homogeneous(), mesh.vertices.row(static_cast<Eigen::Index>(v)).data()))
+            refuse("vertex", v, "is missing or is not three finite numbers");
+    for (std::size_t f = 0; f < header.size_of_facets(); ++f) {
+        if (!read_off_face(lines, mesh.corners, static_cast<Index>(header.index_offset()), header.size_of_vertices()))
+            refuse("face", f, "is missing, is cut short or names a vertex that is not there");
+        if (mesh.corners.size() >= most_elements) refuse_size();
+        mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
+    }
+    return mesh;
 }
 
 }  // namespace koebe::io

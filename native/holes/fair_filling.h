@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "holes/hole_filling.h"
+#include "holes/fan_filling.h"
 
 #include <optional>
 #include <vector>

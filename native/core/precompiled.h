@@ -1,0 +1,15 @@
+// Precompiled for every source of the library: Eigen takes half of the time of most of them.
+#pragma once
+
+#include "core/types.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>

@@ -1,0 +1,40 @@
+#include "io/format_readers.h"
+#include "io/polygon_soup.h"
+#include "io/text_numbers.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace koebe::io {
+
+/// Not by CGAL, which makes a stream of each line: that takes a third of the command's whole time. tinyobjloader
+/// changes the last digits of numbers, and Assimp keeps 32 bits.
+PolygonMesh read_obj(std::string_view bytes)
+{
+    std::vector<double> coordinates;
+    PolygonMesh mesh;
+    TextLines lines(bytes);
+    while (lines.next_line()) {
+        const std::string_view keyword = lines.next_word();
+        const std::size_t vertex_count = coordinates.size() / 3;
+        if (keyword == "v") {
+            for (int axis = 0; axis < 3; ++axis)
+                if (!to_number(lines.next_word_of_joined_lines(), coordinates.emplace_back()))
+                    refuse("vertex", vertex_count, "is not three finite numbers");
+        } else if (keyword == "f") {
+            for (std::string_view word; !(word = lines.next_word_of_joined_lines()).empty();) {
+                Index corner = 0;  // from 1 on; from the last vertex backwards if it is negative
+                if (!to_number(word.substr(0, word.find('/')), corner))
+                    refuse("face", mesh.face_begin.size() - 1, "has a corner that is no integer");
+                mesh.corners.push_back(corner > 0 ? corner - 1 : static_cast<Index>(vertex_count) + corner);
+            }
+            mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
+        }
+        if (std::max({vertex_count, mesh.face_begin.size(), mesh.corners.size()}) >= most_elements) refuse_size();
+    }
+    mesh.vertices =
+        Eigen::Map<const Vertices>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+    return mesh;
+}
+
+}  // namespace koebe::io
