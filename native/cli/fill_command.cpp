@@ -9,6 +9,7 @@
 #include "cli/subcommand.h"
 #include "cli/validators.h"
 
+#include "core/counted.h"
 #include "core/detachable_run.h"
 #include "holes/fan_filling.h"
 #include "io/atomic_file.h"

@@ -1,5 +1,7 @@
 #include "cli/result_line.h"
 
+#include "core/counted.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -19,11 +21,6 @@ std::string shortened(const std::string& text)
 }
 
 }  // namespace
-
-std::string counted(std::size_t number, const std::string& noun)
-{
-    return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
 
 std::string one_line(std::string text)
 {

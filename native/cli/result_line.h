@@ -8,9 +8,6 @@
 
 namespace koebe::cli {
 
-/// "1 loop", "2 loops".
-std::string counted(std::size_t number, const std::string& noun);
-
 /// A text without line ends and other control characters, and in UTF-8: file names may have any bytes.
 std::string one_line(std::string text);
 

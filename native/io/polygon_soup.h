@@ -17,7 +17,8 @@ namespace koebe::io {
 struct Point : std::array<double, 3> {
     friend bool operator<(const Point& a, const Point& b)
     {
-        return std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end(), std::weak_order) < 0;
+        return std::is_lt(
+            std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end(), std::weak_order));
     }
     friend std::istream& operator>>(std::istream& stream, Point& p) { return stream >> p[0] >> p[1] >> p[2]; }
 };

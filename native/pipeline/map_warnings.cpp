@@ -1,6 +1,7 @@
 #include "pipeline/map_warnings.h"
 
 #include "core/connectivity.h"
+#include "core/counted.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
@@ -13,12 +14,6 @@ namespace {
 constexpr std::size_t limb = 12;  // faces: fewer are a corner where hardly any flux runs, not a limb
 constexpr double delicate = 1e4;  // least height of a face in steps of the grid, for the grid not to show
 constexpr double coarse = 0.25;   // inner vertices over loop vertices: with fewer, faces reach from loop to loop
-
-std::string plural(std::size_t n, const std::string& noun)
-{
-    if (n == 1) return "1 " + noun;
-    return std::to_string(n) + " " + (noun == "vertex" ? "vertices" : noun + "s");
-}
 
 std::string figure(double value)
 {
@@ -48,11 +43,11 @@ Warning flap_warning(const Domain& whole, const std::vector<Flap>& flaps)
         ++inner;
         if (!first) first = &flap;
     }
-    std::string text = plural(flaps.size(), "part") + " of " + plural(faces.size(), "face") +
+    std::string text = counted(flaps.size(), "part") + " of " + counted(faces.size(), "face") +
                        " in all, the first behind the edge " + std::to_string(whole.original[flaps[0].first]) + "-" +
                        std::to_string(whole.original[flaps[0].last]) + ", hang on their loop by that edge alone: ";
     text += inner == 0 ? "drawn along the unit circle"
-                       : plural(inner, "part") + " drawn inside their hole, with " + plural(rim, "vertex") +
+                       : counted(inner, "part") + " drawn inside their hole, with " + counted(rim, "vertex") +
                              " off the circle, the first " + std::to_string(whole.original[first->rim[0]]);
     return {WarningKind::flaps, text, input_faces(whole, faces)};
 }
@@ -145,7 +140,7 @@ std::vector<Warning> input_warnings(const Domain& whole)
                             "vertices of no face, put at the centre: " + std::to_string(unused.size()), unused});
     if (const auto& turned = whole.surface.reoriented; !turned.empty())
         warnings.push_back(
-            {WarningKind::reoriented_faces, plural(turned.size(), "face") + " turned to the orientation of the others",
+            {WarningKind::reoriented_faces, counted(turned.size(), "face") + " turned to the orientation of the others",
              turned,
              2 * turned.size() == static_cast<std::size_t>(whole.surface.triangles.rows())
                  ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
@@ -163,14 +158,14 @@ std::vector<Warning> iteration_warnings(const KoebeOutcome& outcome, bool no_cir
     std::vector<Warning> warnings;
     if (outcome.raised_angles > 0)
         warnings.push_back(
-            {WarningKind::no_flux, plural(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
+            {WarningKind::no_flux, counted(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
                                        " without flux, kept apart by a least distance"});
     if (no_circles)
         warnings.push_back({WarningKind::no_circles,
                             "the iteration led to no circles: these are such as fit a map of low angle error"});
     if (!outcome.converged)
         warnings.push_back({WarningKind::not_converged,
-                            "not converged in " + plural(static_cast<std::size_t>(outcome.sweeps), "sweep")});
+                            "not converged in " + counted(static_cast<std::size_t>(outcome.sweeps), "sweep")});
     return warnings;
 }
 
@@ -183,13 +178,13 @@ std::vector<Warning> flip_warnings(const Domain& whole, const PlanarPoints& uv, 
     const std::size_t inside = whole.original.size() - rim;
     if (whole.loops.size() > 1 && static_cast<double>(inside) < coarse * static_cast<double>(rim))
         warnings.push_back({WarningKind::coarse_mesh,
-                            "too coarse: " + plural(inside, "vertex") + " between the loops' " + std::to_string(rim) +
+                            "too coarse: " + counted(inside, "vertex") + " between the loops' " + std::to_string(rim) +
                                 ", so that faces reach from loop to loop and the map is far from conformal (mean angle "
                                 "error " +
                                 figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh"});
     if (!flaps.empty()) warnings.push_back(flap_warning(whole, flaps));
     if (!untangled.freed.empty()) {
-        Warning freed{WarningKind::off_circle, plural(untangled.freed.size(), "vertex") +
+        Warning freed{WarningKind::off_circle, counted(untangled.freed.size(), "vertex") +
                                                    " taken off the circle, where straight triangles cannot follow it"};
         for (const Index v : untangled.freed) freed.elements.push_back(whole.original[v]);
         std::sort(freed.elements.begin(), freed.elements.end());
@@ -198,14 +193,14 @@ std::vector<Warning> flip_warnings(const Domain& whole, const PlanarPoints& uv, 
     for (const LostRegion& region : lost_regions(whole, uv))
         warnings.push_back(
             {WarningKind::below_resolution,
-             plural(region.faces.size(), "face") + " around vertex " + std::to_string(whole.original[region.tip]) +
+             counted(region.faces.size(), "face") + " around vertex " + std::to_string(whole.original[region.tip]) +
                  ", nearest to loop " + std::to_string(region.loop) +
                  ", shrank below the resolution of 32-bit UVs (edges from " + figure(region.shortest) + " to " +
-                 figure(region.extent) + "), " + plural(region.flipped, "face") + " of them to no area",
+                 figure(region.extent) + "), " + counted(region.flipped, "face") + " of them to no area",
              input_faces(whole, region.faces),
              region.faces.size() < limb ? "" : "A long limb does this: a seam or a hole near its end helps"});
     if (!untangled.tangled.empty())
-        warnings.push_back({WarningKind::flipped, plural(untangled.tangled.size(), "face") + " flipped",
+        warnings.push_back({WarningKind::flipped, counted(untangled.tangled.size(), "face") + " flipped",
                             input_faces(whole, untangled.tangled)});
     return warnings;
 }

@@ -5,6 +5,7 @@
 
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
+#include "core/tolerances.h"
 #include "core/topology.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
@@ -86,6 +87,8 @@ std::pair<PlanarPoints, double> annulus_by(AnnulusBackend backend, const Vertice
 PYBIND11_MODULE(_koebe, m)
 {
     m.attr("__version__") = KOEBE_VERSION;
+    m.attr("uv_resolution") = uv_resolution;
+    m.attr("circle_tolerance") = circle_tolerance;
 
     translate_errors();
     py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));

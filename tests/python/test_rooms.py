@@ -1,10 +1,12 @@
 """The rooms of the add-on: each imports only those below it, and some of them never Blender."""
 
 import ast
+import re
 import sys
 from graphlib import TopologicalSorter
 from pathlib import Path
 
+import koebe
 import pytest
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
@@ -122,3 +124,8 @@ def test_what_never_imports_blender_needs_numpy_alone():
         for file in FILES:
             if file.match(pattern):
                 assert third_parties(file) <= known, file
+
+
+def test_the_addon_and_the_library_agree_on_what_is_too_small_to_draw():
+    source = (ADDON / "maps" / "rounding.py").read_text(encoding="utf-8")
+    assert float(re.search(r"^RESOLUTION = (\S+)$", source, re.MULTILINE)[1]) == koebe.UV_RESOLUTION

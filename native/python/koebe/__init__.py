@@ -14,7 +14,7 @@ from ._api import (
     uniformize,
 )
 from ._koebe import CancelToken, __version__
-from ._result import WARNING_ELEMENTS, UniformizeResult, Warning
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning
 from ._shapes import (
     DomainAlignment,
     align_domains,
@@ -27,6 +27,7 @@ from ._shapes import (
 from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
 
 __all__ = [
+    "CIRCLE_TOLERANCE",
     "CancelToken",
     "Cancelled",
     "DomainAlignment",
@@ -35,6 +36,7 @@ __all__ = [
     "OptionError",
     "SolverError",
     "TopologyError",
+    "UV_RESOLUTION",
     "UniformizeResult",
     "WARNING_ELEMENTS",
     "Warning",

@@ -8,6 +8,10 @@ import numpy as np
 from ._arrays import as_loops
 from ._native import _koebe
 
+# UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
+UV_RESOLUTION: float = _koebe.uv_resolution
+# Disk units: how far from its circle a loop vertex may lie to count as on it.
+CIRCLE_TOLERANCE: float = _koebe.circle_tolerance
 # What the elements of a warning are, by its kind: "vertices", "faces", "loops" or "none".
 WARNING_ELEMENTS: dict[str, str] = dict(_koebe.warning_elements)
 
