@@ -10,6 +10,7 @@
 #include "cli/result_line.h"
 #include "cli/standard_streams.h"
 #include "cli/validators.h"
+#include "core/counted.h"
 #include "io/atomic_file.h"
 #include "report/svg.h"
 
