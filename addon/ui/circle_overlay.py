@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The circles of the last run, drawn over the UVs in the UV Editor, with the numbers of the report."""
 
+import bisect
 from collections.abc import Iterator
 
 import bpy
@@ -11,7 +12,8 @@ from ..state.run_report import KoebeIslandReport, report_of
 from . import drawing
 
 RIM, HOLE = (1.0, 1.0, 1.0, 0.55), (1.0, 0.62, 0.12, 0.95)
-SEGMENTS = 96
+SEGMENTS = (12, 24, 48, 96)  # of circles of up to so many pixels of radius, and of larger ones
+PIXELS = (8.0, 30.0, 120.0)
 WIDTH = 2.0
 ROOM = 9.0  # pixels of radius that hold a number; smaller circles have theirs outside, above to the right
 SMALLEST_NUMBER = 3.0  # pixels of radius below which a circle has no number
@@ -29,6 +31,12 @@ def visible_islands(context: bpy.types.Context) -> Iterator[KoebeIslandReport]:
                 yield entry
 
 
+def unit_circle(segments: int) -> np.ndarray:
+    """(segments + 1, 2): once round, the first point again at the end."""
+    turn = np.exp(2j * np.pi * np.arange(segments + 1) / segments)
+    return np.stack([turn.real, turn.imag], axis=1)
+
+
 def draw() -> None:
     """Draw them, if asked."""
     context = bpy.context
@@ -36,8 +44,7 @@ def draw() -> None:
     if space.mode != "UV" or not report.show_circles or context.mode not in {"OBJECT", "EDIT_MESH"}:
         return
     to_region = context.region.view2d.view_to_region
-    turn = np.exp(2j * np.pi * np.arange(SEGMENTS + 1) / SEGMENTS)
-    unit = np.stack([turn.real, turn.imag], axis=1)
+    units = [unit_circle(count) for count in SEGMENTS]
     rims: list[np.ndarray] = []
     holes: list[np.ndarray] = []
     numbers: list[tuple[str, float, float]] = []
@@ -47,7 +54,7 @@ def draw() -> None:
                 continue
             x, y = to_region(*loop.uv_center, clip=False)
             right, _ = to_region(loop.uv_center[0] + loop.uv_radius, loop.uv_center[1], clip=False)
-            strip = np.array([x, y]) + (right - x) * unit
+            strip = np.array([x, y]) + (right - x) * units[bisect.bisect(PIXELS, right - x)]
             (holes if index else rims).append(strip)
             if index and right - x > SMALLEST_NUMBER:
                 aside = 0.0 if right - x > ROOM else right - x + 5.0

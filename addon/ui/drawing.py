@@ -34,13 +34,13 @@ def lines(strips: list[np.ndarray], color: Color, width: float) -> None:
 
     from ..blender import compat
 
-    points: list[tuple[float, float]] = []
-    pairs: list[tuple[int, int]] = []
-    for strip in strips:
-        pairs += [(len(points) + i, len(points) + i + 1) for i in range(len(strip) - 1)]
-        points += [(float(x), float(y)) for x, y in strip]
-    if not pairs:
+    if not strips:
         return
+    points = np.concatenate(strips).astype(np.float32)
+    first = np.arange(len(points), dtype=np.int32)
+    ends = np.cumsum([len(strip) for strip in strips]) - 1
+    first = np.delete(first, ends)  # from the last point of a strip no line starts
+    pairs = np.stack([first, first + 1], axis=1)
     shader = compat.flat_shader("UNIFORM_COLOR")
     shader.bind()
     shader.uniform_float("color", color)

@@ -76,7 +76,9 @@ def start(window):
 def test_escape_and_no_stall(window, dense):
     window.run(WATCH)
     window.button = window.find_button("VIEW_3D", "koebe_uniformize")
+    window.run(DRAW)  # a file just opened takes a third of a second for each of its first pictures
     waits = []
+    window.run("bpy.context.scene.koebe_uv.polish = True")  # without it the map is done before Esc is pressed
     for delay in (0.0, 0.2, 0.4):
         start(window)
         time.sleep(delay)
@@ -89,6 +91,7 @@ def test_escape_and_no_stall(window, dense):
         window.wait("not heart.computing")
         window.run("heart.answers.clear()")
     window.picture("20_cancelled")
+    window.run("bpy.context.scene.koebe_uv.polish = False")
 
     drawing = window.run(DRAW)
     time.sleep(1.0)
@@ -107,5 +110,5 @@ def test_escape_and_no_stall(window, dense):
     print(f"Esc after {', '.join(f'{wait:.3f}' for wait in waits)} s; {len(silences)} beats in {sum(silences):.1f} s, "
           f"longest silences {', '.join(f'{s:.3f}' for s in sorted(silences)[:-4:-1])} s, drawing the window "
           f"{drawing:.3f} s; a process that only sleeps overslept {overslept:.3f} s", file=sys.stderr)  # fmt: skip
-    assert max(waits) <= ESCAPE
+    assert max(waits) <= ESCAPE + drawing  # Esc is looked at between two pictures
     assert max(silences) <= STALL + drawing
