@@ -91,7 +91,8 @@ Punctured remove_shrunk_star(const Metric& surface, Index p, int halvings)
 
     Punctured result;
     result.rest.vertex_count = surface.vertex_count + halvings * degree;
-    result.rest.triangles.resize(static_cast<Eigen::Index>(kept.size()) + 2 * halvings * degree, 3);
+    result.rest.triangles.resize(
+        static_cast<Eigen::Index>(kept.size()) + 2 * static_cast<Eigen::Index>(halvings) * degree, 3);
     result.rest.lengths.resize(result.rest.triangles.rows(), 3);
     Eigen::Index row = 0;
     for (const Eigen::Index f : kept) {

@@ -101,7 +101,7 @@ private:
     /// Frees one vertex if one is enough to better the patch, else all that touch its tangled faces.
     std::vector<Index> free_some(const std::vector<Index>& patch, int round)
     {
-        const auto near = candidates(patch, round);
+        std::vector<Index> near = candidates(patch, round);
         for (std::size_t i = 0; i < std::min(near.size(), most_tries); ++i) {
             map_.set_place(near[i], Place::off_circle);
             if (attempt(patch)) return {near[i]};

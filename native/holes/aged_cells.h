@@ -24,7 +24,7 @@ class Delaunay_triangulation_cell_base_3<koebe::KernelOfAgedCells, Base> : publi
 public:
     using Has_timestamp = Tag_true;
     template <class Structure>
-    struct Rebind_TDS {
+    struct Rebind_TDS {  // NOLINT(readability-identifier-naming): CGAL asks for it by this name
         using Other = Delaunay_triangulation_cell_base_3<koebe::KernelOfAgedCells,
                                                          typename Base::template Rebind_TDS<Structure>::Other>;
     };

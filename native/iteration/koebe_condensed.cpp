@@ -83,6 +83,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         now = std::move(next);
     };
     while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
+        // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): record() changes now
         const CircleState at_sweep_start = now;
         outcome.raised_angles = 0;
         for (std::size_t s = 0; s < order.size(); ++s) {

@@ -31,7 +31,7 @@ void raise(const char* name, const std::string& message, const KoebeError* error
 
 void raise_memory_error() { PyErr_SetString(PyExc_MemoryError, "the mesh needs more memory than there is"); }
 
-void translate(std::exception_ptr pointer)
+void translate(std::exception_ptr pointer)  // NOLINT(performance-unnecessary-value-param): pybind11 asks for this type
 {
     try {
         if (pointer) std::rethrow_exception(pointer);
