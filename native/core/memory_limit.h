@@ -1,5 +1,7 @@
-// Memory is asked for before it is needed: a computation that cannot fit is refused, not killed half way.
+// Memory is predicted and asked for before it is needed: a computation that cannot fit is refused, not killed half way.
 #pragma once
+
+#include <cstddef>
 
 namespace koebe {
 
@@ -10,5 +12,8 @@ double available_memory();
 /// @param bytes that a step will take at least @param purpose what for, to go on after "memory for"
 /// @throws OutOfMemory with both figures if they are not there
 void require_memory(double bytes, const char* purpose);
+
+/// The same before a map of so many faces is begun: 900 bytes for each, of everything but the factor.
+void require_memory_for_faces(std::ptrdiff_t faces);
 
 }  // namespace koebe

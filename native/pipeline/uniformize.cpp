@@ -28,8 +28,6 @@
 namespace koebe {
 namespace {
 
-constexpr double bytes_per_face = 900.0;  // of everything but the factor; measured on 0.1 to 2.6 million faces
-
 class Stopwatch {
 public:
     /// Seconds since the last lap.
@@ -67,7 +65,7 @@ struct Problem {
 
 Problem prepare(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
 {
-    require_memory(bytes_per_face * static_cast<double>(triangles.rows()), "a mesh of so many faces");
+    require_memory_for_faces(triangles.rows());
     Problem problem;
     problem.whole = prepare_domain(vertices, triangles, options);
     // A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
