@@ -68,7 +68,7 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
         impl_->laplacian = laplacian;
         impl_->is_cut.assign(laplacian.rows(), 0);
         for (const Index v : impl_->ground) impl_->is_cut[v] = 1;
-        shifted = cut_off(std::move(shifted), impl_->is_cut);
+        shifted = cut_off(shifted, impl_->is_cut);
     }
     impl_->cholesky = std::make_unique<SparseCholesky>(shifted, ordering, impl_->kept);
 }
