@@ -27,9 +27,6 @@ public:
     /// The same where a backslash at the end of a line joins it with the next one.
     std::string_view next_word_of_joined_lines();
 
-    /// What is left, from the place that was read to.
-    std::string_view rest() const { return rest_; }
-
 private:
     std::string_view rest_;
     bool begun_ = false;

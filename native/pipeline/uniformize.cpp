@@ -104,14 +104,14 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
 CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<CircleMap>& failed,
                 ExecutionContext& context)
 {
-    VectorXcd rim = unit_circle_points(arc_length_angles(whole.edges[0]));
+    const VectorXcd even = unit_circle_points(arc_length_angles(whole.edges[0]));
+    VectorXcd rim = even;
     if (failed)
         for (Eigen::Index i = 0; i < rim.size(); ++i) {
             const Index v = whole.loops[0][i];
             rim[i] = {failed->uv(v, 0), failed->uv(v, 1)};
         }
-    if (!rim.allFinite()) rim = unit_circle_points(arc_length_angles(whole.edges[0]));
-    rim = project_onto_circle(Circle{}, rim, 1, least_steps(whole.edges[0].size()));
+    rim = project_onto_circle(Circle{}, rim.allFinite() ? rim : even, 1, least_steps(whole.edges[0].size()));
     CircleMap map =
         embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
                      failed && circles_apart(failed->circles) ? failed->circles : std::vector<Circle>{}, rim, context);
