@@ -24,7 +24,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SECONDARY:
-.PHONY: help build native wheel package lint lint-python lint-native test test-native test-python test-blender test-gui test-asan \
+.PHONY: help build native wheel package dist check-dist lint lint-python lint-native test test-native test-python test-blender test-gui test-asan \
         test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
@@ -56,6 +56,22 @@ $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) scripts/p
 	$(VENV)/bin/python scripts/package_extension.py
 	@touch $@
 
+# One wheel a platform, for every Python, and its zip: from pinned sources, cross compiling (CONTRIBUTING.md). An hour of
+# two cores for the first of all five, a quarter of that for one.
+PLATFORMS ?= linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
+
+dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS, and the source package: dist/
+	scripts/dist.sh build/venv-dist $(PLATFORMS)
+	$(PYTHON) scripts/package_extension.py --release
+	$(PYTHON) scripts/check_dist.py dist
+	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist .
+
+build/venv-dist/.done: native/bundle/requirements.txt | $(DONE)/install-build
+	$(PYTHON) -m venv $(@D)
+	$(@D)/bin/pip install --quiet --no-deps --require-hashes -r native/bundle/requirements.txt
+	$(@D)/bin/pip install --quiet build 'scikit-build-core>=0.10'
+	@touch $@
+
 # ---------------------------------------------------------------- tests
 
 # Every runner runs, whatever became of the others, and each ends with its own closing line.
@@ -81,7 +97,7 @@ test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys
 
 # A quarter of an hour: not in `make test` either.
 soak: package $(DONE)/install-blender ## 2,000 maps in one Blender, the memory measured
-	scripts/in_own_home.sh $(BLENDER) bench/soak.py $$PWD/dist/koebe_uv-*.zip
+	scripts/in_own_home.sh $(BLENDER) bench/soak.py $$PWD/dist/koebe_uv-$$(scripts/version.sh).zip
 
 test-asan: $(VENV)/.done ## the native tests under the address and undefined behaviour sanitizers
 	$(ccache) cmake --preset asan

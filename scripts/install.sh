@@ -9,6 +9,8 @@ declare -A groups=(
         libopenmesh-dev libeigen3-dev libsuitesparse-dev libopenblas-pthread-dev libcgal-dev liblemon-dev libfast-float-dev
         nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev
         python3-dev python3-venv python3-numpy python3-pytest python3-hypothesis ca-certificates"
+    # what scripts/fetch_sources.sh fetches with
+    [dist]="dpkg-dev maven default-jre-headless"
     # the form of C++, and what can be said of it without running it
     [lint]="clang-format clang-tidy"
     # clang with libFuzzer and its sanitizers; llvm has the symbolizer, by which findings name lines

@@ -1,6 +1,11 @@
 #!/usr/bin/env python3
 """Pack addon/ and its wheels into dist/koebe_uv-VERSION.zip. Standard library only.
 
+With --release the wheels are those of `make dist`, one a platform for every Python, and so are the zips:
+dist/koebe_uv-VERSION-PLATFORM.zip, and koebe_uv-VERSION-all.zip with every wheel if that is not too large. Without, they
+are those that `make wheel` has built for Pythons of this machine. The two kinds are never in one zip: from wheels of both,
+Blender would conclude that the extension is for the Pythons of the second kind alone.
+
 The one zip is an extension (Blender 4.2 and later) and a legacy add-on (3.4 to 4.1): both accept files under
 a single folder `koebe_uv/`. The version comes from project(koebe VERSION ...) in CMakeLists.txt; it is written
 into the manifest and into `bl_info`. Equal input gives an equal zip: sorted names, one date, one mode.
@@ -19,6 +24,9 @@ PLATFORMS = {  # how a wheel's platform tag ends, and what Blender calls it
     "macosx": {"x86_64": "macos-x64", "arm64": "macos-arm64"},
     "win": {"amd64": "windows-x64", "arm64": "windows-arm64"},
 }
+
+
+LARGEST = 60e6  # bytes: of a zip with the wheels of all platforms
 
 
 def project_version() -> str:
@@ -79,27 +87,41 @@ def members(addon: Path, version: str, wheels: list[Path]) -> dict[str, bytes]:
     return files
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--addon", type=Path, default=ROOT / "addon")
-    parser.add_argument("--dist", type=Path, default=ROOT / "dist", help="holds the wheels, receives the zip")
-    arguments = parser.parse_args()
-
-    version = project_version()
-    wheels = sorted(arguments.dist.glob(f"koebe-{version}-*.whl"))
-    if not wheels:
-        raise SystemExit(f"no wheel of koebe {version} in {arguments.dist}: make wheel")
-    for old in arguments.dist.glob(f"{FOLDER}-*.zip"):
-        old.unlink()
-    package = arguments.dist / f"{FOLDER}-{version}.zip"
+def write_package(package: Path, addon: Path, version: str, wheels: list[Path]) -> None:
+    """Write one zip and say what is in it."""
     with zipfile.ZipFile(package, "w") as archive:
-        for name, content in sorted(members(arguments.addon, version, wheels).items()):
+        for name, content in sorted(members(addon, version, wheels).items()):
             entry = zipfile.ZipInfo(f"{FOLDER}/{name}", DATE)
             entry.external_attr = 0o644 << 16
             entry.compress_type = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
             archive.writestr(entry, content)
     print(f"{package.relative_to(Path.cwd()) if package.is_relative_to(Path.cwd()) else package}: "
-          f"{', '.join(wheel.name for wheel in wheels)}")
+          f"{package.stat().st_size / 1e6:.1f} MB, {', '.join(wheel.name for wheel in wheels)}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--addon", type=Path, default=ROOT / "addon")
+    parser.add_argument("--dist", type=Path, default=ROOT / "dist", help="holds the wheels, receives the zip")
+    parser.add_argument("--release", action="store_true", help="a zip for each platform, of the wheels of `make dist`")
+    arguments = parser.parse_args()
+
+    version = project_version()
+    release = sorted(arguments.dist.glob(f"koebe-{version}-py3-none-*.whl"))
+    wheels = release if arguments.release else sorted({*arguments.dist.glob(f"koebe-{version}-*.whl")} - {*release})
+    if not wheels:
+        raise SystemExit(f"no wheel of koebe {version} in {arguments.dist}: make {'dist' if arguments.release else 'wheel'}")
+    for old in arguments.dist.glob(f"{FOLDER}-*.zip"):
+        if bool(re.search(r"-[a-z0-9]+-[a-z0-9]+\.zip$|-all\.zip$", old.name)) == arguments.release:
+            old.unlink()
+    if not arguments.release:
+        write_package(arguments.dist / f"{FOLDER}-{version}.zip", arguments.addon, version, wheels)
+        return
+    for wheel in wheels:
+        package = arguments.dist / f"{FOLDER}-{version}-{blender_platform(wheel.name)}.zip"
+        write_package(package, arguments.addon, version, [wheel])
+    if len(wheels) > 1 and sum(wheel.stat().st_size for wheel in wheels) < LARGEST:
+        write_package(arguments.dist / f"{FOLDER}-{version}-all.zip", arguments.addon, version, wheels)
 
 
 if __name__ == "__main__":

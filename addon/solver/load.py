@@ -20,7 +20,7 @@ from types import ModuleType
 
 from .errors import NativeError
 from .wheel import KNOWN, Wheel, WheelError, remove_leftovers
-from .wheel_tags import interpreter_tag, wheel_fits
+from .wheel_tags import interpreter_tag, module_loads, module_suffixes, wheel_fits
 
 ADDON = Path(__file__).resolve().parent.parent
 OWN_PLACE = ADDON / "unpacked"
@@ -106,11 +106,21 @@ def _folder(user: UserFolders) -> Path:
 
 def _fitting_wheel() -> Wheel:
     wheels = sorted((ADDON / "wheels").glob("koebe-*.whl"))
-    fitting = [wheel for wheel in wheels if wheel_fits(wheel.name)]
-    if not fitting:
-        have = ", ".join("-".join(wheel.stem.split("-")[-3:]) for wheel in wheels) or "none"
-        raise NativeError(f"no native module for {_interpreter()}; this add-on brings: {have}")
-    return Wheel(fitting[-1])
+    for path in reversed(wheels):
+        if wheel_fits(path.name):
+            wheel = Wheel(path)
+            members = wheel.members()
+            if members is None or module_loads(module_suffixes(members)):  # what is damaged is told of later
+                return wheel
+    have = ", ".join(_brought(path) for path in wheels) or "none"
+    raise NativeError(f"no native module for {_interpreter()}; this add-on brings: {have}")
+
+
+def _brought(path: Path) -> str:
+    """What a wheel is for: its tags, and of one for several Pythons its modules too."""
+    tags = "-".join(path.stem.split("-")[-3:])
+    modules = module_suffixes(Wheel(path).members() or []) if "-py3-none-" in path.name else []
+    return f"{tags} ({', '.join(modules)})" if modules else tags
 
 
 def _folders(wheel: Wheel, user: UserFolders) -> Iterator[tuple[Path, Path]]:

@@ -60,6 +60,14 @@ class Wheel:
         """The name for a folder with its files, another one for every build."""
         return f"{self.path.stem}-{self.path.stat().st_size}"
 
+    def members(self) -> list[str] | None:
+        """The names of its files; None if it cannot be read."""
+        try:
+            with self._opened() as archive:
+                return archive.namelist()
+        except (WheelError, OSError):
+            return None
+
     def ready_in(self, folder: Path, known_file: Path) -> bool:
         """Make the folder hold the wheel's files, whole, whatever it held before; whether it had to be made."""
         new = not folder.is_dir()

@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which wheel serves which interpreter, by the tags in its file name (PEP 425)."""
+"""Which wheel serves which interpreter: by the tags in its file name (PEP 425), and by the modules in it.
 
+A wheel of a release has the tags py3-none-PLATFORM and holds a compiled module for each Python that it knows; one that
+was built on the spot has the tags of its one Python.
+"""
+
+import importlib.machinery
 import platform
 import sys
+from collections.abc import Iterable
 
 # Platform tags by sys.platform and platform.machine(); Blender on Linux needs glibc, so no musllinux.
 SYSTEM_PREFIXES = {"linux": ("linux_", "manylinux"), "win32": ("win_",), "darwin": ("macosx_",)}
@@ -12,6 +18,8 @@ MACHINE_SUFFIXES = {
     "aarch64": ("aarch64", "arm64"),
     "arm64": ("aarch64", "arm64", "universal2"),
 }
+
+MODULE = "koebe/_koebe"  # where a wheel has its compiled modules, without their suffixes
 
 
 def interpreter_tag() -> str:
@@ -26,11 +34,18 @@ def wheel_fits(file_name: str) -> bool:
         return False
     python, abi, systems = parts[-3:]
     tag = interpreter_tag()
-    return (
-        tag in python.split(".")
-        and abi in (tag, "abi3")
-        and any(_serves(system) for system in systems.split("."))
-    )
+    of_python = python == "py3" and abi == "none" or tag in python.split(".") and abi in (tag, "abi3")
+    return of_python and any(_serves(system) for system in systems.split("."))
+
+
+def module_suffixes(members: Iterable[str]) -> list[str]:
+    """The suffixes of the compiled modules among a wheel's files: ".cpython-311-x86_64-linux-gnu.so"."""
+    return sorted(name.removeprefix(MODULE) for name in members if name.startswith(MODULE) and name.count("/") == 1)
+
+
+def module_loads(suffixes: Iterable[str]) -> bool:
+    """Whether this interpreter imports a module with one of the suffixes."""
+    return not set(suffixes).isdisjoint(importlib.machinery.EXTENSION_SUFFIXES)
 
 
 def _serves(system: str) -> bool:

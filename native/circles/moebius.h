@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
+#include "core/api.h"
 #include "core/types.h"
 
 #include <vector>
@@ -14,7 +15,7 @@ struct Moebius {
     Complex turn{1.0, 0.0};
 
     Complex operator()(Complex z) const { return turn * (z - a) / (1.0 - std::conj(a) * z); }
-    VectorXcd operator()(const VectorXcd& z) const;
+    KOEBE_API VectorXcd operator()(const VectorXcd& z) const;
     /// Image of a circle inside the disk; circles go to circles.
     Circle operator()(const Circle& circle) const;
     /// This map after another.

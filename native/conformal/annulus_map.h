@@ -1,6 +1,7 @@
 // The conformal map of a topological annulus to a round one (paper, section 4.2).
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 #include "surface/laplacian.h"
 #include "surface/one_form.h"
@@ -53,7 +54,8 @@ struct AnnulusMap {
 /// @return orientation kept: the outer loop runs counter-clockwise. At 1 is the first vertex of the cut, or of the
 ///         outer loop with the Yamabe backend, which reports it if it does not converge
 /// @throws TopologyError the loops are not connected; SolverError, also for a map that leaves the closed disk
-AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
-                       const VertexLoop& outer, const VertexLoop& inner, const AnnulusMapOptions& options = {});
+KOEBE_API AnnulusMap annulus_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                                 const VertexLoop& outer, const VertexLoop& inner,
+                                 const AnnulusMapOptions& options = {});
 
 }  // namespace koebe

@@ -1,6 +1,7 @@
 // The Riemann map of a topological disk (paper, section 4.3).
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 #include "surface/laplacian.h"
 
@@ -33,7 +34,7 @@ struct DiskMap {
 /// @param lengths (F, 3) edge lengths
 /// @param loop the boundary, surface on the left
 /// @throws InputError the centre is no inner vertex; SolverError, also for a map that leaves the closed disk
-DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count, const VertexLoop& loop,
-                 const DiskMapOptions& options = {});
+KOEBE_API DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                           const VertexLoop& loop, const DiskMapOptions& options = {});
 
 }  // namespace koebe

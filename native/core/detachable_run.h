@@ -1,6 +1,7 @@
 // Computations that can be left at once, even inside a kernel that does not ask whether it should go on.
 #pragma once
 
+#include "core/api.h"
 #include "core/execution.h"
 #include "core/thread_memory.h"
 
@@ -23,7 +24,7 @@ namespace detail {
 /// Counts a computation from its making to the end of its thread. The libraries a thread works in are taken down when
 /// the process exits, so an exit waits for those that are counted; where one does not end soon, having been left in a
 /// kernel without checkpoints, the process ends without taking anything down.
-class CountedRun {
+class KOEBE_API CountedRun {
 public:
     CountedRun();
     ~CountedRun();

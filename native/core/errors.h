@@ -1,6 +1,7 @@
 // Typed errors. Each carries the offending elements, so that a caller can show or select them.
 #pragma once
 
+#include "core/api.h"
 #include "core/elements.h"
 #include "core/types.h"
 
@@ -46,9 +47,9 @@ enum class TopologyKind {
     disconnected,        ///< elements: faces outside the largest component
 };
 
-const char* to_string(TopologyKind kind) noexcept;
+KOEBE_API const char* to_string(TopologyKind kind) noexcept;
 /// What the elements of such an error are.
-ElementKind elements_of(TopologyKind kind) noexcept;
+KOEBE_API ElementKind elements_of(TopologyKind kind) noexcept;
 
 /// A mesh that is no connected, orientable surface of genus 0 with boundary.
 class TopologyError : public KoebeError {

@@ -2,7 +2,12 @@
 
 #include "core/errors.h"
 
+#if defined(_WIN32)
+#define NOMINMAX
+#include <windows.h>
+#else
 #include <sys/resource.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +19,7 @@ namespace koebe {
 namespace {
 
 constexpr double worth_asking = 64e6;  // bytes: looking costs some ten microseconds
+#if !defined(_WIN32)
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 /// The number after a word in a file of lines like "MemAvailable:  123 kB", in bytes.
@@ -33,9 +39,19 @@ double only_number(const char* file)
     double number = 0.0;
     return std::ifstream(file) >> number ? number : unknown;
 }
+#endif
 
 }  // namespace
 
+#if defined(_WIN32)
+double available_memory()
+{
+    MEMORYSTATUSEX status{};
+    status.dwLength = sizeof status;
+    if (!GlobalMemoryStatusEx(&status)) return std::numeric_limits<double>::infinity();
+    return static_cast<double>(status.ullAvailPageFile);  // what can be committed
+}
+#else
 double available_memory()
 {
     double available = number_after("/proc/meminfo", "MemAvailable:");
@@ -48,6 +64,7 @@ double available_memory()
             available = std::min(available, group - used);
     return std::max(available, 0.0);
 }
+#endif
 
 void require_memory(double bytes, const char* purpose)
 {

@@ -6,7 +6,7 @@
 namespace koebe {
 
 /// Bytes that this process can still get: what the machine has free, less if a limit on the process or its control
-/// group says so. Infinite where nobody tells (systems other than Linux).
+/// group says so. Infinite where nobody tells (macOS).
 double available_memory();
 
 /// @param bytes that a step will take at least @param purpose what for, to go on after "memory for"

@@ -1,6 +1,7 @@
 // From a triangle soup to a surface of genus 0 with boundary loops, or a typed error.
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 
 #include <vector>
@@ -22,15 +23,15 @@ struct Surface {
 /// Checks the arrays themselves.
 /// @throws InputError empty arrays, an index out of range, a face that names a vertex twice,
 ///         a coordinate that is NaN or infinite; elements: faces or vertices, as the message says
-void validate_arrays(const Vertices& vertices, const Triangles& triangles);
+KOEBE_API void validate_arrays(const Vertices& vertices, const Triangles& triangles);
 
 /// Pairs half-edges, turns faces to one orientation (that of the majority), finds the boundary loops and the genus.
 /// @throws TopologyError nonmanifold_edge, nonmanifold_vertex, nonorientable, disconnected
-Surface analyze_surface(const Triangles& triangles, Index vertex_count);
+KOEBE_API Surface analyze_surface(const Triangles& triangles, Index vertex_count);
 
 /// analyze_surface, and then what uniformization needs: genus 0 and at least one loop.
 /// @throws TopologyError closed, genus, and all of analyze_surface
-Surface require_bordered_genus_zero(const Triangles& triangles, Index vertex_count);
+KOEBE_API Surface require_bordered_genus_zero(const Triangles& triangles, Index vertex_count);
 
 /// 1 for the vertices on a boundary loop.
 std::vector<char> boundary_mask(const Surface& surface);

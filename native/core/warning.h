@@ -1,6 +1,7 @@
 // What to watch out for in a result that is there all the same.
 #pragma once
 
+#include "core/api.h"
 #include "core/elements.h"
 #include "core/types.h"
 
@@ -33,9 +34,9 @@ enum class WarningKind {
 };
 
 /// As in the JSON report: the enumerator's name.
-const char* to_string(WarningKind kind) noexcept;
+KOEBE_API const char* to_string(WarningKind kind) noexcept;
 /// What the elements of a warning are.
-ElementKind elements_of(WarningKind kind) noexcept;
+KOEBE_API ElementKind elements_of(WarningKind kind) noexcept;
 
 struct Warning {
     WarningKind kind;

@@ -1,6 +1,7 @@
 // Triangles for the holes of a surface that continue its curvature [Liepa 2003].
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 #include "holes/fan_filling.h"
 
@@ -18,7 +19,7 @@ namespace koebe {
 /// @return as fill_holes: the input's vertices and faces first, then those of the patches, loop by loop
 /// @throws InputError a rank that does not exist, a loop without extent, one that meets itself, one that CGAL cannot
 ///         triangulate (elements: its vertices); SolverError the fairing failed; TopologyError as analyze_surface
-FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& triangles,
-                                  const std::optional<std::vector<Index>>& loops = std::nullopt);
+KOEBE_API FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& triangles,
+                                            const std::optional<std::vector<Index>>& loops = std::nullopt);
 
 }  // namespace koebe

@@ -1,6 +1,7 @@
 // Triangles for the holes of a surface (paper, section 4.4): a fan on the surface, Delaunay patches in the plane.
 #pragma once
 
+#include "core/api.h"
 #include "core/topology.h"
 #include "core/types.h"
 #include "planar/planar_mesh.h"
@@ -46,7 +47,7 @@ Index longest_loop(const Vertices& vertices, const Surface& surface);
 /// Fills boundary loops by fans on the surface.
 /// @param loops ranks of the loops to fill, in the order of Surface::loops; all of them if absent
 /// @throws InputError a rank that does not exist; TopologyError as analyze_surface
-FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
-                         const std::optional<std::vector<Index>>& loops = std::nullopt);
+KOEBE_API FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
+                                   const std::optional<std::vector<Index>>& loops = std::nullopt);
 
 }  // namespace koebe

@@ -5,7 +5,9 @@
 #include "core/types.h"
 
 #include <cholmod.h>
+#if defined(KOEBE_CHOLMOD_HAS_OPENMP)
 #include <omp.h>
+#endif
 
 #include <functional>
 #include <memory>
@@ -19,13 +21,19 @@ namespace koebe::detail {
 /// have threads of their own (SerialDenseKernels).
 class SerialRegions {
 public:
+#if defined(KOEBE_CHOLMOD_HAS_OPENMP)
     SerialRegions() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
     ~SerialRegions() { omp_set_max_active_levels(before_); }
+#else
+    SerialRegions() = default;
+#endif
     SerialRegions(const SerialRegions&) = delete;
     SerialRegions& operator=(const SerialRegions&) = delete;
 
+#if defined(KOEBE_CHOLMOD_HAS_OPENMP)
 private:
     int before_;
+#endif
 };
 
 /// A started workspace; settings are CHOLMOD's own but for supernodal L L' and silence.

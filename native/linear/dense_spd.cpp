@@ -14,8 +14,10 @@ void dtrmm_(const char* side, const char* uplo, const char* trans, const char* d
             const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
             const int* lda, const double* beta, double* c, const int* ldc);
+#if !defined(KOEBE_OWN_KERNELS)
 void openblas_set_num_threads(int threads);
 int openblas_get_num_threads();
+#endif
 }
 
 namespace koebe {
@@ -103,8 +105,13 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
     return product;
 }
 
+#if defined(KOEBE_OWN_KERNELS)  // which know no threads
+OneDenseThread::OneDenseThread() : before_(1) {}
+OneDenseThread::~OneDenseThread() = default;
+#else
 OneDenseThread::OneDenseThread() : before_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
 
 OneDenseThread::~OneDenseThread() { openblas_set_num_threads(before_); }
+#endif
 
 }  // namespace koebe

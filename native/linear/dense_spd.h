@@ -1,6 +1,7 @@
 // Dense matrices on LAPACK and BLAS, most of them symmetric positive definite.
 #pragma once
 
+#include "core/api.h"
 #include "core/process_setting.h"
 #include "core/types.h"
 #include "linear/kernel_buffer.h"
@@ -24,7 +25,7 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& a);
 MatrixXd lower_times_transpose(const MatrixXd& lower);
 
 /// OpenBLAS on one thread.
-class OneDenseThread {
+class KOEBE_API OneDenseThread {
 public:
     OneDenseThread();
     ~OneDenseThread();

@@ -36,10 +36,15 @@ std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vect
             const Index* perm = static_cast<const Index*>(symbolic->Perm);
             order.assign(perm, perm + inner.size());
         } else {
-            const int done = ordering == Ordering::amd
-                                 ? cholmod_amd(&lower, nullptr, 0, order.data(), common.get())
-                                 : cholmod_metis(&lower, nullptr, 0, 0, order.data(), common.get());
-            common.require(done != 0, "ordering");
+#if defined(KOEBE_WITHOUT_METIS)
+            const bool metis = false;
+#else
+            const bool metis =
+                ordering == Ordering::metis && cholmod_metis(&lower, nullptr, 0, 0, order.data(), common.get()) != 0;
+#endif
+            const bool done =
+                ordering == Ordering::amd ? cholmod_amd(&lower, nullptr, 0, order.data(), common.get()) != 0 : metis;
+            common.require(done, "ordering");
         }
     }
     for (Index& v : order) v = inner[v];

@@ -1,6 +1,7 @@
 // The main entry: a surface with holes to a circle domain.
 #pragma once
 
+#include "core/api.h"
 #include "core/execution.h"
 #include "pipeline/result.h"
 
@@ -15,8 +16,8 @@ namespace koebe {
 /// @param vertices (V, 3) positions, any unit
 /// @param triangles (F, 3) vertex indices
 /// @throws InputError, TopologyError, SolverError, Cancelled; non-convergence is reported, not thrown
-UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
-                            ExecutionContext& context);
+KOEBE_API UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles,
+                                      const UniformizeOptions& options, ExecutionContext& context);
 
 /// The same without progress, never cancelled.
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles,

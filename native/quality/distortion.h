@@ -1,6 +1,7 @@
 // How far a map is from conformal, judged on the input's own triangles.
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 
 #include <vector>
@@ -36,7 +37,7 @@ struct Distortion {
 /// is the Dirichlet energy of the map less its area, 1/2 sum cot |dz|^2 - area (Pinkall and Polthier 1993).
 /// Flips are judged with u and v rounded to 32-bit floats, in the UV convention u = (1 + x) / 2, v = (1 + y) / 2.
 /// @param vertices (V, 3) @param triangles (F, 3) @param uv (V, 2) points of the unit disk
-Distortion measure_distortion(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv);
+KOEBE_API Distortion measure_distortion(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv);
 
 /// Faces whose signed area is not positive with u and v rounded to 32-bit floats and the area computed in 64 bits.
 std::vector<Index> flipped_faces(const Triangles& triangles, const PlanarPoints& uv);

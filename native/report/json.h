@@ -1,6 +1,7 @@
 // The report as JSON: one form for the command and for Python.
 #pragma once
 
+#include "core/api.h"
 #include "pipeline/result.h"
 
 #include <nlohmann/json.hpp>
@@ -9,19 +10,19 @@
 
 namespace koebe {
 
-const char* to_string(Method method) noexcept;
-const char* to_string(Engine engine) noexcept;
+KOEBE_API const char* to_string(Method method) noexcept;
+KOEBE_API const char* to_string(Engine engine) noexcept;
 
 /// Everything but the UVs. Vertices and faces are counted from 0; circles are in unit-disk coordinates; what is not
 /// finite becomes null. "input" is empty: the front end that read a file puts its name there.
-nlohmann::ordered_json to_json(const UniformizeResult& result);
+KOEBE_API nlohmann::ordered_json to_json(const UniformizeResult& result);
 
 /// The part of it that judges a map: angle_error_deg, beltrami, area_distortion, conformal_energy, flipped,
 /// below_resolution (the last two as counts).
-nlohmann::ordered_json to_json(const Distortion& distortion);
+KOEBE_API nlohmann::ordered_json to_json(const Distortion& distortion);
 
 /// An array of {"kind", "elements", "text"}.
-nlohmann::ordered_json to_json(const std::vector<Warning>& warnings);
+KOEBE_API nlohmann::ordered_json to_json(const std::vector<Warning>& warnings);
 
 /// A report as the text of a file: indented, and UTF-8 whatever bytes its strings have (file names may have any; what
 /// is no character becomes U+FFFD).

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/moebius.h"
+#include "core/api.h"
 #include "core/types.h"
 #include "pipeline/result.h"
 
@@ -21,10 +22,10 @@ namespace koebe {
 /// @param circles the unit circle first, the others inside it, no two disks touching
 /// @param order a permutation of the circles, by default as they are
 /// @throws InputError no permutation; circles that meet or lie outside (their numbers listed)
-VectorXd conformal_module(const std::vector<Circle>& circles, const std::vector<int>& order = {});
+KOEBE_API VectorXd conformal_module(const std::vector<Circle>& circles, const std::vector<int>& order = {});
 
 /// What the numbers are called: "r_1", "y_2", "r_2", "x_3", …
-std::vector<std::string> module_names(std::size_t loop_count);
+KOEBE_API std::vector<std::string> module_names(std::size_t loop_count);
 
 /// The circles, renumbered, in the position that the module describes: the unit circle, one concentric with it, one
 /// with its centre on the positive y axis, the rest. As above.
@@ -38,7 +39,7 @@ Moebius normalizing_map(const std::vector<Circle>& circles);
 /// the orders that this leaves (up to 5040) the module with the greatest sum of m_i / (i + 1) decides, i from 0.
 /// As every such choice it jumps somewhere: match_loops is what compares two shapes.
 /// @param any_outer the outer loop is chosen too: that of the least sum of separations
-std::vector<int> canonical_order(const std::vector<Circle>& circles, bool any_outer = false);
+KOEBE_API std::vector<int> canonical_order(const std::vector<Circle>& circles, bool any_outer = false);
 
 /// log(R / r) of the concentric circles to which a Moebius map takes two disjoint ones: acosh of their inversive
 /// distance, 2 pi times the modulus of the ring between them. Free of Moebius maps, dimensionless.
@@ -51,6 +52,6 @@ void require_circle_domain(const std::vector<Circle>& circles);
 /// A module tells about circles that the surface has; where the mesh was too coarse for the iteration's, and others
 /// took their place, there is none.
 /// @throws InputError with the loops of such circles
-void require_own_circles(const std::vector<LoopReport>& loops);
+KOEBE_API void require_own_circles(const std::vector<LoopReport>& loops);
 
 }  // namespace koebe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/moebius.h"
+#include "core/api.h"
 #include "core/execution.h"
 
 #include <vector>
@@ -25,7 +26,7 @@ struct DomainAlignment {
 /// hole everything: the free part stays that of the identity.
 /// @param match as in the result, or empty to look for it
 /// @throws InputError as match_loops; a match that is no permutation or moves the outer loop; Cancelled
-DomainAlignment align_domains(const std::vector<Circle>& source, const std::vector<Circle>& target,
-                              std::vector<int> match = {}, const ExecutionContext& context = {});
+KOEBE_API DomainAlignment align_domains(const std::vector<Circle>& source, const std::vector<Circle>& target,
+                                        std::vector<int> match = {}, const ExecutionContext& context = {});
 
 }  // namespace koebe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
+#include "core/api.h"
 #include "core/execution.h"
 
 #include <vector>
@@ -28,7 +29,7 @@ struct LoopMatch {
 /// @param any_outer the outer loop of one may correspond to an inner loop of the other; of more than 32 loops those are
 ///        tried whose separations from the others are likest, as many as there are pairs
 /// @throws InputError different numbers of loops; no circle domain (require_circle_domain); Cancelled
-LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b, bool any_outer = false,
-                      const ExecutionContext& context = {});
+KOEBE_API LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b, bool any_outer = false,
+                                const ExecutionContext& context = {});
 
 }  // namespace koebe

@@ -1,6 +1,7 @@
 // Harmonic maps into the plane with given values on some vertices.
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 #include "surface/laplacian.h"
 
@@ -12,7 +13,7 @@ namespace koebe {
 /// @param triangles, lengths (F, 3) faces and their edge lengths
 /// @return (V); 0 at vertices of no face
 /// @throws SolverError
-VectorXcd harmonic_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
-                       const std::vector<Index>& vertices, const VectorXcd& values);
+KOEBE_API VectorXcd harmonic_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                                 const std::vector<Index>& vertices, const VectorXcd& values);
 
 }  // namespace koebe

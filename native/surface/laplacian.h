@@ -1,6 +1,7 @@
 // The cotan Laplacian and what it acts on (paper, section 4.1; Pinkall and Polthier 1993).
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 
 #include <vector>
@@ -11,8 +12,8 @@ namespace koebe {
 using EdgeLengths = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// Lengths of the edges of each face, in the unit of the positions. Works for positions in space and in the plane.
-EdgeLengths edge_lengths(const Vertices& vertices, const Triangles& triangles);
-EdgeLengths edge_lengths(const PlanarPoints& points, const Triangles& triangles);
+KOEBE_API EdgeLengths edge_lengths(const Vertices& vertices, const Triangles& triangles);
+KOEBE_API EdgeLengths edge_lengths(const PlanarPoints& points, const Triangles& triangles);
 
 /// (F, 3) half the cotangent of the angle opposite to each half-edge, dimensionless; from lengths alone, by
 /// cot = (b^2 + c^2 - a^2) / (4 area) with Kahan's area. A face of zero area gets finite weights.

@@ -1,7 +1,9 @@
 """Values that `Options` refuses, and wheels that fit."""
 
+import importlib.machinery
 import platform
 import sys
+import zipfile
 
 import pytest
 
@@ -38,7 +40,11 @@ def test_wheels_are_told_apart_by_their_tags(addon, monkeypatch):
     assert tags.wheel_fits(f"koebe-0.1.0-{tag}-{tag}-manylinux_2_34_x86_64.whl")
     assert tags.wheel_fits(f"koebe-0.1.0-{tag}-{tag}-manylinux_2_17_x86_64.manylinux2014_x86_64.whl")
     assert tags.wheel_fits(f"koebe-0.1.0-1-{tag}-abi3-linux_x86_64.whl")
+    assert tags.wheel_fits("koebe-0.1.0-py3-none-manylinux_2_28_x86_64.whl")
     for other in (
+        "koebe-0.1.0-py3-none-manylinux_2_28_aarch64.whl",
+        "koebe-0.1.0-py3-none-win_amd64.whl",
+        "koebe-0.1.0-py2-none-linux_x86_64.whl",
         "koebe-0.1.0-cp27-cp27-linux_x86_64.whl",
         f"koebe-0.1.0-{tag}-{tag}t-linux_x86_64.whl",
         f"koebe-0.1.0-{tag}-{tag}-manylinux_2_34_aarch64.whl",
@@ -52,9 +58,37 @@ def test_wheels_are_told_apart_by_their_tags(addon, monkeypatch):
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr(platform, "machine", lambda: "AMD64")
     assert tags.wheel_fits(f"koebe-0.1.0-{tag}-{tag}-win_amd64.whl")
+    assert tags.wheel_fits("koebe-0.1.0-py3-none-win_amd64.whl")
     monkeypatch.setattr(sys, "platform", "darwin")
     monkeypatch.setattr(platform, "machine", lambda: "arm64")
     assert tags.wheel_fits(f"koebe-0.1.0-{tag}-{tag}-macosx_11_0_arm64.whl")
+    assert tags.wheel_fits("koebe-0.1.0-py3-none-macosx_11_0_arm64.whl")
+
+
+def wheel_of(folder, platform_tag, *suffixes):
+    """A wheel for several Pythons, by what is in it."""
+    folder.mkdir(exist_ok=True)
+    path = folder / f"koebe-0.1.0-py3-none-{platform_tag}.whl"
+    with zipfile.ZipFile(path, "w") as archive:
+        for name in ("koebe/__init__.py", "koebe/libkoebe.so", *(f"koebe/_koebe{suffix}" for suffix in suffixes)):
+            archive.writestr(name, "")
+    return path
+
+
+def test_a_wheel_for_several_pythons_serves_those_whose_modules_it_has(addon, monkeypatch, tmp_path):
+    load = addon("solver.load")
+    monkeypatch.setattr(load, "ADDON", tmp_path)
+    monkeypatch.setattr(load, "wheel_fits", lambda name: True)
+    own = importlib.machinery.EXTENSION_SUFFIXES[0]
+    path = wheel_of(tmp_path / "wheels", "plan9_vax", ".cpython-27-vax.so", own)
+    assert load._fitting_wheel().path == path
+    wheel_of(tmp_path / "wheels", "plan9_vax", ".cpython-27-vax.so", ".cpython-28-vax.so")
+    with pytest.raises(load.NativeError) as caught:
+        load._fitting_wheel()
+    assert addon("solver.wheel_tags").interpreter_tag() in str(caught.value)
+    assert "py3-none-plan9_vax (.cpython-27-vax.so, .cpython-28-vax.so)" in str(caught.value)
+    path.write_bytes(b"no zip")  # whose damage is named where it is unpacked
+    assert load._fitting_wheel().path == path
 
 
 def test_without_a_wheel_that_fits_the_error_names_both_sides(addon, monkeypatch, tmp_path):

@@ -11,7 +11,7 @@ SAMPLES = ROOT / "blend_samples"
 @pytest.fixture(scope="module")
 def window(tmp_path_factory):
     """The window, on factory settings."""
-    (package,) = (ROOT / "dist").glob("koebe_uv-*.zip")
+    (package,) = (path for path in (ROOT / "dist").glob("koebe_uv-*.zip") if path.stem.count("-") == 1)
     home = tmp_path_factory.mktemp("blender")
     found = Window(str(package), home)
     yield found

@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[2]
 NATIVE = ROOT / "native"
 ROOMS = sorted(path.name for path in NATIVE.iterdir() if path.is_dir())
 FRONTS = {"cli", "python"}  # nothing includes them
+OTHERS = "bundle"  # what the library is built from, where that is built too
 
 
 def included(source):
@@ -35,7 +36,7 @@ def test_includes_run_one_way():
         pytest.fail(f"rooms that include each other: {' -> '.join(error.args[1])}")
     assert order[0] == "core" and "pipeline" in order
     assert graph["core"] == set()
-    assert all(graph[room] for room in ROOMS if room != "core")
+    assert all(graph[room] for room in ROOMS if room not in {"core", OTHERS})
 
 
 def test_nothing_includes_a_front():

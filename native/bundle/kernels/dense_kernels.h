@@ -1,0 +1,58 @@
+// The dense kernels of BLAS and LAPACK that CHOLMOD and linear/ call, made from Eigen: for builds that carry no BLAS.
+// Fortran's calling convention (netlib.org/blas, LAPACK Users' Guide, section 2): everything by address, columns first.
+#pragma once
+
+/// X(name, parameters): `name` as BLAS and LAPACK have it, without the underscore.
+#define KOEBE_DENSE_KERNELS(X)                                                                                         \
+    X(dgemm,                                                                                                           \
+      (const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha,        \
+       const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,                \
+       const int* ldc),                                                                                                \
+      (trans_a, trans_b, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc))                                                \
+    X(dgemv,                                                                                                           \
+      (const char* trans, const int* m, const int* n, const double* alpha, const double* a, const int* lda,            \
+       const double* x, const int* incx, const double* beta, double* y, const int* incy),                              \
+      (trans, m, n, alpha, a, lda, x, incx, beta, y, incy))                                                            \
+    X(dsymm,                                                                                                           \
+      (const char* side, const char* uplo, const int* m, const int* n, const double* alpha, const double* a,           \
+       const int* lda, const double* b, const int* ldb, const double* beta, double* c, const int* ldc),                \
+      (side, uplo, m, n, alpha, a, lda, b, ldb, beta, c, ldc))                                                         \
+    X(dsyrk,                                                                                                           \
+      (const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,          \
+       const int* lda, const double* beta, double* c, const int* ldc),                                                 \
+      (uplo, trans, n, k, alpha, a, lda, beta, c, ldc))                                                                \
+    X(dtrmm,                                                                                                           \
+      (const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,            \
+       const double* alpha, const double* a, const int* lda, double* b, const int* ldb),                               \
+      (side, uplo, trans, diag, m, n, alpha, a, lda, b, ldb))                                                          \
+    X(dtrsm,                                                                                                           \
+      (const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,            \
+       const double* alpha, const double* a, const int* lda, double* b, const int* ldb),                               \
+      (side, uplo, trans, diag, m, n, alpha, a, lda, b, ldb))                                                          \
+    X(dtrsv,                                                                                                           \
+      (const char* uplo, const char* trans, const char* diag, const int* n, const double* a, const int* lda,           \
+       double* x, const int* incx),                                                                                    \
+      (uplo, trans, diag, n, a, lda, x, incx))                                                                         \
+    X(dpotrf, (const char* uplo, const int* n, double* a, const int* lda, int* info), (uplo, n, a, lda, info))         \
+    X(dpotri, (const char* uplo, const int* n, double* a, const int* lda, int* info), (uplo, n, a, lda, info))         \
+    X(dpotrs,                                                                                                          \
+      (const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b, const int* ldb,    \
+       int* info),                                                                                                     \
+      (uplo, n, nrhs, a, lda, b, ldb, info))                                                                           \
+    X(dtrtri, (const char* uplo, const char* diag, const int* n, double* a, const int* lda, int* info),                \
+      (uplo, diag, n, a, lda, info))
+
+namespace koebe::kernels {
+
+struct DenseKernels {
+#define KOEBE_MEMBER(name, parameters, arguments) void(*name) parameters;
+    KOEBE_DENSE_KERNELS(KOEBE_MEMBER)
+#undef KOEBE_MEMBER
+};
+
+/// The same source compiled for several processors: what every one of the target's can do, and more.
+const DenseKernels& baseline();
+const DenseKernels& avx2();    // with FMA
+const DenseKernels& avx512();  // F, DQ, BW, VL
+
+}  // namespace koebe::kernels

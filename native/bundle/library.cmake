@@ -1,0 +1,27 @@
+# The shared library of the wheels: everything inside, only KOEBE_API seen, no system library but the C library's.
+target_link_libraries(koebe_core PRIVATE koebe_cholmod)
+target_compile_definitions(koebe_core PUBLIC KOEBE_SHARED PRIVATE KOEBE_OWN_KERNELS)
+set_target_properties(koebe_core PROPERTIES
+  OUTPUT_NAME koebe PREFIX "$<IF:$<BOOL:${WIN32}>,,lib>"
+  LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe
+  RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe INSTALL_NAME_DIR "@rpath" BUILD_WITH_INSTALL_RPATH ON
+  UNITY_BUILD ON UNITY_BUILD_MODE GROUP DISABLE_PRECOMPILE_HEADERS ON)
+
+# The sources in fourteen heaps, which takes a quarter of the time: most of it goes into headers. Which heap, a file's name
+# tells, so that a new file moves no other. Two files of one heap may not have a name twice in nameless namespaces: then
+# the compiler says so, and one of them is to be compiled by itself, by the property SKIP_UNITY_BUILD_INCLUSION.
+get_target_property(all koebe_core SOURCES)
+foreach(source IN LISTS all)
+  string(MD5 hash ${source})
+  string(SUBSTRING ${hash} 6 4 digits)
+  math(EXPR heap "0x${digits} % 14")
+  set_source_files_properties(${source} PROPERTIES UNITY_GROUP heap${heap})
+endforeach()
+
+if(WIN32)
+  target_link_libraries(koebe_core PRIVATE psapi)
+  target_compile_definitions(koebe_core PRIVATE WIN32_LEAN_AND_MEAN NOMINMAX)
+  # Files are read and written by the command, which Windows has not yet.
+  list(FILTER all EXCLUDE REGEX "^io/")
+  set_target_properties(koebe_core PROPERTIES SOURCES "${all}")
+endif()

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Pack a bundle (-DKOEBE_BUNDLE=ON) into one wheel for every Python of its platform. Standard library only.
+
+Usage: bundle_wheel.py BUILD_FOLDER PLATFORM_TAG OUT_FOLDER     PLATFORM_TAG: manylinux_2_28_x86_64, win_amd64, ...
+
+The wheel holds the package `koebe`, in it the shared library, and beside that a module `_koebe` for each Python, which
+finds its own by the suffix. So its tag is py3-none-PLATFORM, and Blender's extensions take it for every Python. Name,
+dependencies and the like come from pyproject.toml, the version from CMakeLists.txt. Equal input gives an equal wheel.
+"""
+
+import base64
+import hashlib
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+from package_extension import DATE, ROOT, project_version
+
+PACKAGE = ROOT / "native" / "python" / "koebe"
+BINARIES = ("libkoebe.so", "libkoebe.dylib", "koebe.dll", "_koebe.*.so", "_koebe.*.pyd")
+
+
+def project_value(name: str, text: str) -> str:
+    """A string of [project] in pyproject.toml (Python 3.10 has no tomllib)."""
+    return re.search(rf'^{name} = "([^"]*)"', text, re.MULTILINE)[1]
+
+
+def project_list(name: str, text: str) -> list[str]:
+    return re.findall(r'"([^"]*)"', re.search(rf"^{name} = \[(.*?)\]", text, re.MULTILINE | re.DOTALL)[1])
+
+
+def metadata(version: str) -> str:
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    lines = [
+        "Metadata-Version: 2.4",
+        "Name: koebe",
+        f"Version: {version}",
+        f"Summary: {project_value('description', text)}",
+        f"License-Expression: {project_value('license', text)}",
+        "License-File: LICENSE",
+        f"Requires-Python: {project_value('requires-python', text)}",
+        *(f"Classifier: {item}" for item in project_list("classifiers", text)),
+        *(f"Requires-Dist: {item}" for item in project_list("dependencies", text)),
+        "Description-Content-Type: text/markdown",
+    ]
+    return "\n".join(lines) + "\n\n" + (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def members(build: Path, platform: str, version: str) -> dict[str, bytes]:
+    """What the wheel holds but for its RECORD: path -> content."""
+    files = {f"koebe/{path.name}": path.read_bytes() for path in [*PACKAGE.glob("*.py"), PACKAGE / "py.typed"]}
+    binaries = sorted({path for pattern in BINARIES for path in (build / "koebe").glob(pattern)})
+    modules = [path for path in binaries if path.name.startswith("_koebe.")]
+    if len(binaries) - len(modules) != 1 or not modules:
+        raise SystemExit(f"{build / 'koebe'} holds no bundle: {[path.name for path in binaries]}")
+    files.update({f"koebe/{path.name}": path.read_bytes() for path in binaries})
+    info = f"koebe-{version}.dist-info"
+    files[f"{info}/METADATA"] = metadata(version).encode()
+    files[f"{info}/WHEEL"] = (
+        f"Wheel-Version: 1.0\nGenerator: koebe\nRoot-Is-Purelib: false\nTag: py3-none-{platform}\n".encode()
+    )
+    files[f"{info}/licenses/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    return files
+
+
+def record_line(name: str, content: bytes) -> str:
+    digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).decode().rstrip("=")
+    return f"{name},sha256={digest},{len(content)}\n"
+
+
+def main() -> None:
+    if len(sys.argv) != 4:
+        raise SystemExit(__doc__)
+    build, platform, out = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
+    version = project_version()
+    files = members(build, platform, version)
+    record = f"koebe-{version}.dist-info/RECORD"
+    lines = "".join(record_line(name, content) for name, content in sorted(files.items()))
+    files[record] = f"{lines}{record},,\n".encode()
+    out.mkdir(parents=True, exist_ok=True)
+    wheel = out / f"koebe-{version}-py3-none-{platform}.whl"
+    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name in [*sorted(set(files) - {record}), record]:
+            entry = zipfile.ZipInfo(name, DATE)
+            mode = 0o755 if name.endswith((".so", ".dylib", ".pyd", ".dll")) else 0o644
+            entry.external_attr = (0o100000 | mode) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, files[name])
+    print(f"{wheel}: {wheel.stat().st_size / 1e6:.1f} MB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Check the wheels of `make dist` by what their binaries ask of a system. Standard library only.
+
+Usage: check_dist.py FOLDER_OF_WHEELS
+"""
+
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+from binary_facts import Facts, facts_of
+
+PYTHONS = ("310", "311", "312", "313", "314")
+MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
+# Of the system alone: what every machine of it has. manylinux's list [PEP 600], and Windows 10's.
+SYSTEM_LIBRARIES = {
+    "manylinux": r"lib(c|m|pthread|dl|rt)\.so\.\d+|ld-linux-(x86-64|aarch64)\.so\.\d|libkoebe\.so",
+    "win": r"(kernel32|advapi32|ntdll|psapi|user32|ws2_32|bcrypt(primitives)?|ucrtbase|msvcrt|python3\d+|koebe|"
+           r"api-ms-win-[a-z0-9-]+)\.dll",
+    "macosx": r"/usr/lib/libSystem\.B\.dylib|@rpath/libkoebe\.dylib",
+}  # fmt: skip
+
+
+def problems_of(facts: Facts, system: str, tag: str) -> list[str]:
+    """What is wrong with a binary in a wheel of that platform tag."""
+    found = []
+    machine = next(name for end, name in MACHINES.items() if tag.endswith(end))
+    if facts.machine != machine:
+        found.append(f"is for {facts.machine}")
+    foreign = [name for name in facts.libraries if not re.fullmatch(SYSTEM_LIBRARIES[system], name, re.IGNORECASE)]
+    if foreign:
+        found.append(f"needs {', '.join(foreign)}")
+    limit = tuple(map(int, re.findall(r"\d+", tag)[:2])) if system != "win" else ()
+    if system == "manylinux":
+        late = [name for name in facts.versions
+                if (match := re.fullmatch(r"GLIBC_(\d+)\.(\d+)(\.\d+)?", name)) is None
+                or (int(match[1]), int(match[2])) > limit]
+        if late:
+            found.append(f"needs {', '.join(late)}")
+    if system == "macosx":
+        if facts.minimum_os is None or facts.minimum_os > limit:
+            found.append(f"is for macOS {facts.minimum_os}")
+        if machine == "aarch64" and not facts.signed:
+            found.append("has no signature, without which no such Mac loads it")
+    return found
+
+
+def main() -> None:
+    bad = 0
+    wheels = sorted(Path(sys.argv[1]).glob("koebe-*-py3-none-*.whl"))
+    if not wheels:
+        raise SystemExit(f"no wheels in {sys.argv[1]}")
+    for wheel in wheels:
+        tag = wheel.stem.rsplit("-", 1)[1]
+        system = re.match(r"[a-z]+", tag)[0]
+        with zipfile.ZipFile(wheel) as archive:
+            binaries = [name for name in archive.namelist() if name.endswith((".so", ".dylib", ".dll", ".pyd"))]
+            missing = [python for python in PYTHONS if not any(f"_koebe.cp{python}-" in name or f"-{python}-" in name
+                                                               for name in binaries)]
+            said = [f"has no module for Python {python}" for python in missing]
+            needs: set[str] = set()
+            for name in binaries:
+                facts = facts_of(archive.read(name))
+                needs |= set(facts.versions) | set(facts.libraries)
+                said += [f"{name} {problem}" for problem in problems_of(facts, system, tag)]
+        bad += len(said)
+        print(f"{wheel.name}: {'; '.join(said) or 'good'}  [{', '.join(sorted(needs))}]")
+    raise SystemExit(1 if bad else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Build the wheels of one or more platforms from pinned sources, cross compiling, each for every Python: dist/*.whl
+# Usage: scripts/dist.sh VENV PLATFORM...     PLATFORM: linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
+#        VENV: a virtual environment with native/bundle/requirements.txt
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+venv=$(realpath "$1")
+shift
+declare -A targets=(
+    [linux-x64]="x86_64-linux-gnu.2.28 manylinux_2_28_x86_64"
+    [linux-arm64]="aarch64-linux-gnu.2.28 manylinux_2_28_aarch64"
+    [windows-x64]="x86_64-windows-gnu win_amd64"
+    [macos-arm64]="aarch64-macos.11.0 macosx_11_0_arm64"
+    [macos-x64]="x86_64-macos.11.0 macosx_11_0_x86_64"
+)
+
+scripts/fetch_sources.sh
+packages=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$PWD/build/zig-cache}"
+
+for platform in "$@"; do
+    read -r target tag <<<"${targets[$platform]?no such platform}"
+    folder=build/dist-$platform
+    cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DKOEBE_BUNDLE=ON -DKOEBE_TARGET="$target" \
+        -DCMAKE_TOOLCHAIN_FILE="$PWD/native/bundle/zig.cmake" -DKOEBE_ZIG="$packages/ziglang/zig" \
+        -Dpybind11_include="$packages/pybind11/include" \
+        -DKOEBE_BUILD_CLI=OFF -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
+    cmake --build "$folder"
+    rm -f dist/koebe-*-py3-none-"$tag".whl
+    "$venv/bin/python" scripts/bundle_wheel.py "$folder" "$tag" dist
+done

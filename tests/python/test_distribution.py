@@ -1,0 +1,108 @@
+"""The wheels and zips of a release: what is written into them, and what their binaries are checked for."""
+
+import importlib.util
+import sys
+import zipfile
+from pathlib import Path
+
+import koebe
+import pytest
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def scripts_importable():
+    sys.path.insert(0, str(SCRIPTS))
+    yield
+    sys.path.remove(str(SCRIPTS))
+
+
+def script(name):
+    spec = importlib.util.spec_from_file_location(name, SCRIPTS / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def bundle(folder, *names):
+    (folder / "koebe").mkdir(parents=True)
+    for name in names:
+        (folder / "koebe" / name).write_bytes(name.encode())
+    return folder
+
+
+def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch):
+    build = bundle(tmp_path / "build", "libkoebe.so", "_koebe.cpython-311-x86_64-linux-gnu.so",
+                   "_koebe.cpython-313-x86_64-linux-gnu.so")  # fmt: skip
+    packer = script("bundle_wheel")
+    for out in ("one", "two"):
+        monkeypatch.setattr(sys, "argv", ["", str(build), "manylinux_2_28_x86_64", str(tmp_path / out)])
+        packer.main()
+    (wheel,), (again,) = ((tmp_path / out).glob("*.whl") for out in ("one", "two"))
+    assert wheel.name.endswith("-py3-none-manylinux_2_28_x86_64.whl")
+    assert wheel.read_bytes() == again.read_bytes()
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+        info = next(name for name in names if name.endswith("RECORD")).rpartition("/")[0]
+        metadata = archive.read(f"{info}/METADATA").decode()
+        lines = archive.read(f"{info}/RECORD").decode().splitlines()
+        for line in lines[:-1]:
+            name = line.rsplit(",", 2)[0]
+            assert packer.record_line(name, archive.read(name)).strip() == line
+    assert {line.rsplit(",", 2)[0] for line in lines} == set(names)
+    assert {"koebe/__init__.py", "koebe/libkoebe.so", "koebe/py.typed"} < set(names)
+    assert "Requires-Python: >=3.10\n" in metadata and "Requires-Dist: numpy" in metadata
+
+
+def test_what_is_no_bundle_makes_no_wheel(tmp_path, monkeypatch):
+    packer = script("bundle_wheel")
+    for number, names in enumerate([("libkoebe.so",), ("_koebe.cpython-311-darwin.so",)]):
+        build = bundle(tmp_path / str(number), *names)
+        monkeypatch.setattr(sys, "argv", ["", str(build), "linux_x86_64", str(tmp_path / "out")])
+        with pytest.raises(SystemExit, match="holds no bundle"):
+            packer.main()
+
+
+def test_a_release_has_a_zip_for_each_platform_and_leaves_the_one_of_this_machine(tmp_path, monkeypatch):
+    packer = script("package_extension")
+    version = packer.project_version()
+    for tag in ("cp311-cp311-linux_x86_64", "py3-none-manylinux_2_28_x86_64", "py3-none-win_amd64"):
+        (tmp_path / f"koebe-{version}-{tag}.whl").write_bytes(tag.encode())
+    for options in ([], ["--release"], []):
+        monkeypatch.setattr(sys, "argv", ["", "--dist", str(tmp_path), *options])
+        packer.main()
+    wheels = {}
+    for package in tmp_path.glob("*.zip"):
+        with zipfile.ZipFile(package) as archive:
+            wheels[package.name.removeprefix("koebe_uv-")] = sorted(
+                name.rpartition("/")[2].split("-", 2)[2] for name in archive.namelist() if name.endswith(".whl"))
+            manifest = archive.read("koebe_uv/blender_manifest.toml").decode()
+            assert manifest.count("./wheels/") == len(wheels[package.name.removeprefix("koebe_uv-")])
+    linux, windows = "py3-none-manylinux_2_28_x86_64.whl", "py3-none-win_amd64.whl"
+    assert wheels == {
+        f"{version}.zip": ["cp311-cp311-linux_x86_64.whl"],
+        f"{version}-linux-x64.zip": [linux],
+        f"{version}-windows-x64.zip": [windows],
+        f"{version}-all.zip": [linux, windows],
+    }
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads this interpreter's own module")
+def test_a_binary_says_what_it_needs():
+    facts = script("binary_facts").facts_of(Path(koebe._koebe.__file__).read_bytes())
+    assert any(name.startswith("libc.so") for name in facts.libraries)
+    assert any(name.startswith("GLIBC_2.") for name in facts.versions)
+
+
+def test_a_binary_that_asks_too_much_is_named():
+    check, facts = script("check_dist"), script("binary_facts").Facts
+    tag = "manylinux_2_28_x86_64"
+    good = facts("x86_64", ["libc.so.6", "libm.so.6", "libkoebe.so"], ["GLIBC_2.28", "GLIBC_2.2.5"])
+    assert check.problems_of(good, "manylinux", tag) == []
+    bad = facts("aarch64", ["libgfortran.so.5", "libc.so.6"], ["GLIBC_2.34", "GLIBCXX_3.4.29"])
+    assert check.problems_of(bad, "manylinux", tag) == [
+        "is for aarch64", "needs libgfortran.so.5", "needs GLIBC_2.34, GLIBCXX_3.4.29"]
+    mac = facts("aarch64", ["/usr/lib/libSystem.B.dylib"], minimum_os=(13, 0), signed=False)
+    assert [problem.split()[0] for problem in check.problems_of(mac, "macosx", "macosx_11_0_arm64")] == ["is", "has"]
