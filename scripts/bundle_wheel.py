@@ -39,6 +39,7 @@ def metadata(version: str) -> str:
         f"Summary: {project_value('description', text)}",
         f"License-Expression: {project_value('license', text)}",
         "License-File: LICENSE",
+        "License-File: THIRD_PARTY.md",
         f"Requires-Python: {project_value('requires-python', text)}",
         *(f"Classifier: {item}" for item in project_list("classifiers", text)),
         *(f"Requires-Dist: {item}" for item in project_list("dependencies", text)),
@@ -60,7 +61,8 @@ def members(build: Path, platform: str, version: str) -> dict[str, bytes]:
     files[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: koebe\nRoot-Is-Purelib: false\nTag: py3-none-{platform}\n".encode()
     )
-    files[f"{info}/licenses/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    for name in ("LICENSE", "THIRD_PARTY.md"):
+        files[f"{info}/licenses/{name}"] = (ROOT / name).read_bytes()
     return files
 
 
