@@ -9,8 +9,14 @@ import struct
 
 @dataclasses.dataclass
 class Facts:
-    """libraries: those it loads; versions: the symbol versions it needs of them ("GLIBC_2.14"), on Linux; minimum_os: on
-    macOS; signed: whether it has a code signature, on macOS; machine: of the processor."""
+    """What is said of one library.
+
+    machine     the processor's name
+    libraries   those it loads
+    versions    on Linux the symbol versions it needs of them: "GLIBC_2.14"
+    minimum_os  on macOS
+    signed      on macOS whether it has a code signature
+    """
 
     machine: str
     libraries: list[str]

@@ -37,6 +37,9 @@ apt=(apt-get -q -q -o "Dir::Etc::sourcelist=$sources_of" -o Dir::Etc::sourcepart
     done
 )
 
+# CGAL 5.5 names in templates a member that is not there, and newer compilers look before anything is made of them.
+sed -i 's/this->base() == nullptr/this->g == nullptr/' "$target/headers/usr/include/CGAL/boost/graph/iterator.h"
+
 for python in "${pythons[@]}"; do
     short=$(cut -d. -f1-2 <<<"$python")
     for system in "${systems[@]}"; do

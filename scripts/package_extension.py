@@ -2,9 +2,9 @@
 """Pack addon/ and its wheels into dist/koebe_uv-VERSION.zip. Standard library only.
 
 With --release the wheels are those of `make dist`, one a platform for every Python, and so are the zips:
-dist/koebe_uv-VERSION-PLATFORM.zip, and koebe_uv-VERSION-all.zip with every wheel if that is not too large. Without, they
-are those that `make wheel` has built for Pythons of this machine. The two kinds are never in one zip: from wheels of both,
-Blender would conclude that the extension is for the Pythons of the second kind alone.
+dist/koebe_uv-VERSION-PLATFORM.zip, and koebe_uv-VERSION-all.zip with every wheel if that is not too large. Without,
+they are those that `make wheel` has built for Pythons of this machine. The two kinds are never in one zip: from wheels
+of both, Blender would conclude that the extension is for the Pythons of the second kind alone.
 
 The one zip is an extension (Blender 4.2 and later) and a legacy add-on (3.4 to 4.1): both accept files under
 a single folder `koebe_uv/`. The version comes from project(koebe VERSION ...) in CMakeLists.txt; it is written
@@ -110,7 +110,8 @@ def main() -> None:
     release = sorted(arguments.dist.glob(f"koebe-{version}-py3-none-*.whl"))
     wheels = release if arguments.release else sorted({*arguments.dist.glob(f"koebe-{version}-*.whl")} - {*release})
     if not wheels:
-        raise SystemExit(f"no wheel of koebe {version} in {arguments.dist}: make {'dist' if arguments.release else 'wheel'}")
+        target = "dist" if arguments.release else "wheel"
+        raise SystemExit(f"no wheel of koebe {version} in {arguments.dist}: make {target}")
     for old in arguments.dist.glob(f"{FOLDER}-*.zip"):
         if bool(re.search(r"-[a-z0-9]+-[a-z0-9]+\.zip$|-all\.zip$", old.name)) == arguments.release:
             old.unlink()

@@ -14,7 +14,7 @@
 namespace koebe {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double hole_damping = 2.0 / 3.0;  // the factors of all modes then lie within 1/3
 constexpr double newton_per_target = 1e-3;  // a target that still moves need not be met better than that
 
