@@ -2,7 +2,7 @@
 target_link_libraries(koebe_core PRIVATE koebe_cholmod)
 target_compile_definitions(koebe_core PUBLIC KOEBE_SHARED PRIVATE KOEBE_OWN_KERNELS)
 set_target_properties(koebe_core PROPERTIES
-  OUTPUT_NAME koebe PREFIX "$<IF:$<BOOL:${WIN32}>,,lib>"
+  OUTPUT_NAME koebe
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe
   RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe INSTALL_NAME_DIR "@rpath" BUILD_WITH_INSTALL_RPATH ON
   UNITY_BUILD ON UNITY_BUILD_MODE GROUP DISABLE_PRECOMPILE_HEADERS ON)
@@ -19,6 +19,7 @@ foreach(source IN LISTS all)
 endforeach()
 
 if(WIN32)
+  set_target_properties(koebe_core PROPERTIES PREFIX "")
   target_link_libraries(koebe_core PRIVATE psapi)
   target_compile_definitions(koebe_core PRIVATE WIN32_LEAN_AND_MEAN NOMINMAX)
   # Files are read and written by the command, which Windows has not yet.
