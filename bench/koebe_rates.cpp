@@ -102,7 +102,7 @@ nlohmann::ordered_json steps(const std::string& name, Index faces, const std::st
                                    {"pair", {step.pair.first, step.pair.second}},
                                    {"error", test::inversive_distance_error(step.circles, last.circles)},
                                    {"exact_error", test::inversive_distance_error(step.circles, exact)},
-                                   {"mean_roundness", step.mean_roundness}});
+                                   {"mean_roundness", step.mean_roundness.all.paper}});
     }
     return report;
 }

@@ -58,7 +58,7 @@ void write_files(const MapRequest& request, const MeshInput& input, UniformizeRe
 std::string result_line(const MapRequest& request, const UniformizeResult& result)
 {
     double roundness = 0.0;
-    for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness);
+    for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness.paper);
     const auto rounded = [](const char* format, double number) {
         char text[32];
         std::snprintf(text, sizeof text, format, number);

@@ -1,6 +1,5 @@
 #include "embedding/filled_map.h"
 
-#include "circles/circle_fit.h"
 #include "core/tolerances.h"
 #include "embedding/roomy_rim.h"
 #include "foldover/patch_shapes.h"
@@ -231,7 +230,7 @@ VectorXcd FilledMap::image_of(std::size_t loop) const
     return image;
 }
 
-double FilledMap::roundness_of(std::size_t loop) const
+Roundness FilledMap::roundness_of(std::size_t loop) const
 {
     VectorXcd image = image_of(loop);
     Eigen::Index count = 0;

@@ -1,7 +1,7 @@
 // A one-to-one map of a surface with its holes filled, which stays one to one whatever moves.
 #pragma once
 
-#include "circles/circle.h"
+#include "circles/circle_fit.h"
 #include "core/execution.h"
 #include "core/topology.h"
 #include "embedding/convex_embedding.h"
@@ -54,7 +54,7 @@ public:
     Index fan_centre(std::size_t loop) const { return filled_.surface_vertices + static_cast<Index>(loop) - 1; }
     VectorXcd image_of(std::size_t loop) const;
     /// How round a loop lies about its circle, vertices that are not pulled aside.
-    double roundness_of(std::size_t loop) const;
+    Roundness roundness_of(std::size_t loop) const;
     /// Vertices of an inner loop that are not on its circle. @param pulled only those that should be
     std::vector<Index> off_circle(std::size_t loop, bool pulled) const;
     PlanarPoints surface_points() const { return now_.points.topRows(surface_.vertex_count); }

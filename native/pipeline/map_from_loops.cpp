@@ -29,9 +29,9 @@ Moebius normal_position(const std::vector<Circle>& circles)
 bool is_lost(const Circle& circle, const VectorXcd& image)
 {
     constexpr double least_radius = 1e-18, least_share = 4.0 * std::numeric_limits<double>::epsilon();
-    constexpr double no_circle = 0.5;  // roundness
+    constexpr double no_circle = 0.5;  // of the radius
     return !(circle.radius > std::max(least_radius, least_share * std::abs(circle.center))) ||
-           !(roundness(image, circle) < no_circle);
+           !(deviation_from(circle, image) < no_circle);
 }
 
 /// The images put on their circles: (m, 2), loop after loop. Takes their roundness.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/types.h"
+#include "iteration/koebe_mesh_options.h"
 #include "iteration/koebe_outcome.h"
 
 namespace koebe {
@@ -13,6 +14,7 @@ enum class Balance { none, area };  ///< area: the disk automorphism with the le
 
 struct UniformizeOptions : IterationOptions {
     Engine engine = Engine::condensed;
+    KoebeMeshOptions mesh;  ///< with Engine::mesh
     OuterLoop outer = OuterLoop::automatic;
     Index outer_vertex = -1;  ///< with OuterLoop::vertex: a vertex of the loop to put on the unit circle
     Balance balance = Balance::none;

@@ -9,6 +9,7 @@
 #include "core/peak_memory.h"
 #include "embedding/embedded_map.h"
 #include "foldover/angle_polish.h"
+#include "iteration/koebe_mesh.h"
 #include "linear/dense_spd.h"
 #include "pipeline/domain.h"
 #include "pipeline/final_check.h"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -68,6 +70,8 @@ Problem prepare(const Vertices& vertices, const Triangles& triangles, const Unif
     require_memory_for_faces(triangles.rows());
     Problem problem;
     problem.whole = prepare_domain(vertices, triangles, options);
+    if (options.engine == Engine::mesh)
+        require_possible(options.mesh, static_cast<int>(problem.whole.loops.size()), options.method);
     // A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
     if (!is_polygon(problem.whole))
         problem.cut = cut_flaps(problem.whole.vertices, problem.whole.surface, problem.whole.loops);
@@ -138,6 +142,18 @@ void polish(const Domain& whole, CircleMap& map, MapFaults& faults, ExecutionCon
         faults = std::move(polished);
 }
 
+/// The image of each step on the input's vertices.
+std::vector<PlanarPoints> on_input(const std::vector<VectorXcd>& images, const Domain& domain, Index vertex_count)
+{
+    std::vector<PlanarPoints> result;
+    for (const VectorXcd& image : images) {
+        result.push_back(PlanarPoints::Constant(vertex_count, 2, std::numeric_limits<double>::quiet_NaN()));
+        for (Eigen::Index v = 0; v < image.size(); ++v)
+            result.back().row(domain.original[v]) << image[v].real(), image[v].imag();
+    }
+    return result;
+}
+
 void append(std::vector<Warning>& warnings, std::vector<Warning> more)
 {
     std::move(more.begin(), more.end(), std::back_inserter(warnings));
@@ -183,6 +199,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.sweeps = problem.outcome.sweeps;
     result.steps = problem.outcome.steps;
     result.history = problem.outcome.history;
+    result.step_images = on_input(problem.outcome.step_images, problem.domain(), result.vertex_count);
 
     context.begin_stage("finish", 0.9, 1.0);
     UntangleReport untangled;

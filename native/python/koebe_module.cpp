@@ -93,7 +93,10 @@ PYBIND11_MODULE(_koebe, m)
     translate_errors();
     py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
 
-    py::enum_<Method>(m, "Method").value("gk", Method::gk).value("ck", Method::ck);
+    py::enum_<Method>(m, "Method")
+        .value("gk", Method::gk)
+        .value("ck", Method::ck)
+        .value("against-outer", Method::against_outer);
     py::enum_<Engine>(m, "Engine").value("condensed", Engine::condensed).value("mesh", Engine::mesh);
     py::enum_<OuterLoop>(m, "OuterLoop")
         .value("automatic", OuterLoop::automatic)
@@ -105,13 +108,27 @@ PYBIND11_MODULE(_koebe, m)
         .value("harmonic", AnnulusBackend::harmonic)
         .value("yamabe", AnnulusBackend::yamabe);
 
+    using Metric = KoebeMeshOptions::Metric;
+    py::enum_<Metric>(m, "Metric")
+        .value("first", Metric::first)
+        .value("planar", Metric::planar)
+        .value("reflected", Metric::reflected);
+    py::enum_<Partners>(m, "Partners").value("fixed", Partners::fixed).value("changing", Partners::changing);
+
     py::class_<CancelToken>(m, "CancelToken", "A flag that any thread may raise to stop a computation.")
         .def(py::init<>())
         .def("cancel", &CancelToken::cancel)
         .def_property_readonly("cancelled", &CancelToken::cancelled);
 
+    py::class_<KoebeMeshOptions>(m, "KoebeMeshOptions")
+        .def_readwrite("metric", &KoebeMeshOptions::metric)
+        .def_readwrite("partners", &KoebeMeshOptions::partners)
+        .def_readwrite("schedule", &KoebeMeshOptions::schedule)
+        .def_readwrite("annulus", &KoebeMeshOptions::annulus)
+        .def_readwrite("record_steps", &KoebeMeshOptions::record_steps);
     py::class_<UniformizeOptions>(m, "UniformizeOptions")
         .def(py::init<>())
+        .def_readonly("mesh", &UniformizeOptions::mesh)
         .def_readwrite("method", &UniformizeOptions::method)
         .def_readwrite("engine", &UniformizeOptions::engine)
         .def_readwrite("outer", &UniformizeOptions::outer)
@@ -128,6 +145,7 @@ PYBIND11_MODULE(_koebe, m)
     m.attr("warning_elements") = warning_elements;
     py::class_<UniformizeResult>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
+        .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; })
         .def_property_readonly("flipped_faces", [](const UniformizeResult& r) { return r.distortion.flipped; })
         .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
 

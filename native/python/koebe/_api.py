@@ -7,11 +7,36 @@ import numpy as np
 
 from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
 from ._native import _koebe
-from ._options import callback, choice, flag, outer_loop, positive, token, whole
+from ._options import callback, choice, flag, outer_loop, positive, sweep, token, whole
 from ._result import UniformizeResult
-from .errors import InputError, SolverError, TopologyError
+from .errors import InputError, OptionError, SolverError, TopologyError
 
 Progress = Callable[[float, str], Any]
+
+
+def _set_mesh_engine(
+    options: "_koebe.UniformizeOptions", partners: Any, schedule: Any, metric: Any, annulus: Any, record_steps: Any
+) -> None:
+    mesh = options.mesh
+    mesh.partners = choice(partners, "partners", _koebe.Partners)
+    mesh.schedule = sweep(schedule, "schedule")
+    mesh.metric = choice(metric, "metric", _koebe.Metric)
+    mesh.annulus = choice(annulus, "annulus", _koebe.AnnulusBackend)
+    mesh.record_steps = flag(record_steps, "record_steps")
+    if options.engine != _koebe.Engine.mesh:
+        asked = {
+            "partners": partners != "fixed",
+            "schedule": schedule is not None,
+            "metric": metric != "first",
+            "annulus": annulus != "harmonic",
+            "record_steps": record_steps,
+        }
+        for name in (name for name, is_asked in asked.items() if is_asked):
+            raise OptionError(f"{name} is an option of engine='mesh'")
+    if mesh.partners == _koebe.Partners.changing and (options.method != _koebe.Method.gk or mesh.schedule):
+        raise OptionError("partners change with method='gk' alone, and without a schedule")
+    if mesh.annulus == _koebe.AnnulusBackend.yamabe and mesh.metric == _koebe.Metric.first:
+        raise OptionError("annulus='yamabe' needs metric='planar' or 'reflected'")
 
 
 def _options(
@@ -43,12 +68,18 @@ def uniformize(
     cancel: "_koebe.CancelToken | None" = None,
     threads: int = 0,
     polish: bool = False,
+    partners: str = "fixed",
+    schedule: Sequence[Sequence[int]] | None = None,
+    metric: str = "first",
+    annulus: str = "harmonic",
+    record_steps: bool = False,
 ) -> UniformizeResult:
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
     vertices     (V, 3) float32 or float64, any unit, any order, read-only accepted, never modified
     triangles    (F, 3) int32 or int64, counter-clockwise seen from outside
-    method       'gk': pairs of loops opened at once; 'ck': one loop and the outer one (paper, section 4.4)
+    method       'gk': two loops a step (paper, section 4.4, second algorithm); 'ck': one loop a step, all others filled
+                 (section 1.2); 'against-outer': one hole a step, the outer loop never filled (section 4.4, first one)
     engine       'condensed': boundary angles alone (default); 'mesh': the paper's patches as real triangles
     outer        the loop on the unit circle: 'auto', 'longest', or a vertex of it
     tolerance    stop when the circles move by less in a sweep, a length in the unit disk
@@ -59,12 +90,22 @@ def uniformize(
     threads      of the dense and sparse kernels; 0 takes all cores
     polish       at the end, lower the angle error with the circles as they are; takes many times as long
 
+    With engine='mesh', the paper's own choices:
+    partners     'fixed', or 'changing': with 'gk' each sweep pairs the loops another way (Fig. 4)
+    schedule     the loops that each step of a sweep opens, as places in the result's `loops`: pairs, with 'ck' single
+                 ones; None: the method's own order
+    metric       each step's: 'first', the surface's; 'planar', of the last step's image, as in print; 'reflected', that
+                 after the reflection tau in a circle inside a hole
+    annulus      'harmonic': 1-forms (section 4.2); 'yamabe': the discrete Yamabe flow (abstract)
+    record_steps keep each step's own image: `step_maps`
+
     One loop gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe
     iteration (section 4.4). Ctrl-C ends the call at once, as it does in all functions here.
     Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
     options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish)
+    _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     return UniformizeResult(_koebe.uniformize(*as_surface(vertices, triangles), options, progress, cancel))
 
@@ -116,8 +157,8 @@ def fill_holes(
     """Fill boundary loops.
 
     loops   ranks in the list that boundary_loops gives; None for all of them
-    fair    False: fans around the loops' mass centres (paper, section 4.4). True: triangles as long as those around
-            the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
+    fair    False: fans around the means of the loops' vertices (paper, section 4.4). True: triangles as long as those
+            around the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
     Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
     """
     positions, faces = as_surface(vertices, triangles)

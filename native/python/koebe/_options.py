@@ -21,6 +21,19 @@ def choice(value: Any, option: str, enumeration: Any) -> Any:
     return members[value]
 
 
+def sweep(value: Any, option: str) -> list[list[int]]:
+    """The loops that each step of a sweep opens."""
+    if value is None:
+        return []
+    if isinstance(value, (str, bytes)):
+        raise TypeError(f"{option} must be a list of steps, each a list of loops, not {value!r}")
+    listed = [[step] if isinstance(step, Integral) else step for step in value]
+    steps = [[whole(loop, option, least=0) for loop in step] for step in listed]
+    if not steps or not all(steps):
+        raise OptionError(f"{option} must have steps, and each step loops, not {value!r}")
+    return steps
+
+
 def flag(value: Any, option: str) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{option} must be True or False, not {value!r}")

@@ -84,12 +84,29 @@ class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
 
 
 class Step(TypedDict):
-    """A step of the Koebe iteration: the loops it opened, the change of all circles, the mean e(gamma_k) after it."""
+    """A step of the Koebe iteration: the loops it opened, the change of all circles, the mean e(gamma_k) after it.
+
+    mean_roundness_holes is the mean without the outer loop.
+    """
 
     step: int
     pair: list[int]
     change: float
     mean_roundness: float
+    mean_roundness_holes: float
+
+
+class MeanOverLoops(TypedDict):
+    """Means over all loops, and over all but the outer one; 0 without any."""
+
+    all: float
+    holes: float
+
+
+class MeanRoundness(MeanOverLoops):
+    """Means of the paper's e(gamma_k), and of `roundness_least_squares`."""
+
+    least_squares: MeanOverLoops
 
 
 class Seconds(TypedDict):
@@ -112,12 +129,16 @@ class UniformizeResult:
     loops            int32 arrays of vertices, the surface on the left, the outer loop first
     centers, radii   (L, 2) and (L,) circles in the unit disk
     roundness        (L,) the paper's e(gamma_k) before the final projection (section 5)
+    roundness_least_squares     (L,) deviation from the circle of least squares, in radii, before the final projection
+    mean_roundness   their means
     off_circle       int32 arrays: vertices of each loop that are not on its circle
     vertices, faces  their counts
     method, engine   as chosen
     outer_loop       which of boundary_loops(triangles) is the outer one
     converged, sweeps, steps     of the iteration
-    history          one entry a step: step, pair, change, mean_roundness
+    history          one entry a step, a Step
+    step_maps        per step, if asked for: (V, 2) its own image, the first loop that it opened on the unit circle; NaN
+                     for vertices that are not in it
     angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say
     flipped, below_resolution    counts of faces, as in the command's JSON
     flipped_faces    int32 array of the faces that `flipped` counts, rising
@@ -131,6 +152,8 @@ class UniformizeResult:
     centers: np.ndarray
     radii: np.ndarray
     roundness: np.ndarray
+    roundness_least_squares: np.ndarray
+    mean_roundness: MeanRoundness
     off_circle: list[np.ndarray]
     vertices: int
     faces: int
@@ -141,6 +164,7 @@ class UniformizeResult:
     sweeps: int
     steps: int
     history: list[Step]
+    step_maps: list[np.ndarray]
     angle_error_deg: AngleError
     beltrami: Beltrami
     area_distortion: AreaDistortion
@@ -164,6 +188,8 @@ class UniformizeResult:
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
+        self.roundness_least_squares = np.array([loop["roundness_least_squares"] for loop in loops])
+        self.step_maps = native.step_maps
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
         self.flipped_faces = np.array(native.flipped_faces, dtype=np.int32)
         self.warnings = [Warning(warning) for warning in report["warnings"]]
