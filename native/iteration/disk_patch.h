@@ -7,7 +7,7 @@
 namespace koebe {
 
 struct DiskPatchOptions {
-    /// In mean edges of the rim. 1 is what the paper says, and what keeps second order: the disk of loop 0 may then
+    /// In mean edges of the rim. 1 keeps second order (the paper says nothing of it): the disk of loop 0 may then
     /// have more faces than the surface. With 1.5 the error is up to ten times larger, with 3 it stops falling.
     double longest_edge = 1.0;
     double gradation = 0.25;   ///< growth of the edge length per distance from the rim, dimensionless

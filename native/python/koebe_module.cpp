@@ -9,6 +9,7 @@
 #include "core/topology.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "io/polygon_triangulation.h"
 #include "linear/dense_spd.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
@@ -168,6 +169,13 @@ PYBIND11_MODULE(_koebe, m)
         return std::make_tuple(std::move(filled.vertices), std::move(filled.triangles),
                                py::array_t<Index>(filled.label.size(), filled.label.data()));
     });
+    using Indices = Eigen::Ref<const Eigen::VectorX<Index>>;
+    m.def("triangulate", [](const Eigen::Ref<const Vertices>& vertices, const Indices& corners, const Indices& begin) {
+        PolygonMesh mesh{vertices, {corners.begin(), corners.end()}, {begin.begin(), begin.end()}};
+        const bool small = begin.size() < small_mesh;
+        const Triangulation cut = detached([mesh = std::move(mesh)] { return triangulate(mesh); }, small);
+        return std::make_tuple(cut.triangles, py::array_t<Index>(cut.face.size(), cut.face.data()));
+    });
     m.def("harmonic_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                              const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values,
                              bool uniform) {
@@ -208,7 +216,11 @@ PYBIND11_MODULE(_koebe, m)
                         true);
     });
     m.def("module_names", &module_names);
-    m.def("require_own_circles", [](const UniformizeResult& result) { require_own_circles(result.loops); });
+    m.def("require_own_circles", [](const std::vector<bool>& own) {
+        std::vector<LoopReport> loops(own.size());
+        for (std::size_t k = 0; k < own.size(); ++k) loops[k].shrunk = !own[k];
+        require_own_circles(loops);
+    });
     m.def("canonical_order", [](const PlanarPoints& centers, const VectorXd& radii, bool any_outer) {
         return detached(
             [circles = circles_of(centers, radii), any_outer] { return canonical_order(circles, any_outer); });

@@ -22,7 +22,8 @@ Json loop_json(const LoopReport& loop)
             {"roundness", loop.roundness.paper},
             {"roundness_least_squares", loop.roundness.least_squares},
             {"roundness_projected", loop.roundness_projected},
-            {"off_circle", loop.off_circle}};
+            {"off_circle", loop.off_circle},
+            {"own_circle", !loop.shrunk}};
 }
 
 Json mean_roundness_json(const std::vector<LoopReport>& loops)

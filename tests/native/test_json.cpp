@@ -62,7 +62,7 @@ TEST(Json, HasTheKeysOfTheContractInItsOrder)
     EXPECT_EQ(keys_of(report["history"][0]),
               (Keys{"step", "pair", "change", "mean_roundness", "mean_roundness_holes"}));
     EXPECT_EQ(keys_of(report["loops"][0]), (Keys{"vertices", "center", "radius", "roundness", "roundness_least_squares",
-                                                 "roundness_projected", "off_circle"}));
+                                                 "roundness_projected", "off_circle", "own_circle"}));
     EXPECT_EQ(keys_of(report["angle_error_deg"]), (Keys{"mean", "sd", "max"}));
     EXPECT_EQ(keys_of(report["beltrami"]), (Keys{"mean", "max"}));
     EXPECT_EQ(keys_of(report["seconds"]),

@@ -99,7 +99,7 @@ def test_the_report_has_the_keys_of_the_contract(mesh):
     assert len(report["history"]) == report["steps"] > 0
     assert set(report["loops"][0]) == {
         *("vertices", "center", "radius", "roundness", "roundness_least_squares"),
-        *("roundness_projected", "off_circle"),
+        *("roundness_projected", "off_circle", "own_circle"),
     }
     assert list(report["seconds"]) == [*("read", "topology", "metric", "factor", "iterate", "finish", "write", "total")]
     parts = [value for stage, value in report["seconds"].items() if stage != "total"]

@@ -13,8 +13,10 @@ from ._api import (
     harmonic_map,
     uniformize,
 )
+from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
-from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning
+from ._plot import plot
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning, load
 from ._shapes import (
     DomainAlignment,
     align_domains,
@@ -47,11 +49,15 @@ __all__ = [
     "canonical_order",
     "conformal_module",
     "disk_map",
+    "disk_to_uv",
     "distortion",
     "fill_holes",
     "harmonic_map",
+    "load",
     "match_loops",
     "module_distance",
     "module_names",
+    "plot",
     "uniformize",
+    "uv_to_disk",
 ]

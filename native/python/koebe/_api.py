@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
+from ._meshes import is_mesh, read_mesh
 from ._native import _koebe
 from ._options import callback, choice, flag, outer_loop, positive, sweep, token, whole
-from ._result import UniformizeResult
+from ._result import Source, UniformizeResult
 from .errors import InputError, OptionError, SolverError, TopologyError
 
 Progress = Callable[[float, str], Any]
@@ -56,7 +57,7 @@ def _options(
 
 def uniformize(
     vertices: Any,
-    triangles: Any,
+    triangles: Any = None,
     *,
     method: str = "gk",
     engine: str = "condensed",
@@ -78,6 +79,8 @@ def uniformize(
 
     vertices     (V, 3) float32 or float64, any unit, any order, read-only accepted, never modified
     triangles    (F, 3) int32 or int64, counter-clockwise seen from outside
+    In place of both: a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh or a meshio Mesh, with triangles,
+    quadrilaterals or polygons; the result's to_mesh() gives the same kind back, with UVs and fields
     method       'gk': two loops a step (paper, section 4.4, second algorithm); 'ck': one loop a step, all others filled
                  (section 1.2); 'against-outer': one hole a step, the outer loop never filled (section 4.4, first one)
     engine       'condensed': boundary angles alone (default); 'mesh': the paper's patches as real triangles
@@ -107,7 +110,26 @@ def uniformize(
     options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish)
     _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    return UniformizeResult(_koebe.uniformize(*as_surface(vertices, triangles), options, progress, cancel))
+    source = _source(vertices, triangles)
+    native = _koebe.uniformize(source.vertices, source.triangles, options, progress, cancel)
+    return UniformizeResult(native.report(), native.uv, np.array(native.flipped_faces), native.step_maps, source)
+
+
+def _source(vertices: Any, triangles: Any) -> Source:
+    """The surface as arrays, of a mesh of another package too."""
+    if not is_mesh(vertices):
+        if triangles is None:
+            raise TypeError("give vertices and triangles, or a mesh of PyVista, trimesh or meshio")
+        return Source(*as_surface(vertices, triangles))
+    if triangles is not None:
+        raise TypeError("a mesh has its own faces: give no triangles")
+    polygons = read_mesh(vertices)
+    positions = as_points(np.asarray(polygons.vertices, dtype=np.float64), "vertices", 3)
+    corners = polygons.corners
+    if len(corners) and not 0 <= corners.min() <= corners.max() < len(positions):
+        raise InputError("faces of the mesh name a vertex that does not exist")
+    faces, polygon = _koebe.triangulate(positions, corners.astype(np.int32), polygons.begin.astype(np.int32))
+    return Source(*as_surface(positions, faces), vertices, polygons, polygon)
 
 
 def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[np.ndarray]:

@@ -1,6 +1,7 @@
 """Options as the native module takes them: TypeError for a wrong type, OptionError for a wrong value."""
 
 import math
+from collections.abc import Mapping
 from numbers import Integral, Real
 from typing import Any
 
@@ -14,7 +15,11 @@ _MOST = 2**31 - 1  # of a 32-bit integer
 
 def choice(value: Any, option: str, enumeration: Any) -> Any:
     """The member of a native enumeration with this name."""
-    members = enumeration.__members__
+    return choice_of(value, option, enumeration.__members__)
+
+
+def choice_of(value: Any, option: str, members: Mapping[str, Any]) -> Any:
+    """What this name stands for."""
     _require(value, option, str, "a text")
     if value not in members:
         raise OptionError(f"{option} must be one of {', '.join(members)}, not {value!r}")

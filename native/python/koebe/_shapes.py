@@ -19,7 +19,7 @@ from .errors import InputError, OptionError
 def _require_own_circles(domain: Any) -> None:
     """Refuse a result with circles other than the iteration's: it has no module."""
     if isinstance(domain, UniformizeResult):
-        _koebe.require_own_circles(domain._native)
+        _koebe.require_own_circles(domain.own_circle.tolist())
 
 
 def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
