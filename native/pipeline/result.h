@@ -50,7 +50,7 @@ struct UniformizeResult {
     int sweeps = 0, steps = 0;
     std::vector<KoebeStep> history;
     /// (V, 2) per step, if asked for: its own image, the first loop that it opened on the unit circle; NaN for vertices
-    /// that are not in it.
+    /// that are not in it, or that it could not place.
     std::vector<PlanarPoints> step_images;
     Distortion distortion;
     std::optional<AreaDistortion> unbalanced_area;         ///< before the balance, if one was asked for

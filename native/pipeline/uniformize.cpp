@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -149,7 +150,8 @@ std::vector<PlanarPoints> on_input(const std::vector<VectorXcd>& images, const D
     for (const VectorXcd& image : images) {
         result.push_back(PlanarPoints::Constant(vertex_count, 2, std::numeric_limits<double>::quiet_NaN()));
         for (Eigen::Index v = 0; v < image.size(); ++v)
-            result.back().row(domain.original[v]) << image[v].real(), image[v].imag();
+            if (std::isfinite(std::norm(image[v])))
+                result.back().row(domain.original[v]) << image[v].real(), image[v].imag();
     }
     return result;
 }

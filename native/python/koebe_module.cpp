@@ -19,6 +19,7 @@
 #include "shape/loop_matching.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
+#include "transfer/correspondence.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -150,6 +151,20 @@ PYBIND11_MODULE(_koebe, m)
         .def_property_readonly("flipped_faces", [](const UniformizeResult& r) { return r.distortion.flipped; })
         .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
 
+    py::class_<MappedSurface>(m, "MappedSurface")
+        .def(py::init([](const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
+                         const std::vector<VertexLoop>& loops, const std::vector<std::vector<Index>>& off_circle,
+                         const PlanarPoints& centers, const VectorXd& radii, const std::vector<bool>& own) {
+            MappedSurface surface{vertices, triangles, uv, {}};
+            const std::vector<Circle> circles = circles_of(centers, radii);
+            for (std::size_t k = 0; k < loops.size(); ++k)
+                surface.loops.push_back({.vertices = loops[k],
+                                         .circle = circles[k],
+                                         .roundness = {},
+                                         .off_circle = off_circle[k],
+                                         .shrunk = !own[k]});
+            return surface;
+        }));
     m.def("uniformize", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
         return without_gil(progress, cancel, [&](ExecutionContext& context) {
@@ -236,21 +251,40 @@ PYBIND11_MODULE(_koebe, m)
     py::class_<DomainAlignment>(m, "DomainAlignment",
                                 "An automorphism of the unit disk that lays one circle domain "
                                 "over another: z -> turn (z - a) / (1 - conj(a) z).")
-        .def_property_readonly("a", [](const DomainAlignment& d) { return d.map.a; })
-        .def_property_readonly("turn", [](const DomainAlignment& d) { return d.map.turn; })
+        .def_property_readonly("a", [](const DomainAlignment& d) {
+        return d.map.a; })
+        .def_property_readonly("turn", [](const DomainAlignment& d) {
+        return d.map.turn; })
         .def_readonly("match", &DomainAlignment::match)
         .def_readonly("residual", &DomainAlignment::residual)
         .def_readonly("largest", &DomainAlignment::largest)
         .def_readonly("worst", &DomainAlignment::worst)
+        .def_readonly("misses", &DomainAlignment::misses)
         .def_readonly("converged", &DomainAlignment::converged)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
-            return planar(d.map(complex(points)));
+        return planar(d.map(complex(points)));
         });
+    m.def("correspond", [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match,
+                           bool fit_holes) {
+        Correspondence found = detached([source, target, match, fit_holes] {
+            const SerialDenseKernels serial;
+            return correspond(source, target, {.match = match, .fit_holes = fit_holes});
+        });
+        py::dict parts;
+        parts["alignment"] = found.alignment;
+        parts["fitted"] = found.fitted;
+        parts["uv"] = found.uv;
+        parts["faces"] = found.places.face;
+        parts["weights"] = found.places.weights;
+        parts["distances"] = found.places.distance;
+        parts["points"] = found.points;
+        return parts;
+    });
     m.def("align_domains",
           [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
              const VectorXd& target_radii, const std::vector<int>& match) {
-              return detached([source = circles_of(source_centers, source_radii),
-                               target = circles_of(target_centers, target_radii),
-                               match] { return align_domains(source, target, match); });
+        return detached([source = circles_of(source_centers, source_radii),
+                         target = circles_of(target_centers, target_radii),
+                         match] { return align_domains(source, target, match); });
           });
 }

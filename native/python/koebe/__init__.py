@@ -26,12 +26,14 @@ from ._shapes import (
     module_distance,
     module_names,
 )
+from ._transfer import Correspondence, transfer
 from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
 
 __all__ = [
     "CIRCLE_TOLERANCE",
     "CancelToken",
     "Cancelled",
+    "Correspondence",
     "DomainAlignment",
     "InputError",
     "KoebeError",
@@ -58,6 +60,7 @@ __all__ = [
     "module_distance",
     "module_names",
     "plot",
+    "transfer",
     "uniformize",
     "uv_to_disk",
 ]

@@ -161,7 +161,7 @@ class UniformizeResult:
     converged, sweeps, steps     of the iteration
     history          one entry a step, a Step
     step_maps        per step, if asked for: (V, 2) its own image, the first loop that it opened on the unit circle; NaN
-                     for vertices that are not in it
+                     for vertices that are not in it, or that it could not place
     angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say
     flipped, below_resolution    counts of faces, as in the command's JSON
     flipped_faces    int32 array of the faces that `flipped` counts, rising
