@@ -41,6 +41,8 @@ void set_choices(Request& request)
     options.method = request.method == "gk" ? Method::gk : Method::ck;
     options.engine = request.engine == "condensed" ? Engine::condensed : Engine::mesh;
     options.balance = request.balance == "none" ? Balance::none : Balance::area;
+    if (options.center >= 0 && options.balance != Balance::none)
+        throw CLI::ValidationError("--center", "excludes --balance: both choose the automorphism of the disk");
 }
 
 }  // namespace

@@ -7,15 +7,16 @@ import numpy as np
 
 from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
 from ._native import _koebe
-from ._options import callback, choice, flag, outer_loop, positive, token, whole
+from ._options import callback, choice, flag, outer_loop, positive, token, vertex, whole
 from ._result import UniformizeResult
-from .errors import InputError, SolverError, TopologyError
+from .errors import InputError, OptionError, SolverError, TopologyError
 
 Progress = Callable[[float, str], Any]
 
 
 def _options(
-    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any
+    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any,
+    center: Any, point: Any,
 ) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = choice(method, "method", _koebe.Method)
@@ -26,6 +27,9 @@ def _options(
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
     options.threads = whole(threads, "threads", least=0)
     options.polish = flag(polish, "polish")
+    options.center, options.point = vertex(center, "center"), vertex(point, "point")
+    if center is not None and balance != "none":
+        raise OptionError("center and balance exclude each other: both choose the automorphism of the disk")
     return options
 
 
@@ -43,6 +47,8 @@ def uniformize(
     cancel: "_koebe.CancelToken | None" = None,
     threads: int = 0,
     polish: bool = False,
+    center: int | None = None,
+    point: int | None = None,
 ) -> UniformizeResult:
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
@@ -58,13 +64,16 @@ def uniformize(
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
     threads      of the dense and sparse kernels; 0 takes all cores
     polish       at the end, lower the angle error with the circles as they are; takes many times as long
+    center       a vertex inside the surface that goes to 0; not together with balance
+    point        a vertex of a boundary loop that goes to 1; its loop is the one on the unit circle. Both together leave
+                 no freedom (paper, section 4.3); center alone turns nothing, point alone only turns
 
     One loop gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe
     iteration (section 4.4). Ctrl-C ends the call at once, as it does in all functions here.
     Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
-    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish)
+    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     return UniformizeResult(_koebe.uniformize(*as_surface(vertices, triangles), options, progress, cancel))
 

@@ -116,6 +116,7 @@ class UniformizeResult:
     vertices, faces  their counts
     method, engine   as chosen
     outer_loop       which of boundary_loops(triangles) is the outer one
+    center, point    vertices at 0 and at 1, as they were asked for, or None
     converged, sweeps, steps     of the iteration
     history          one entry a step: step, pair, change, mean_roundness
     angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say
@@ -137,6 +138,8 @@ class UniformizeResult:
     method: str
     engine: str
     outer_loop: int
+    center: int | None = None
+    point: int | None = None
     converged: bool
     sweeps: int
     steps: int
