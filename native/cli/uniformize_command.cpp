@@ -46,6 +46,8 @@ void set_choices(const CLI::App& app, Request& request)
     options.engine = request.engine == "condensed" ? Engine::condensed : Engine::mesh;
     options.balance = request.balance == "none" ? Balance::none : Balance::area;
     set_mesh_engine_options(app, request.mesh, options);
+    if (options.center >= 0 && options.balance != Balance::none)
+        throw CLI::ValidationError("--center", "excludes --balance: both choose the automorphism of the disk");
 }
 
 }  // namespace

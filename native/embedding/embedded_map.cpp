@@ -16,9 +16,9 @@ constexpr Index drawn_faces = 60000;  // how many faces may be drawn to circles 
 class Embedding {
 public:
     Embedding(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-              const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context)
+              const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places, const ExecutionContext& context)
         : loops_(loops),
-          map_(vertices, surface, loops, flaps, rim, context),
+          map_(vertices, surface, loops, flaps, rim, places, context),
           off_(loops.size(), 0),
           roundness_(loops.size()),
           most_drawings_(std::max<int>(1, drawn_faces / static_cast<int>(surface.triangles.rows())))
@@ -153,9 +153,9 @@ private:
 
 CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                        const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
-                       const ExecutionContext& context)
+                       const ExecutionContext& context, FixedPlaces places)
 {
-    return Embedding(vertices, surface, loops, flaps, rim, context).run(wanted, context);
+    return Embedding(vertices, surface, loops, flaps, rim, places, context).run(wanted, context);
 }
 
 }  // namespace koebe

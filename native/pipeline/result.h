@@ -46,6 +46,7 @@ struct UniformizeResult {
     Index vertex_count = 0, face_count = 0;
     std::vector<LoopReport> loops;  ///< the outer loop first
     int outer_loop = 0;             ///< lowest-vertex rank of the outer loop among the input's loops
+    Index center = -1, point = -1;  ///< vertices at 0 and at 1, as they were asked for
     bool converged = false;
     int sweeps = 0, steps = 0;
     std::vector<KoebeStep> history;

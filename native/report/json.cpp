@@ -92,19 +92,18 @@ Json to_json(const std::vector<Warning>& warnings) { return array_json(warnings,
 
 Json to_json(const UniformizeResult& result)
 {
-    Json report{{"version", KOEBE_VERSION},
-                {"input", ""},
-                {"vertices", result.vertex_count},
-                {"faces", result.face_count},
-                {"method", to_string(result.method)},
-                {"engine", to_string(result.engine)},
-                {"outer_loop", result.outer_loop},
-                {"converged", result.converged},
-                {"sweeps", result.sweeps},
-                {"steps", result.steps},
-                {"history", array_json(result.history, step_json)},
-                {"loops", array_json(result.loops, loop_json)},
-                {"mean_roundness", mean_roundness_json(result.loops)}};
+    Json report{{"version", KOEBE_VERSION},           {"input", ""},
+                {"vertices", result.vertex_count},    {"faces", result.face_count},
+                {"method", to_string(result.method)}, {"engine", to_string(result.engine)},
+                {"outer_loop", result.outer_loop}};
+    if (result.center >= 0) report["center"] = result.center;
+    if (result.point >= 0) report["point"] = result.point;
+    report.update({{"converged", result.converged},
+                   {"sweeps", result.sweeps},
+                   {"steps", result.steps},
+                   {"history", array_json(result.history, step_json)},
+                   {"loops", array_json(result.loops, loop_json)},
+                   {"mean_roundness", mean_roundness_json(result.loops)}});
     report.update(to_json(result.distortion));
     if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);
     if (result.unpolished_angle_error_deg)

@@ -105,8 +105,8 @@ def test_formats_that_meshio_and_pyvista_read(tmp_path):
         (pyvista.UnstructuredGrid({10: np.array([[0, 1, 2, 3]])}, VERTICES), koebe.InputError, "extract_surface"),
         (pyvista.PolyData(VERTICES, strips=[4, 0, 1, 2, 3]), koebe.InputError, "triangulate"),
         (pyvista.Sphere(), koebe.TopologyError, "closed"),
-        (pyvista.ImageData(dimensions=(3, 3, 3)), TypeError, "PyVista"),
-        ("surface.obj", TypeError, "PyVista"),
+        (pyvista.ImageData(dimensions=(3, 3, 3)), koebe.InputError, "PyVista"),
+        ("surface.obj", koebe.InputError, "PyVista"),
     ],
 )
 def test_what_is_no_surface_is_told_so(mesh, error, says):

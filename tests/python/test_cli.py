@@ -144,6 +144,36 @@ def test_outer_picks_the_loop_of_the_unit_circle(mesh):
         assert run.returncode == USAGE and re.fullmatch(rf"WrongUsage: --outer: .*{bad}.*\n", run.stderr), run.stderr
 
 
+@pytest.mark.parametrize("command", ["uniformize", "ricci"])
+def test_center_goes_to_0_and_point_to_1(mesh, command):
+    koebe(command, mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json")
+    plain = json.loads((mesh / "report.json").read_text())
+    assert not {"center", "point"} & plain.keys()
+    # The flow does not converge with a hole outside.
+    hole = plain["loops"][2 if command == "uniformize" else 0]["vertices"]
+    rim = {v for loop in plain["loops"] for v in loop["vertices"]}
+    inside = next(v for v in range(len(perforated()[0])) if v not in rim)
+    places = ["--center", inside, "--point", hole[1]]
+    run = koebe(command, mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", *places)
+    assert run.returncode == 0, run.stderr
+    uv, report = Obj(mesh / "out.obj").uv, json.loads((mesh / "report.json").read_text())
+    assert uv[inside].tolist() == [0.5, 0.5] and uv[hole[1]].tolist() == [1.0, 0.5]
+    assert (report["center"], report["point"], report["flipped"]) == (inside, hole[1], 0)
+    assert set(report["loops"][0]["vertices"]) == set(hole)
+    for loop in report["loops"]:
+        away = np.abs(np.linalg.norm(disk(uv)[loop["vertices"]] - loop["center"], axis=1) - loop["radius"])
+        assert away.max() < (1e-12 if command == "uniformize" else 0.05)
+
+    longest, hole = plain["loops"][0]["vertices"][0], plain["loops"][2]["vertices"]
+    for option, bad, more in (
+        ("--center", 10**6, []), ("--center", hole[0], []), ("--point", 10**6, []), ("--point", inside, []),
+        ("--point", hole[0], ["--outer", longest]), ("--point", hole[0], ["--outer", "longest"]),
+    ):  # fmt: skip
+        run = koebe(command, mesh / "in.obj", mesh / "new.obj", option, bad, *more)
+        assert run.returncode == USAGE and re.fullmatch(rf"WrongUsage: {option}: .*{bad}.*\n", run.stderr), run.stderr
+        assert not (mesh / "new.obj").exists()
+
+
 def test_vertices_of_no_face_and_faces_of_no_area_stay_in_the_file(tmp_path):
     vertices, quads = perforated()
     text = "v 9 9 9\n" + obj_text(vertices, quads + 1) + "v 8 8 8\n" + "f 2 2 3\n"
@@ -194,6 +224,9 @@ def test_out_may_be_in(mesh):
         ["uniformize", "in.obj", "out.obj", "--balance", "angle"],
         ["uniformize", "in.obj", "out.obj", "--outer", "-1"],
         ["uniformize", "in.obj", "out.obj", "--outer", "short"],
+        ["uniformize", "in.obj", "out.obj", "--center", "-1"],
+        ["uniformize", "in.obj", "out.obj", "--point", "first"],
+        ["uniformize", "in.obj", "out.obj", "--center", "60", "--balance", "area"],
         ["uniformize", "in.obj", "out.obj", "--tolerance", "0"],
         ["uniformize", "in.obj", "out.obj", "--tolerance", "nan"],
         ["uniformize", "in.obj", "out.obj", "--tolerance", "1e-3x"],

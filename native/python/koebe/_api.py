@@ -8,7 +8,7 @@ import numpy as np
 from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
 from ._meshes import is_mesh, read_mesh
 from ._native import _koebe
-from ._options import callback, choice, flag, outer_loop, positive, sweep, token, whole
+from ._options import callback, choice, flag, outer_loop, positive, sweep, token, vertex, whole
 from ._result import Source, UniformizeResult
 from .errors import InputError, OptionError, SolverError, TopologyError
 
@@ -41,7 +41,8 @@ def _set_mesh_engine(
 
 
 def _options(
-    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any
+    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any,
+    center: Any, point: Any,
 ) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = choice(method, "method", _koebe.Method)
@@ -52,6 +53,9 @@ def _options(
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
     options.threads = whole(threads, "threads", least=0)
     options.polish = flag(polish, "polish")
+    options.center, options.point = vertex(center, "center"), vertex(point, "point")
+    if center is not None and balance != "none":
+        raise OptionError("center and balance exclude each other: both choose the automorphism of the disk")
     return options
 
 
@@ -69,6 +73,8 @@ def uniformize(
     cancel: "_koebe.CancelToken | None" = None,
     threads: int = 0,
     polish: bool = False,
+    center: int | None = None,
+    point: int | None = None,
     partners: str = "fixed",
     schedule: Sequence[Sequence[int]] | None = None,
     metric: str = "first",
@@ -92,6 +98,9 @@ def uniformize(
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
     threads      of the dense and sparse kernels; 0 takes all cores
     polish       at the end, lower the angle error with the circles as they are; takes many times as long
+    center       a vertex inside the surface that goes to 0; not together with balance
+    point        a vertex of a boundary loop that goes to 1; its loop is the one on the unit circle. Both together leave
+                 no freedom (paper, section 4.3); center alone turns nothing, point alone only turns
 
     With engine='mesh', the paper's own choices:
     partners     'fixed', or 'changing': with 'gk' each sweep pairs the loops another way (Fig. 4)
@@ -107,7 +116,7 @@ def uniformize(
     Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
-    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish)
+    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point)
     _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = _source(vertices, triangles)
@@ -119,7 +128,7 @@ def _source(vertices: Any, triangles: Any) -> Source:
     """The surface as arrays, of a mesh of another package too."""
     if not is_mesh(vertices):
         if triangles is None:
-            raise TypeError("give vertices and triangles, or a mesh of PyVista, trimesh or meshio")
+            raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh or meshio")
         return Source(*as_surface(vertices, triangles))
     if triangles is not None:
         raise TypeError("a mesh has its own faces: give no triangles")

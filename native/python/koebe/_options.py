@@ -75,6 +75,16 @@ def outer_loop(value: Any) -> tuple["_koebe.OuterLoop", int]:
     return _koebe.OuterLoop.vertex, int(value)
 
 
+def vertex(value: Any, option: str) -> int:
+    """A vertex of the surface, -1 where none is given."""
+    if value is None:
+        return -1
+    _require(value, option, Integral, "a vertex")
+    if not 0 <= value <= _MOST:
+        raise InputError(f"vertex {value} does not exist: {option} must be a vertex of the surface", [int(value)])
+    return int(value)
+
+
 def callback(value: Any, option: str) -> Any:
     if value is not None and not callable(value):
         raise TypeError(f"{option} must be a function, not {value!r}")

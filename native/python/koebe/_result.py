@@ -158,6 +158,7 @@ class UniformizeResult:
     vertices, faces  their counts
     method, engine   as chosen
     outer_loop       which of boundary_loops(triangles) is the outer one
+    center, point    vertices at 0 and at 1, as they were asked for, or None
     converged, sweeps, steps     of the iteration
     history          one entry a step, a Step
     step_maps        per step, if asked for: (V, 2) its own image, the first loop that it opened on the unit circle; NaN
@@ -184,6 +185,8 @@ class UniformizeResult:
     method: str
     engine: str
     outer_loop: int
+    center: int | None = None
+    point: int | None = None
     converged: bool
     sweeps: int
     steps: int
