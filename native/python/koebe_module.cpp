@@ -253,10 +253,8 @@ PYBIND11_MODULE(_koebe, m)
     py::class_<DomainAlignment>(m, "DomainAlignment",
                                 "An automorphism of the unit disk that lays one circle domain "
                                 "over another: z -> turn (z - a) / (1 - conj(a) z).")
-        .def_property_readonly("a", [](const DomainAlignment& d) {
-        return d.map.a; })
-        .def_property_readonly("turn", [](const DomainAlignment& d) {
-        return d.map.turn; })
+        .def_property_readonly("a", [](const DomainAlignment& d) { return d.map.a; })
+        .def_property_readonly("turn", [](const DomainAlignment& d) { return d.map.turn; })
         .def_readonly("match", &DomainAlignment::match)
         .def_readonly("residual", &DomainAlignment::residual)
         .def_readonly("largest", &DomainAlignment::largest)
@@ -264,29 +262,29 @@ PYBIND11_MODULE(_koebe, m)
         .def_readonly("misses", &DomainAlignment::misses)
         .def_readonly("converged", &DomainAlignment::converged)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
-        return planar(d.map(complex(points)));
+            return planar(d.map(complex(points)));
         });
-    m.def("correspond", [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match,
-                           bool fit_holes) {
-        Correspondence found = detached([source, target, match, fit_holes] {
-            const SerialDenseKernels serial;
-            return correspond(source, target, {.match = match, .fit_holes = fit_holes});
-        });
-        py::dict parts;
-        parts["alignment"] = found.alignment;
-        parts["fitted"] = found.fitted;
-        parts["uv"] = found.uv;
-        parts["faces"] = found.places.face;
-        parts["weights"] = found.places.weights;
-        parts["distances"] = found.places.distance;
-        parts["points"] = found.points;
-        return parts;
-    });
+    m.def("correspond",
+          [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes) {
+              Correspondence found = detached([source, target, match, fit_holes] {
+                  const SerialDenseKernels serial;
+                  return correspond(source, target, {.match = match, .fit_holes = fit_holes});
+              });
+              py::dict parts;
+              parts["alignment"] = found.alignment;
+              parts["fitted"] = found.fitted;
+              parts["uv"] = found.uv;
+              parts["faces"] = found.places.face;
+              parts["weights"] = found.places.weights;
+              parts["distances"] = found.places.distance;
+              parts["points"] = found.points;
+              return parts;
+          });
     m.def("align_domains",
           [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
              const VectorXd& target_radii, const std::vector<int>& match) {
-        return detached([source = circles_of(source_centers, source_radii),
-                         target = circles_of(target_centers, target_radii),
-                         match] { return align_domains(source, target, match); });
+              return detached([source = circles_of(source_centers, source_radii),
+                               target = circles_of(target_centers, target_radii),
+                               match] { return align_domains(source, target, match); });
           });
 }
