@@ -53,7 +53,7 @@ class UniformizeProperties:
         description="Vertex that becomes the centre of the disk, in the place of Balance",
     )
     point: EnumProperty(
-        name="Point at Right",
+        name="Rim Point",
         items=[
             ("auto", "Automatic", "As Upright turns the disk"),
             ("active", "Active Vertex", "The active vertex, which must be on a boundary loop (Edit Mode)"),
