@@ -75,6 +75,9 @@ UniformizeOptions read_options(Reader& reader, const Soup& soup)
     if (more & 16) {
         if (options.method == Method::gk) options.method = Method::against_outer;
         read_mesh_options(rest, options);
+        const Index vertex_count = static_cast<Index>(soup.points.size());
+        if (rest & 0x100) options.center = static_cast<Index>((rest >> 3) % (vertex_count + 1));
+        if (rest & 0x200) options.point = static_cast<Index>((rest >> 5) % (vertex_count + 1));
     }
     return options;
 }
