@@ -17,7 +17,11 @@ def test_the_surface_and_its_domain_are_drawn(field, tmp_path):
     assert len(figure.axes) == (2 if field == "checker" else 3)  # with a colour bar
     drawn = [(*patch.center, patch.radius) for patch in plane.patches]
     assert np.allclose(drawn, np.column_stack([RESULT.centers, RESULT.radii]))
-    assert len(plane.collections[0].get_paths()) == len(TRIANGLES)
+    pieces = len(plane.collections[0].get_paths()) / len(TRIANGLES)
+    assert pieces > 1 if field == "checker" else pieces == 1
+    areas = [path.vertices[:-1] for path in plane.collections[0].get_paths()]
+    area = sum(0.5 * np.cross(b - a, c - a) for a, b, c in (np.c_[t, np.zeros(3)][:3] for t in areas))[2]
+    assert np.isclose(area, np.pi * (1 - (RESULT.radii[1:] ** 2).sum()), rtol=0.05)
     figure.savefig(tmp_path / "picture.png")
     assert (tmp_path / "picture.png").stat().st_size > 10_000
 

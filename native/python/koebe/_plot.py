@@ -13,7 +13,7 @@ _FIELDS = {
     "angle_error": "angle error of the faces, degrees",
 }
 _CHECKER = 24  # squares across the disk
-_EDGES_UP_TO = 20000  # faces: with more the edges would be all that is seen
+_DRAWN_FACES = 80000  # about, in squares
 
 
 def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
@@ -29,11 +29,15 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
 
     choice_of(field, "field", _FIELDS)
     vertices, triangles = result.surface
-    colors, scale = _colors(result, field, plt)
+    corners, images = vertices[triangles], result.uv[triangles]
+    if field == "checker":  # its squares do not end at edges: coarse faces are drawn in pieces
+        pieces = max(1, int(np.sqrt(_DRAWN_FACES / len(triangles))))
+        corners, images = _in_pieces(corners, pieces), _in_pieces(images, pieces)
+    colors, scale = _colors(result, field, images, plt)
     figure = plt.figure(figsize=(11, 5), layout="constrained")
     space, plane = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
 
-    space.add_collection3d(Poly3DCollection(vertices[triangles], facecolors=colors, edgecolors=colors, linewidths=0.3))
+    space.add_collection3d(Poly3DCollection(corners, facecolors=colors, edgecolors=colors, linewidths=0.3))
     space.view_init(*_in_front_of(vertices, triangles))
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     for axis, a, b in zip("xyz", low, high, strict=True):
@@ -41,8 +45,7 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
     space.set_box_aspect(np.maximum(high - low, 1e-9 * (high - low).max()))
     space.set_axis_off()
 
-    edges = "#00000030" if len(triangles) <= _EDGES_UP_TO else colors
-    plane.add_collection(PolyCollection(result.uv[triangles], facecolors=colors, edgecolors=edges, linewidths=0.2))
+    plane.add_collection(PolyCollection(images, facecolors=colors, edgecolors=colors, linewidths=0.3))
     for center, radius in zip(result.centers, result.radii, strict=True):
         plane.add_patch(plt.Circle(center, radius, fill=False, color="#1d4e89", linewidth=1.2))
     plane.set(xlim=(-1.03, 1.03), ylim=(-1.03, 1.03), aspect="equal")
@@ -61,11 +64,21 @@ def _in_front_of(vertices: np.ndarray, triangles: np.ndarray) -> tuple[float, fl
     return float(np.degrees(np.arctan2(z, level))), float(np.degrees(np.arctan2(y, x))) if level > 0.5 else -90.0
 
 
-def _colors(result: UniformizeResult, field: str, plt: Any) -> tuple[np.ndarray, Any]:
-    """Colours (F, 4) of the faces, and what a colour bar explains, if anything."""
+def _in_pieces(corners: np.ndarray, count: int) -> np.ndarray:
+    """Triangles (F, 3, d) with each edge cut into so many: (F * count^2, 3, d)."""
+    steps = [(i, j) for i in range(count) for j in range(count - i)]
+    upright = [((i, j), (i + 1, j), (i, j + 1)) for i, j in steps]
+    turned = [((i + 1, j), (i + 1, j + 1), (i, j + 1)) for i, j in steps if i + j + 1 < count]
+    shares = np.array(upright + turned, dtype=float) / count
+    weights = np.concatenate([1.0 - shares.sum(axis=2, keepdims=True), shares], axis=2)  # (count^2, 3, 3)
+    return np.einsum("pkc,fcd->fpkd", weights, corners).reshape(-1, 3, corners.shape[2])
+
+
+def _colors(result: UniformizeResult, field: str, images: np.ndarray, plt: Any) -> tuple[np.ndarray, Any]:
+    """Colours (n, 4) of the triangles drawn, images (n, 3, 2), and what a colour bar explains, if anything."""
     triangles = result.surface[1]
     if field == "checker":
-        square = np.floor(result.uv[triangles].mean(axis=1) * _CHECKER / 2).astype(int).sum(axis=1) % 2
+        square = np.floor(images.mean(axis=1) * _CHECKER / 2).astype(int).sum(axis=1) % 2
         return np.array([[0.93, 0.95, 0.98, 1.0], [0.25, 0.45, 0.65, 1.0]])[square], None
     values = result.face_angle_error_deg if field == "angle_error" else result.log_scale[triangles].mean(axis=1)
     known = values[np.isfinite(values)]
