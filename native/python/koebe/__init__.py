@@ -13,6 +13,7 @@ from ._api import (
     harmonic_map,
     uniformize,
 )
+from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
 from ._plot import plot
@@ -35,6 +36,7 @@ __all__ = [
     "Cancelled",
     "Correspondence",
     "DomainAlignment",
+    "Family",
     "InputError",
     "KoebeError",
     "OptionError",
@@ -53,6 +55,7 @@ __all__ = [
     "disk_map",
     "disk_to_uv",
     "distortion",
+    "family",
     "fill_holes",
     "harmonic_map",
     "load",
