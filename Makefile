@@ -132,7 +132,7 @@ demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.
 bench: build $(DONE)/install-blender ## time and accuracy: out/bench/
 	$(PYTHON) bench/run.py
 
-reproduce: build $(DONE)/install-blender ## the paper's comparison, its rates and figures: out/reproduce/
+reproduce: native ## the paper's tables, rates and figures: out/reproduce/
 	$(PYTHON) bench/reproduce.py
 
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
