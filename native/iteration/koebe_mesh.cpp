@@ -89,7 +89,7 @@ public:
     {
         const FilledMesh mesh = assemble(open);
         StepImage image = open.size() == 1 ? riemann_image(mesh, open[0]) : annulus_image(mesh, open[0], open[1]);
-        const VectorXcd of_surface = image.positions.head(vertex_count_);
+        VectorXcd of_surface = image.positions.head(vertex_count_);
         if (metric_ == KoebeMeshOptions::Metric::reflected) {
             const Complex center = open.size() == 1 ? gather_loop(of_surface, loops_[next[0]]).mean() : Complex{};
             const Reflection tau{center};
