@@ -16,8 +16,8 @@ struct CircleState {
 /// The circle of each loop's image by least squares, and how round the images are.
 CircleState circle_state(const std::vector<VectorXcd>& images);
 
-/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), the paper's termination test (section 4.4). A first state is compared with
-/// circles of radius 0 at the origin.
+/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), a length: the root of what the paper's termination test (section 4.4) takes. A
+/// first state is compared with circles of radius 0 at the origin.
 double circle_change(const CircleState& before, const CircleState& after);
 
 /// Whether the circles have moved by less than the tolerance in a sweep. With two loops one step is exact: it reads
