@@ -34,9 +34,8 @@ struct DiskMap {
 /// @param triangles (F, 3) oriented, one boundary loop
 /// @param lengths (F, 3) edge lengths
 /// @param loop the boundary, surface on the left
-/// @throws InputError the centre is no inner vertex; SolverError, also for a map that leaves the closed disk or a
-/// Yamabe
-///         flow that does not converge
+/// @throws InputError the centre is no inner vertex; SolverError, also for a map that leaves the closed disk, or
+///         a Yamabe flow that does not converge
 DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count, const VertexLoop& loop,
                  const DiskMapOptions& options = {});
 

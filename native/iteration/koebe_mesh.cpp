@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -71,7 +72,6 @@ public:
           triangles_(triangles),
           lengths_(lengths),
           vertex_count_(static_cast<Index>(vertices.rows())),
-          center_(deepest_inside(triangles, lengths, vertex_count_, loops)),
           radius_(loops.size(), 1.0),
           stale_(loops.size(), 0)
     {
@@ -126,10 +126,11 @@ public:
     }
 
 private:
-    StepImage riemann_image(const FilledMesh& mesh, int k) const
+    StepImage riemann_image(const FilledMesh& mesh, int k)
     {
+        if (!center_) center_ = deepest_inside(triangles_, lengths_, vertex_count_, loops_);
         return {disk_map(mesh.triangles, mesh.lengths, mesh.vertex_count, loops_[k],
-                         {.center = center_, .inside = false, .backend = annulus_})
+                         {.center = *center_, .inside = false, .backend = annulus_})
                     .positions,
                 {Circle{}}};
     }
@@ -212,7 +213,7 @@ private:
     const Triangles& triangles_;
     EdgeLengths lengths_;
     Index vertex_count_;
-    Index center_;                   // p of the Riemann map (section 4.3)
+    std::optional<Index> center_;    // p of the Riemann map (section 4.3), from the first step that takes one
     std::vector<VectorXd> weights_;  // per loop: share of each vertex in its length
     std::vector<VectorXd> angles_;   // per loop: where its vertices are on the rim of D_k, counter-clockwise
     std::vector<double> radius_;     // per loop: of D_k, in the unit of the surface's lengths

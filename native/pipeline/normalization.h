@@ -6,7 +6,6 @@
 #include "pipeline/domain.h"
 #include "pipeline/map_from_loops.h"
 
-#include <optional>
 #include <vector>
 
 namespace koebe {

@@ -32,7 +32,8 @@ def _set_mesh_engine(
             "annulus": annulus != "harmonic",
             "record_steps": record_steps,
         }
-        for name in (name for name, is_asked in asked.items() if is_asked):
+        if any(asked.values()):
+            name = next(name for name, is_asked in asked.items() if is_asked)
             raise OptionError(f"{name} is an option of engine='mesh'")
     if mesh.partners == _koebe.Partners.changing and (options.method != _koebe.Method.gk or mesh.schedule):
         raise OptionError("partners change with method='gk' alone, and without a schedule")
