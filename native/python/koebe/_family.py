@@ -1,15 +1,16 @@
 """Many shapes with their loops in one order, so that their modules can be compared as vectors."""
 
 import csv
+import io
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._arrays import as_indices
+from ._files import whole_file
 from ._options import whole
 from ._shapes import conformal_module, match_loops, module_names
 from .errors import InputError
@@ -37,11 +38,13 @@ class Family:
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """A row a shape: its label and its module, with a head line, as R's read.csv and pandas read it."""
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(["label", *self.columns])
-            for label, row in zip(self.labels, self.modules, strict=True):
-                writer.writerow([label, *map(repr, row.tolist())])
+        text = io.StringIO(newline="")
+        writer = csv.writer(text)
+        writer.writerow(["label", *self.columns])
+        for label, row in zip(self.labels, self.modules, strict=True):
+            writer.writerow([label, *map(repr, row.tolist())])
+        with whole_file(path) as file:
+            file.write(text.getvalue().encode())
 
 
 def family(

@@ -3,18 +3,17 @@
 import copy
 import json
 import os
-import tempfile
 import zipfile
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from pathlib import Path
 from typing import Any, TypedDict
 
 import numpy as np
 
 from ._arrays import as_loops
 from ._fields import disk_to_uv, face_angle_error_deg, log_scale
+from ._files import whole_file
 from ._meshes import Polygons, mesh_with_fields
 from ._native import _koebe
 from .errors import InputError
@@ -264,19 +263,12 @@ class UniformizeResult:
 
         Of a mesh of another package its arrays are kept, not the mesh.
         """
-        target = Path(path)
         steps = np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2))
-        descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-        try:
-            with os.fdopen(descriptor, "wb") as file:
-                np.savez_compressed(
-                    file, report=np.array(json.dumps(self._report)), uv=self.uv, flipped_faces=self.flipped_faces,
-                    step_maps=steps, vertices=self._source.vertices, triangles=self._source.triangles,
-                )  # fmt: skip
-            os.replace(name, target)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
+        with whole_file(path) as file:
+            np.savez_compressed(
+                file, report=np.array(json.dumps(self._report)), uv=self.uv, flipped_faces=self.flipped_faces,
+                step_maps=steps, vertices=self._source.vertices, triangles=self._source.triangles,
+            )  # fmt: skip
 
     def __repr__(self) -> str:
         return (
