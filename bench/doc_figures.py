@@ -35,6 +35,12 @@ def save(figures: dict) -> None:
     FIGURES.write_text(json.dumps(figures, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
+def keep(name: str, head: list[str], rows: dict) -> None:
+    figures = load()
+    figures[name] = {"command": f"bench/doc_figures.py measure {name}", "head": head, "rows": rows}
+    save(figures)
+
+
 def measure(names: list[str]) -> None:
     """The rows that can be measured here, table by table."""
     for name in names:
@@ -46,9 +52,7 @@ def measure(names: list[str]) -> None:
             print(name, "|", row, "|", " | ".join(cells), flush=True)
             if table.worth(cells):
                 rows[row] = cells
-        figures = load()
-        figures[name] = {"command": f"bench/doc_figures.py measure {name}", "head": table.head, "rows": rows}
-        save(figures)
+            keep(name, table.head, rows)
 
 
 def markdown(table: dict) -> str:

@@ -17,9 +17,15 @@ from functools import cache
 from pathlib import Path
 
 import convergence
+import domain_figures
 import exact_surfaces
+import print_choices
 import promises
 import shape_distances
+import table_one
+import table_surfaces
+import table_two
+import two_heads
 
 ROOT = Path(__file__).resolve().parent.parent
 KOEBE = ROOT / "build" / "koebe"
@@ -266,7 +272,7 @@ def limits(row: str) -> list[str]:
 def rates(row: str) -> list[str]:
     title, engine = row.rsplit(", ", 1)
     domain = next(key for key, value in convergence.DOMAINS.items() if value == title)
-    return convergence.cells(*(convergence.measure(domain, engine, method) for method in ("ck", "gk")))
+    return convergence.cells(*(convergence.measure(domain, engine, method) for method in convergence.METHODS))
 
 
 def scans() -> list[str]:
@@ -318,6 +324,31 @@ TABLES = {
         [f"{title}, {engine}" for title in convergence.DOMAINS.values() for engine in ("mesh", "condensed")],
         rates,
         lambda row: [convergence.RATES],
+    ),
+    "table_1": Table(table_one.HEAD, list(table_one.ROWS), table_one.cells, lambda row: [KOEBE, table_surfaces.MESHER]),
+    "table_2": Table(
+        table_two.HEAD,
+        table_two.NAMES,
+        table_two.cells,
+        lambda row: [convergence.RATES, table_surfaces.MESHER],
+    ),
+    "twin": Table(
+        domain_figures.TWIN_HEAD,
+        list(domain_figures.TWINS),
+        lambda row: domain_figures.twin_cells(python_package(), row),
+        lambda row: [table_surfaces.MESHER],
+    ),
+    "choices": Table(
+        print_choices.HEAD,
+        list(print_choices.CHOICES),
+        lambda row: print_choices.cells(python_package(), row),
+        lambda row: [table_surfaces.MESHER],
+    ),
+    "heads": Table(
+        two_heads.HEAD,
+        list(two_heads.HEADS),
+        lambda row: two_heads.cells(python_package(), row),
+        lambda row: [table_surfaces.MESHER],
     ),
     "limits": Table(
         ["surface", "faces", "exact radius", "relative error", "faces below resolution"],

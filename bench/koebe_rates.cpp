@@ -2,13 +2,16 @@
 //
 //   koebe_rates surface HOLES FACES OUT.obj      a smooth surface with round holes, on no shared scan
 //   koebe_rates steps DOMAIN FACES ENGINE METHOD the error of the circles after each step, as JSON
+//   koebe_rates file MESH ENGINE METHOD          the same for a mesh file, whose own circles nobody knows
 //
 // DOMAIN is apart, middle or close: how far the circles are from each other. The domain is lifted to Enneper's surface
-// and uniformized until nothing moves; "error" is the largest relative error of an inversive distance, which no Moebius
-// map changes, against the circles after the same step of the last sweep (the limits of the steps of a sweep differ by
-// the discretization), "exact_error" against the domain's own.
+// and uniformized until nothing moves, a mesh file until circles move by less than 1e-9. "error" is the largest
+// relative error of an inversive distance, which no Moebius map changes, against the circles after the same step of the
+// last sweep (the limits of the steps of a sweep differ by the discretization), "exact_error" against the domain's own.
 #include "circle_domain.h"
 #include "cli/fast_kernels.h"
+#include "io/mesh_reader.h"
+#include "io/polygon_triangulation.h"
 #include "pipeline/uniformize.h"
 
 #include <nlohmann/json.hpp>
@@ -75,25 +78,34 @@ std::vector<Circle> in_order(const test::CircleDomain& domain, const UniformizeR
     return circles;
 }
 
-nlohmann::ordered_json steps(const std::string& name, Index faces, const std::string& engine, const std::string& method)
+Method method_of(const std::string& name)
 {
-    const test::CircleDomain domain = test::make_circle_domain(circles_of(name), faces);
+    if (name == "gk") return Method::gk;
+    if (name == "ck") return Method::ck;
+    if (name == "against-outer") return Method::against_outer;
+    throw std::invalid_argument("no method " + name);
+}
+
+UniformizeOptions options_of(const std::string& engine, const std::string& method)
+{
     UniformizeOptions options;
     options.engine = engine == "mesh" ? Engine::mesh : Engine::condensed;
-    options.method = method == "ck" ? Method::ck : Method::gk;
-    options.tolerance = 1e-14;
-    options.max_sweeps = options.engine == Engine::mesh ? 18 : 30;
-    ExecutionContext context;
-    const UniformizeResult result =
-        uniformize(test::lift(domain.points, test::Lift::enneper), domain.triangles, options, context);
-    const std::vector<Circle> exact = in_order(domain, result);
+    options.method = method_of(method);
+    return options;
+}
+
+/// @param exact the domain's circles in the order of the loops; empty if nobody knows them
+nlohmann::ordered_json steps_json(const UniformizeResult& result, const std::vector<Circle>& exact)
+{
     const std::size_t per_sweep = static_cast<std::size_t>(result.steps / result.sweeps);
-    nlohmann::ordered_json report{{"domain", name},
-                                  {"faces", domain.triangles.rows()},
-                                  {"holes", domain.circles.size() - 1},
-                                  {"engine", engine},
-                                  {"method", method},
+    nlohmann::ordered_json report{{"vertices", result.vertex_count},
+                                  {"faces", result.face_count},
+                                  {"boundaries", result.loops.size()},
+                                  {"converged", result.converged},
                                   {"steps_per_sweep", per_sweep},
+                                  {"factor_seconds", result.seconds.factor},
+                                  {"iterate_seconds", result.seconds.iterate},
+                                  {"total_seconds", result.seconds.total},
                                   {"steps", nlohmann::json::array()}};
     for (std::size_t k = 0; k < result.history.size(); ++k) {
         const KoebeStep& step = result.history[k];
@@ -101,10 +113,32 @@ nlohmann::ordered_json steps(const std::string& name, Index faces, const std::st
         report["steps"].push_back({{"step", step.step},
                                    {"pair", {step.pair.first, step.pair.second}},
                                    {"error", test::inversive_distance_error(step.circles, last.circles)},
-                                   {"exact_error", test::inversive_distance_error(step.circles, exact)},
-                                   {"mean_roundness", step.mean_roundness}});
+                                   {"mean_roundness", step.mean_roundness.all.paper}});
+        if (!exact.empty()) report["steps"].back()["exact_error"] = test::inversive_distance_error(step.circles, exact);
     }
     return report;
+}
+
+nlohmann::ordered_json steps_on_domain(const std::string& name, Index faces, const std::string& engine,
+                                       const std::string& method)
+{
+    const test::CircleDomain domain = test::make_circle_domain(circles_of(name), faces);
+    UniformizeOptions options = options_of(engine, method);
+    options.tolerance = 1e-14;
+    options.max_sweeps = options.engine == Engine::mesh ? 18 : 30;
+    ExecutionContext context;
+    const UniformizeResult result =
+        uniformize(test::lift(domain.points, test::Lift::enneper), domain.triangles, options, context);
+    return steps_json(result, in_order(domain, result));
+}
+
+nlohmann::ordered_json steps_on_file(const std::string& path, const std::string& engine, const std::string& method)
+{
+    PolygonMesh file = read_mesh(path);
+    UniformizeOptions options = options_of(engine, method);
+    options.tolerance = 1e-9;
+    ExecutionContext context;
+    return steps_json(uniformize(file.vertices, triangulate(file).triangles, options, context), {});
 }
 
 }  // namespace
@@ -117,10 +151,13 @@ int main(int argc, char** argv)
         if (words.size() == 4 && words[0] == "surface")
             write_surface(std::stoi(words[1]), static_cast<Index>(std::stol(words[2])), words[3]);
         else if (words.size() == 5 && words[0] == "steps")
-            std::cout << steps(words[1], static_cast<Index>(std::stol(words[2])), words[3], words[4]).dump() << '\n';
+            std::cout << steps_on_domain(words[1], static_cast<Index>(std::stol(words[2])), words[3], words[4]) << '\n';
+        else if (words.size() == 4 && words[0] == "file")
+            std::cout << steps_on_file(words[1], words[2], words[3]) << '\n';
         else
             throw std::invalid_argument("usage: koebe_rates surface HOLES FACES OUT.obj | "
-                                        "steps apart|middle|close FACES condensed|mesh gk|ck");
+                                        "steps apart|middle|close FACES ENGINE METHOD | file MESH ENGINE METHOD; "
+                                        "ENGINE condensed|mesh, METHOD gk|ck|against-outer");
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return 2;

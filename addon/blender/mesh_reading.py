@@ -107,3 +107,9 @@ def active_vertex(obj: MeshObject) -> int | None:
         return None
     active = bmesh.from_edit_mesh(obj.data).select_history.active
     return active.index if isinstance(active, bmesh.types.BMVert) else None
+
+
+def cursor_place(obj: MeshObject) -> np.ndarray:
+    """Where the 3D cursor is in the space of `read_surface`."""
+    cursor = bpy.context.scene.cursor.location
+    return np.array(cursor, dtype=np.float64) - np.array(obj.matrix_world.translation, dtype=np.float64)

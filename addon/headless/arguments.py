@@ -50,9 +50,11 @@ def parse(arguments: list[str]) -> Request:
     parser.add_argument("--method", choices=options.METHODS, default=default.method)
     parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
     parser.add_argument("--outer", type=_outer_loop, default=default.outer, metavar="auto|longest|VERTEX")
+    for name in ("--center", "--point"):
+        parser.add_argument(name, type=_whole_number, metavar="VERTEX", help="of each object")
     parser.add_argument("--tolerance", type=float, default=default.tolerance)
     parser.add_argument("--max-sweeps", type=_whole_number, default=default.max_sweeps)
-    parser.add_argument("--balance", choices=options.BALANCES, default=default.balance)
+    parser.add_argument("--balance", choices=options.BALANCES)
     parser.add_argument("--polish", action=argparse.BooleanOptionalAction, default=default.polish)
     parser.add_argument("--threads", type=_whole_number, default=default.threads, help="0: all cores")
     parser.add_argument("--upright", action=argparse.BooleanOptionalAction, default=default.upright)
@@ -66,6 +68,11 @@ def parse(arguments: list[str]) -> Request:
     values = vars(parser.parse_args(arguments))
     files = {name: values.pop(name) for name in ("source", "output", "report")}
     names = values.pop("objects")
+    if values["center"] is not None and values["balance"] == "area":
+        raise Stop(USAGE, "--center excludes --balance area: both choose the centre of the disk")
+    for name in ("center", "point", "balance"):
+        if values[name] is None:
+            values[name] = getattr(default, name)
     try:
         chosen = options.Options(**values)
     except (options.OptionError, UnicodeError) as error:

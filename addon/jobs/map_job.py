@@ -16,7 +16,7 @@ from ..blender.targets import Target, check_mesh, reason, with_own_meshes
 from ..blender.transaction import Transaction, transaction
 from ..maps.mapping import map_surfaces
 from ..maps.options import Options
-from ..maps.outcomes import LATER, Progress, SurfaceOutcome, Task
+from ..maps.outcomes import LATER, Place, Progress, SurfaceOutcome, Task
 from ..maps.wording import few
 from . import native_package
 
@@ -62,6 +62,14 @@ class Job:
                 "the outer loop is to be that of the active vertex, but no vertex is active: "
                 "select one on the loop, in Edit Mode"
             )
+        for wanted, found, what, where in (
+            (options.center, [task.center for task in self.tasks], "centre", "inside the surface"),
+            (options.point, [task.point for task in self.tasks], "point at the right", "on the boundary"),
+        ):
+            if wanted == "active" and all(place is None for place in found):
+                raise TransferError(
+                    f"the {what} is to be the active vertex, but no vertex is active: select one {where}, in Edit Mode"
+                )
         self.cancel_token = self.koebe.CancelToken()
         self.outcomes: list[SurfaceOutcome] = LATER
 
@@ -77,7 +85,16 @@ class Job:
             outer = "auto" if vertex is None else vertex
         self.targets.append(Target.of(obj))
         mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
-        self.tasks.append(Task(obj.name, surface, outer, mirrored, pinned))
+        center, point = (self._place(obj, wanted) for wanted in (self.options.center, self.options.point))
+        self.tasks.append(Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point))
+
+    @staticmethod
+    def _place(obj: MeshObject, wanted: str | int) -> Place:
+        if wanted == "cursor":
+            return mesh_reading.cursor_place(obj)
+        if wanted == "active":
+            return mesh_reading.active_vertex(obj)
+        return wanted if isinstance(wanted, int) else None
 
     def compute(self, progress: Progress | None = None) -> None:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""

@@ -28,6 +28,8 @@ def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
         return {**entry, "error": error}
     result = one.result.to_dict()
     source = one.island.source_vertex
+    for name in {"center", "point"} & result.keys():
+        result[name] = int(source[result[name]])
     for loop in result["loops"]:
         for key in ("vertices", "off_circle"):
             loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()

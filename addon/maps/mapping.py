@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from . import places
 from .islands import cut_into_islands, whole_island
 from .options import Options
 from .outcomes import IslandOutcome, MapError, Progress, SurfaceOutcome, Task
@@ -54,17 +55,25 @@ def _map_islands(
     first: IslandOutcome | None = None
     whole = whole_island(task.surface)
     if whole is not None:
-        first = _map_island(koebe, whole, task.outer, options, progress, cancel)
+        (first,) = _map_each(koebe, [whole], task, options, progress, cancel)
         if first.error is None:
             return [first]
     islands = cut_into_islands(task.surface)
     if first is not None and len(islands) == 1 and len(islands[0].vertices) == len(first.island.vertices):
         return [first]  # nothing to cut: the error is the island's own
+    return _map_each(koebe, islands, task, options, progress, cancel)
+
+
+def _map_each(
+    koebe: ModuleType, islands: list[Island], task: Task, options: Options, progress: Progress | None, cancel: Any
+) -> list[IslandOutcome]:
     done, total = 0, sum(len(island.triangles) for island in islands)
     outcomes = []
-    for island in islands:
+    fixed = zip(islands, places.centers(islands, task.center), places.points(islands, task.point), strict=True)
+    for island, center, point in fixed:
         share = _share_of(progress, done, len(island.triangles), total)
-        outcomes.append(_map_island(koebe, island, task.outer, options, share, cancel))
+        vertices = {"outer": _outer_loop(island, task.outer), "center": center, "point": point}
+        outcomes.append(_map_island(koebe, island, vertices, options, share, cancel))
         done += len(island.triangles)
     return outcomes
 
@@ -76,7 +85,12 @@ def _share_of(progress: Progress | None, done: int, part: int, total: int) -> Pr
 
 
 def _map_island(
-    koebe: ModuleType, island: Island, outer: str | int, options: Options, progress: Progress | None, cancel: Any
+    koebe: ModuleType,
+    island: Island,
+    vertices: dict[str, Any],
+    options: Options,
+    progress: Progress | None,
+    cancel: Any,
 ) -> IslandOutcome:
     arguments = options.solver_arguments()
     one = IslandOutcome(island)
@@ -85,12 +99,18 @@ def _map_island(
         if options.tube == "unroll" and _is_tube(koebe, island):
             # A concentric annulus keeps its digits however small the hole; moved off the centre it loses them.
             arguments["balance"] = "none"
+            vertices = {"outer": vertices["outer"]}
+        if vertices.get("center") is not None:
+            places.check_center(island, vertices["center"])
+            arguments["balance"] = "none"  # which chooses the centre as well
+        if vertices.get("point") is not None:
+            places.check_point(island, vertices["point"])
         one.result = koebe.uniformize(
             island.vertices,
             island.triangles,
-            outer=_outer_loop(island, outer),
             progress=progress,
             cancel=cancel,
+            **vertices,
             **arguments,
         )
     return one
@@ -149,6 +169,8 @@ def _shape(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> None
             one.sheet, one.shape = unrolled
             one.distortion = koebe.distortion(one.sheet.vertices, one.sheet.triangles, one.shape)
     for one in outcome.mapped if options.upright else ():
+        if one.result.point is not None:
+            continue
         with _failing_alone(koebe, [one]):
             turn = upright_turn(one.sheet, one.shape)
             # A rectangle stays level.

@@ -9,6 +9,7 @@ METHODS = ("gk", "ck")
 ENGINES = ("condensed", "mesh")
 OUTER_LOOPS = ("auto", "longest", "active")
 BALANCES = ("none", "area")
+PLACES = ("auto", "active", "cursor")
 TUBES = ("annulus", "unroll")
 PLACEMENTS = ("pack", "together", "keep")
 
@@ -34,6 +35,11 @@ class Options:
 
     outer         "auto", "longest", "active" (the loop of the active vertex, in Edit Mode) or the index of a
                   mesh vertex on the loop which becomes the unit circle
+    center        what goes to the centre of the disk: "auto", "active" (the active vertex, in Edit Mode), "cursor" (the
+                  vertex inside the surface nearest to the 3D cursor) or the index of a mesh vertex. The island that
+                  has it is not balanced then: both choose the centre
+    point         what goes to the right end of the disk: "auto", or a boundary vertex as for center. The island that
+                  has it has that vertex's loop as its rim, and is not turned upright
     tolerance     change of the circles between two sweeps, in units of the disk's radius
     polish        lower the angle error at the end, circles as they are; takes many times as long
     upright       turn every island so that the world's up is up in the UV Editor, else as computed
@@ -48,6 +54,8 @@ class Options:
     method: str = "gk"
     engine: str = "condensed"
     outer: str | int = "auto"
+    center: str | int = "auto"
+    point: str | int = "auto"
     tolerance: float = 1e-6
     max_sweeps: int = 50
     balance: str = "area"
@@ -68,10 +76,13 @@ class Options:
         _one_of("balance", self.balance, BALANCES)
         _one_of("tube", self.tube, TUBES)
         _one_of("placement", self.placement, PLACEMENTS)
-        if isinstance(self.outer, str):
-            _one_of("outer", self.outer, OUTER_LOOPS)
-        elif self.outer < 0:
-            raise OptionError(f"outer: {self.outer} is not a vertex index")
+        for name, value, words in (
+            ("outer", self.outer, OUTER_LOOPS), ("center", self.center, PLACES), ("point", self.point, PLACES),
+        ):  # fmt: skip
+            if isinstance(value, str):
+                _one_of(name, value, words)
+            elif value < 0:
+                raise OptionError(f"{name}: {value} is not a vertex index")
         if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
             raise OptionError(f"tolerance: {self.tolerance} is not a positive number")
         if self.max_sweeps < 1:
@@ -85,7 +96,7 @@ class Options:
         _check_layer_name(self.layer)
 
     def solver_arguments(self) -> dict[str, Any]:
-        """Keyword arguments of `koebe.uniformize`, all but `outer`, which depends on the island."""
+        """Keyword arguments of `koebe.uniformize`, but for the vertices, which depend on the island."""
         return {
             "method": self.method,
             "engine": self.engine,

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from koebe import UniformizeResult
 
 Progress = Callable[[float, str], None]  # called with a fraction and a stage
+# A vertex of the surface, or a place (3,) in its space that a vertex is to be nearest to.
+Place = int | np.ndarray | None
 LATER: Any = None  # of what is not there from the start, and is not asked for before it is
 
 
@@ -29,8 +31,9 @@ class MapError(KnownError):
 class Task:
     """A surface to map.
 
-    `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `old_uv` (C, 2) are
-    the UVs of its corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
+    `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `center` and `point` are
+    the vertices that go to the disk's centre and to its right end; `old_uv` (C, 2) are the UVs of the
+    surface's corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
     negative, `pinned` that UVs of the layer to write are pinned.
     """
 
@@ -40,6 +43,8 @@ class Task:
     mirrored: bool = False
     pinned: bool = False
     old_uv: np.ndarray | None = None
+    center: Place = None
+    point: Place = None
 
 
 @dataclasses.dataclass

@@ -42,6 +42,27 @@ class UniformizeProperties:
         default=DEFAULTS.outer,
         description="Boundary loop that becomes the rim of the disk. All others become round holes inside it",
     )
+    center: EnumProperty(
+        name="Centre",
+        items=[
+            ("auto", "Automatic", "Where Balance puts it"),
+            ("active", "Active Vertex", "The active vertex, which must be inside the surface (Edit Mode)"),
+            ("cursor", "3D Cursor", "The vertex inside the surface that is nearest to the 3D cursor"),
+        ],
+        default=DEFAULTS.center,
+        description="Vertex that becomes the centre of the disk, in the place of Balance",
+    )
+    point: EnumProperty(
+        name="Rim Point",
+        items=[
+            ("auto", "Automatic", "As Upright turns the disk"),
+            ("active", "Active Vertex", "The active vertex, which must be on a boundary loop (Edit Mode)"),
+            ("cursor", "3D Cursor", "The boundary vertex that is nearest to the 3D cursor"),
+        ],
+        default=DEFAULTS.point,
+        description="Boundary vertex that becomes the right end of the disk; its loop becomes the rim. "
+        "In the place of Upright",
+    )
     tolerance: FloatProperty(
         name="Tolerance",
         default=DEFAULTS.tolerance,

@@ -30,7 +30,7 @@ class MainPanel(KoebePanel):
         layout = self.aligned_layout()
         settings = settings_of(context)
         column = layout.column()
-        for name in ("outer", "balance", "tube", "upright", "placement", "margin", "layer"):
+        for name in ("outer", "center", "point", "balance", "tube", "upright", "placement", "margin", "layer"):
             row = column.row()
             row.active = name != "margin" or settings.placement != "keep"
             row.prop(settings, name)

@@ -95,7 +95,7 @@ public:
             outcome.steps += report.steps;
             result.curvature_error = report.residuals.back();
             lay_out(result);
-            CircleState next = circle_state(outcome.loops, fit_circle_least_squares);
+            CircleState next = circle_state(outcome.loops);
             const double change = circle_change(now, next);
             outcome.history.push_back({outcome.steps, {0, 0}, change, next.mean_roundness, next.circles});
             now = std::move(next);

@@ -15,7 +15,7 @@ namespace koebe {
 /// How a loop's curvature, 2 pi outside and -2 pi at a hole, is shared among its edges; a vertex gets half of its two.
 enum class BoundaryTarget {
     inscribed,     ///< the angle of the edge as a chord of the circle through the loop: holes close up exactly
-    proportional,  ///< by length, as the paper has it: off by O(h^2), so that holes stay ajar and circles drift on
+    proportional,  ///< by length: off by O(h^2), so that holes stay ajar and circles drift on
 };
 
 struct RicciFlowOptions {

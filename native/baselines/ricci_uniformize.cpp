@@ -12,6 +12,7 @@
 #include "pipeline/flip_removal.h"
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
+#include "pipeline/normalization.h"
 #include "quality/distortion.h"
 #include "surface/intrinsic_metric.h"
 
@@ -74,6 +75,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.engine = options.common.engine;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
+    result.center = options.common.center;
+    result.point = options.common.point;
     const auto begin = Clock::now();
 
     context.begin_stage("topology", 0.0, 0.05);
@@ -112,6 +115,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     CircleMap map = in_normal_position(flow, domain);
     const std::size_t own_flips = flipped_faces(domain.surface.triangles, map.uv).size();
     map = hang_back(whole, cut, std::move(map), context);
+    put_in_place(whole, map);
     // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
     const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
     report_map(whole, map, result);

@@ -8,7 +8,8 @@
 namespace koebe {
 
 struct RicciOptions {
-    UniformizeOptions common;  ///< outer, tolerance, max_sweeps (updates of the target) and threads count
+    UniformizeOptions
+        common;  ///< outer, center, point, tolerance, max_sweeps (updates of the target) and threads count
     Packing packing = Packing::inversive;
     BoundaryTarget target = BoundaryTarget::inscribed;
     bool delaunay = true;  ///< flip the surface's edges to intrinsic Delaunay first, as uniformize does

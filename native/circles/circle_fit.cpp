@@ -74,8 +74,7 @@ Circle fit_circle_paper(const VectorXcd& points)
 {
     const VectorXd weights = length_weights(points);
     const Complex center = (weights.array() * points.array()).sum();
-    const double radius = (weights.array() * (points.array() - center).abs()).sum();
-    return {center, radius};
+    return {center, (points.array() - center).abs().mean()};
 }
 
 Circle fit_circle_least_squares(const VectorXcd& points)
@@ -102,11 +101,40 @@ Circle fit_circle_least_squares(const VectorXcd& points)
     return circle.radius > 0.0 && !spans_an_arc_only(points, circle) ? circle : fit_circle_paper(points);
 }
 
-double roundness(const VectorXcd& points, const Circle& circle)
+double paper_roundness(const VectorXcd& points)
+{
+    if (points.size() == 0) return 0.0;
+    const Circle circle = fit_circle_paper(points);
+    if (circle.radius == 0.0) return 1.0;
+    const auto deviation = (points.array() - circle.center).abs() - circle.radius;
+    return std::sqrt(deviation.square().mean()) / circle.radius;
+}
+
+double deviation_from(const Circle& circle, const VectorXcd& points)
 {
     const VectorXd weights = length_weights(points);
     const auto deviation = (points.array() - circle.center).abs() - circle.radius;
     return std::sqrt((weights.array() * deviation.square()).sum()) / circle.radius;
+}
+
+Roundness roundness(const VectorXcd& points, const Circle& circle)
+{
+    return {paper_roundness(points), deviation_from(circle, points)};
+}
+
+MeanRoundness mean_roundness(const std::vector<Roundness>& loops)
+{
+    MeanRoundness mean;
+    const auto share = [](std::size_t count) { return count > 0 ? 1.0 / static_cast<double>(count) : 0.0; };
+    const double of_all = share(loops.size()), of_holes = share(loops.empty() ? 0 : loops.size() - 1);
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        mean.all.paper += of_all * loops[k].paper;
+        mean.all.least_squares += of_all * loops[k].least_squares;
+        if (k == 0) continue;
+        mean.holes.paper += of_holes * loops[k].paper;
+        mean.holes.least_squares += of_holes * loops[k].least_squares;
+    }
+    return mean;
 }
 
 double inversive_distance(const Circle& a, const Circle& b)

@@ -58,7 +58,7 @@ void write_files(const MapRequest& request, const MeshInput& input, UniformizeRe
 std::string result_line(const MapRequest& request, const UniformizeResult& result)
 {
     double roundness = 0.0;
-    for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness);
+    for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness.paper);
     const auto rounded = [](const char* format, double number) {
         char text[32];
         std::snprintf(text, sizeof text, format, number);
@@ -101,6 +101,13 @@ void add_map_options(CLI::App& app, MapRequest& request)
         ->type_name("auto|longest|VERTEX")
         ->capture_default_str();
     add_mapping_options(app, options);
+    app.add_option("--center", options.center, "vertex inside the surface that goes to 0 (from 0)")
+        ->check(whole_number(0))
+        ->type_name("VERTEX");
+    app.add_option("--point", options.point,
+                   "vertex of a boundary loop that goes to 1, and its loop to the unit circle")
+        ->check(whole_number(0))
+        ->type_name("VERTEX");
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
     app.add_option("--svg", request.svg, "write a picture of the circle domain there")->type_name("FILE");
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
@@ -132,7 +139,7 @@ int run_map(const MapRequest& request, const MapFunction& compute)
         ProgressLine progress(request.quiet);
         ExecutionContext context(progress.callback(), token);
         result = with_filed_faces(input, [&] {
-            if (request.options.outer == OuterLoop::vertex) require_on_a_loop(input, request.options.outer_vertex);
+            require_fitting_vertices(input, request.options);
             return compute(input.polygons.vertices, input.triangulation.triangles, context);
         });
         result.seconds.read = input.seconds;

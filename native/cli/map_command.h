@@ -25,7 +25,7 @@ struct MapRequest {
 
 /// IN and OUT.
 void add_mesh_arguments(CLI::App& app, MapRequest& request);
-/// --outer, --tolerance, --max-sweeps, --json, --svg, --threads, --quiet.
+/// --outer, --center, --point, --tolerance, --max-sweeps, --json, --svg, --threads, --quiet.
 void add_map_options(CLI::App& app, MapRequest& request);
 /// Sets what the options' words mean.
 /// @throws CLI::ValidationError OUT names no format; two of the files are one

@@ -144,8 +144,10 @@ DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index v
         p = vertex_count;
     }
     const Punctured punctured = remove_shrunk_star(surface, p, options.halvings);
-    const AnnulusMap annulus = annulus_map(punctured.rest.triangles, punctured.rest.lengths,
-                                           punctured.rest.vertex_count, loop, punctured.hole, {.inside = false});
+    const AnnulusMap annulus =
+        annulus_map(punctured.rest.triangles, punctured.rest.lengths, punctured.rest.vertex_count, loop, punctured.hole,
+                    {.backend = options.backend, .inside = false});
+    if (!annulus.converged) throw SolverError("the discrete Yamabe flow of the annulus did not converge");
     map.hole_radius = annulus.inner_radius;
     const VectorXcd filled = harmonic_map(surface.triangles, surface.lengths, surface.vertex_count, loop,
                                           gather_loop(annulus.positions, loop));

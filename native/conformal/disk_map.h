@@ -1,6 +1,7 @@
 // The Riemann map of a topological disk (paper, section 4.3).
 #pragma once
 
+#include "conformal/annulus_map.h"
 #include "core/api.h"
 #include "core/types.h"
 #include "surface/laplacian.h"
@@ -14,6 +15,7 @@ struct DiskMapOptions {
     int halvings = 3;
     /// A vertex outside the closed disk is an error; false: the caller takes the loop alone.
     bool inside = true;
+    AnnulusBackend backend = AnnulusBackend::harmonic;  ///< of the annulus that the surface without D_n is mapped to
 };
 
 struct DiskMap {
@@ -33,7 +35,8 @@ struct DiskMap {
 /// @param triangles (F, 3) oriented, one boundary loop
 /// @param lengths (F, 3) edge lengths
 /// @param loop the boundary, surface on the left
-/// @throws InputError the centre is no inner vertex; SolverError, also for a map that leaves the closed disk
+/// @throws InputError the centre is no inner vertex; SolverError, also for a map that leaves the closed disk, or
+///         a Yamabe flow that does not converge
 KOEBE_API DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                            const VertexLoop& loop, const DiskMapOptions& options = {});
 

@@ -21,6 +21,7 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::below_resolution: return "below_resolution";
     case WarningKind::flipped: return "flipped";
     case WarningKind::not_one_to_one: return "not_one_to_one";
+    case WarningKind::out_of_place: return "out_of_place";
     case WarningKind::packing: return "packing";
     case WarningKind::closing_gap: return "closing_gap";
     case WarningKind::flow_flips: return "flow_flips";
@@ -33,7 +34,8 @@ ElementKind elements_of(WarningKind kind) noexcept
 {
     switch (kind) {
     case WarningKind::unused_vertices:
-    case WarningKind::off_circle: return ElementKind::vertices;
+    case WarningKind::off_circle:
+    case WarningKind::out_of_place: return ElementKind::vertices;
     case WarningKind::collapsed_faces:
     case WarningKind::reoriented_faces:
     case WarningKind::flaps:

@@ -27,6 +27,7 @@ enum class WarningKind {
     below_resolution,  ///< a region too small for 32-bit UVs, with flipped faces in it; elements: its faces
     flipped,           ///< faces that could not be turned back; elements: faces
     not_one_to_one,    ///< a promise that does not hold; elements: the flipped faces among it
+    out_of_place,      ///< a vertex that could not be brought to 0 without turning faces over; elements: it
     packing,           ///< the Ricci baseline: its circle packing changes edge lengths
     closing_gap,       ///< the Ricci baseline: holes do not close exactly
     flow_flips,        ///< the Ricci baseline: flips of the flow's own map

@@ -16,11 +16,11 @@ constexpr Index drawn_faces = 60000;  // how many faces may be drawn to circles 
 class Embedding {
 public:
     Embedding(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-              const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context)
+              const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places, const ExecutionContext& context)
         : loops_(loops),
-          map_(vertices, surface, loops, flaps, rim, context),
+          map_(vertices, surface, loops, flaps, rim, places, context),
           off_(loops.size(), 0),
-          roundness_(loops.size(), 0.0),
+          roundness_(loops.size()),
           most_drawings_(std::max<int>(1, drawn_faces / static_cast<int>(surface.triangles.rows())))
     {
     }
@@ -68,7 +68,7 @@ private:
     struct Attempt {
         int off = -1;  // vertices that should be on their circles and are not
         FilledMap::State state;
-        std::vector<double> roundness;
+        std::vector<Roundness> roundness;
     };
 
     /// Draws the loops to their circles, and those of them that stay off to others nearby.
@@ -145,7 +145,7 @@ private:
     const std::vector<VertexLoop>& loops_;
     FilledMap map_;
     std::vector<char> off_;  // per loop
-    std::vector<double> roundness_;
+    std::vector<Roundness> roundness_;
     int drawings_ = 0, most_drawings_;
 };
 
@@ -153,9 +153,9 @@ private:
 
 CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                        const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
-                       const ExecutionContext& context)
+                       const ExecutionContext& context, FixedPlaces places)
 {
-    return Embedding(vertices, surface, loops, flaps, rim, context).run(wanted, context);
+    return Embedding(vertices, surface, loops, flaps, rim, places, context).run(wanted, context);
 }
 
 }  // namespace koebe

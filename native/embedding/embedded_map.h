@@ -4,6 +4,7 @@
 #include "circles/circle_map.h"
 #include "core/execution.h"
 #include "core/topology.h"
+#include "embedding/fixed_places.h"
 #include "flaps/flaps.h"
 
 #include <vector>
@@ -19,8 +20,9 @@ namespace koebe {
 /// @param flaps of the surface: their rims are not pulled to the circles of inner loops
 /// @param wanted the circles of the loops, apart from each other; empty: such as fit the map before it is pulled
 /// @param rim (n) points of the outer loop on the unit circle, in order, all different
+/// @param places where vertices are to lie; where faces would turn over by that, the centre lies nearby
 CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                        const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
-                       const ExecutionContext& context);
+                       const ExecutionContext& context, FixedPlaces places = {});
 
 }  // namespace koebe

@@ -1,9 +1,8 @@
 #include "embedding/filled_map.h"
 
-#include "circles/circle_fit.h"
+#include "circles/moebius.h"
 #include "core/tolerances.h"
 #include "embedding/roomy_rim.h"
-#include "foldover/patch_shapes.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 
@@ -20,11 +19,17 @@ namespace {
 constexpr double rounding = 3e-7;  // twice the area a face can lose by rounding, over its longest edge, disk units
 constexpr double roomy = 1e-4;     // of the mean area: a face as large has room
 constexpr int most_cautions = 4;
+// Of the vertex that is to lie at 0.
+constexpr int most_moves = 80, most_stuck = 4;
+constexpr double longest_move = 0.3;                    // disk units: of an automorphism
+constexpr double least_move = 1e-3, poor_move = 0.02;   // of the way to 0
+constexpr double with_room = 0.3, hardest_pull = 1e12;  // dimensionless: the weight of the holes' fans, and the pull
 
 }  // namespace
 
 FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-                     const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context)
+                     const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places,
+                     const ExecutionContext& context)
     : vertices_(vertices),
       surface_(surface),
       loops_(loops),
@@ -33,6 +38,7 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
       loop_of_(filled_.vertex_count, -1),
       pulled_(filled_.vertex_count, 0),
       caution_(filled_.triangles.rows(), 1.0),
+      places_(places),
       now_{{}, std::vector(filled_.vertex_count, Mobility::free), std::vector<Circle>(loops.size())},
       faces_(surface.triangles.rows())
 {
@@ -40,7 +46,7 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
         for (const Index v : loops[k]) {
             loop_of_[v] = static_cast<int>(k);
             pulled_[v] = k > 0;
-            if (k == 0) now_.mobility[v] = Mobility::sliding;
+            if (k == 0) now_.mobility[v] = v == places.point ? Mobility::held : Mobility::sliding;
         }
     for (const Flap& flap : flaps)
         for (const Index v : flap.rim) pulled_[v] = 0;
@@ -48,6 +54,91 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
         for (const Index v : filled_.triangles.row(f)) around_[v].push_back(static_cast<Index>(f));
     std::iota(faces_.begin(), faces_.end(), 0);
     start(rim, context);
+    if (places_.center >= 0) bring_to_center(context);
+}
+
+/// The rim turned, so that the vertex that is to lie at 1 does.
+VectorXcd FilledMap::placed_rim(VectorXcd rim) const
+{
+    if (places_.point < 0) return rim;
+    const auto place = std::ranges::find(loops_[0], places_.point) - loops_[0].begin();
+    rim *= std::conj(rim[place]) / std::abs(rim[place]);
+    rim[place] = 1.0;
+    return rim;
+}
+
+/// An automorphism of the disk, vertex by vertex, the vertex at 1 left there.
+/// @return false, and nothing done, if it turns a face over
+bool FilledMap::move_by(Moebius moebius)
+{
+    const std::vector<char> was_right = right_faces();
+    const PlanarPoints before = now_.points;
+    if (places_.point >= 0) {
+        const Complex image = moebius(at(places_.point));
+        moebius.turn = std::conj(image) / std::abs(image);
+    }
+    for (Index v = 0; v < filled_.vertex_count; ++v) {
+        Complex image = v == places_.point ? Complex(1.0, 0.0) : moebius(at(v));
+        if (loop_of_[v] == 0) image /= std::abs(image);
+        now_.points.row(v) << image.real(), image.imag();
+    }
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
+        if (was_right[f] && !right(f)) {
+            now_.points = before;
+            return false;
+        }
+    return true;
+}
+
+/// The vertex that is to lie at 0 moved a share of the way alone.
+/// @return false, and nothing done, if that turns a face over
+bool FilledMap::move_center_by(double share)
+{
+    const Index v = places_.center;
+    const std::vector<char> was_right = right_faces();
+    const Eigen::RowVector2d before = now_.points.row(v);
+    now_.points.row(v) -= share * before;
+    if (star_right(v, was_right)) return true;
+    now_.points.row(v) = before;
+    return false;
+}
+
+/// Brings the vertex that is to lie at 0 there, and holds it. An automorphism turns a face over only if its pole comes
+/// to lie in the circumscribed disk; so by small ones, whose poles are far, and by steps of the vertex alone. Between
+/// them the faces are relaxed around it, towards equilateral ones first, which have the smallest such disks.
+void FilledMap::bring_to_center(const ExecutionContext& context)
+{
+    let_rim_slide(true);
+    const State start = now_;
+    if (approach_center(false, context)) return;
+    return_to(start);
+    approach_center(true, context);
+}
+
+/// @param follows whether the vertex takes part when faces are relaxed; then it is pulled the last of the way
+/// @return whether it is at 0
+bool FilledMap::approach_center(bool follows, const ExecutionContext& context)
+{
+    const Index v = places_.center;
+    now_.mobility[v] = follows ? Mobility::free : Mobility::held;
+    PatchShape shape = PatchShape::equilateral;
+    bool there = move_center_by(1.0);
+    for (int step = 0, stuck = 0; !there && step < most_moves && stuck < most_stuck; ++step) {
+        double turned = std::min(1.0, longest_move / std::abs(at(v))), alone = follows ? 0.0 : 0.5;
+        while (turned > least_move && !move_by({turned * at(v)})) turned *= 0.5;
+        while (alone > least_move && !move_center_by(alone)) alone *= 0.5;
+        const double most = std::max(turned, alone);
+        stuck = most > least_move ? 0 : stuck + 1;
+        if (most < poor_move) shape = shape == PatchShape::surface ? PatchShape::equilateral : PatchShape::surface;
+        relax({.regular = with_room, .shape = shape}, most < poor_move ? 12 : 4, context);
+        there = move_center_by(1.0);
+    }
+    for (double pull = 1.0; follows && !there && pull < hardest_pull; pull *= 10.0) {
+        relax({.regular = with_room, .place = pull, .shape = PatchShape::equilateral}, 12, context);
+        there = move_center_by(1.0);
+    }
+    now_.mobility[v] = there ? Mobility::held : Mobility::free;
+    return there;
 }
 
 void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)
@@ -55,8 +146,9 @@ void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)
     PlanarPoints best;
     Eigen::Index fewest = filled_.triangles.rows() + 1;
     for (const double share : {0.0, 0.3, 1.0}) {
-        const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share) : rim;
-        now_.points = convex_embedding(filled_, loops_[0], wider, context);
+        if (places_.center >= 0 && share < 1.0) continue;  // the given rim may have no room for the middle
+        const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share, places_.center) : rim;
+        now_.points = convex_embedding(filled_, loops_[0], placed_rim(wider), context);
         const double least = roomy * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
         Eigen::Index poor = 0;
         for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) poor += !right(f) || !(area(f) > least);
@@ -118,7 +210,7 @@ FoldoverProblem FilledMap::problem(Pull pull) const
     FoldoverProblem problem;
     problem.points = now_.points;
     problem.mobility = now_.mobility;
-    const PatchShapes shapes = patch_shapes(vertices_, surface_.triangles, now_.points, faces_, PatchShape::surface);
+    const PatchShapes shapes = patch_shapes(vertices_, surface_.triangles, now_.points, faces_, pull.shape);
     std::vector<Index> taken;
     std::vector<double> floors, weights;
     for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) {
@@ -140,7 +232,7 @@ FoldoverProblem FilledMap::problem(Pull pull) const
     problem.circles.resize(filled_.vertex_count);
     for (Index v = 0; v < filled_.surface_vertices; ++v)
         if (loop_of_[v] >= 0) problem.circles[v] = now_.circles[loop_of_[v]];
-    if (pull.rim > 0.0 || pull.centre > 0.0) {
+    if (pull.rim > 0.0 || pull.centre > 0.0 || pull.place > 0.0) {
         problem.pull = VectorXd::Zero(filled_.vertex_count);
         for (Index v = 0; v < filled_.surface_vertices; ++v) problem.pull[v] = pulled_[v] ? pull.rim : 0.0;
         problem.pull_inside.assign(filled_.vertex_count, 0);
@@ -148,6 +240,11 @@ FoldoverProblem FilledMap::problem(Pull pull) const
             problem.circles[fan_centre(k)] = now_.circles[k];
             problem.pull[fan_centre(k)] = pull.centre;
             problem.pull_inside[fan_centre(k)] = 1;
+        }
+        if (places_.center >= 0) {
+            problem.circles[places_.center] = Circle{};
+            problem.pull[places_.center] = pull.place;
+            problem.pull_inside[places_.center] = 1;
         }
     }
     return problem;
@@ -221,7 +318,8 @@ void FilledMap::release(std::size_t loop)
 
 void FilledMap::let_rim_slide(bool slides)
 {
-    for (const Index v : loops_[0]) now_.mobility[v] = slides ? Mobility::sliding : Mobility::held;
+    for (const Index v : loops_[0])
+        now_.mobility[v] = slides && v != places_.point ? Mobility::sliding : Mobility::held;
 }
 
 VectorXcd FilledMap::image_of(std::size_t loop) const
@@ -231,7 +329,7 @@ VectorXcd FilledMap::image_of(std::size_t loop) const
     return image;
 }
 
-double FilledMap::roundness_of(std::size_t loop) const
+Roundness FilledMap::roundness_of(std::size_t loop) const
 {
     VectorXcd image = image_of(loop);
     Eigen::Index count = 0;

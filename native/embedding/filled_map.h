@@ -1,12 +1,15 @@
 // A one-to-one map of a surface with its holes filled, which stays one to one whatever moves.
 #pragma once
 
-#include "circles/circle.h"
+#include "circles/circle_fit.h"
+#include "circles/moebius.h"
 #include "core/execution.h"
 #include "core/topology.h"
 #include "embedding/convex_embedding.h"
+#include "embedding/fixed_places.h"
 #include "flaps/flaps.h"
 #include "foldover/foldover_free.h"
+#include "foldover/patch_shapes.h"
 
 #include <vector>
 
@@ -22,12 +25,16 @@ public:
         double rim = 0.0;       ///< of loop vertices to their circles
         double centre = 0.0;    ///< of fans' centres to the circles' centres
         double regular = 1e-3;  ///< weight of the fans, which would be regular polygons, against the surface's faces
+        double place = 0.0;     ///< of the vertex that is to lie at 0, there
+        PatchShape shape = PatchShape::surface;  ///< that the faces are to have
     };
 
     /// Starts from convex_embedding, on a rim with more room where it has too little (roomy_rim.h).
     /// @param flaps their rims are not pulled to the circles of inner loops
+    /// @param places vertices that have and keep their places, the centre unless its faces would turn over there
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-              const std::vector<Flap>& flaps, const VectorXcd& rim, const ExecutionContext& context);
+              const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places,
+              const ExecutionContext& context);
 
     /// Lowers the angle error of the surface's faces, and the pulls, by some Newton steps (foldover_free.h, strict).
     void relax(Pull pull, int iterations, const ExecutionContext& context);
@@ -54,7 +61,7 @@ public:
     Index fan_centre(std::size_t loop) const { return filled_.surface_vertices + static_cast<Index>(loop) - 1; }
     VectorXcd image_of(std::size_t loop) const;
     /// How round a loop lies about its circle, vertices that are not pulled aside.
-    double roundness_of(std::size_t loop) const;
+    Roundness roundness_of(std::size_t loop) const;
     /// Vertices of an inner loop that are not on its circle. @param pulled only those that should be
     std::vector<Index> off_circle(std::size_t loop, bool pulled) const;
     PlanarPoints surface_points() const { return now_.points.topRows(surface_.vertex_count); }
@@ -63,6 +70,11 @@ private:
     using Mobility = FoldoverProblem::Mobility;
 
     void start(const VectorXcd& rim, const ExecutionContext& context);
+    VectorXcd placed_rim(VectorXcd rim) const;
+    bool move_by(Moebius moebius);
+    bool move_center_by(double share);
+    void bring_to_center(const ExecutionContext& context);
+    bool approach_center(bool follows, const ExecutionContext& context);
     double area(Eigen::Index f) const;
     double longest_edge(Eigen::Index f) const;
     bool right(Eigen::Index f) const;
@@ -80,6 +92,7 @@ private:
     std::vector<int> loop_of_;
     std::vector<char> pulled_;     // 1 for vertices that should be on the circles of inner loops
     std::vector<double> caution_;  // per face: what its floor is multiplied by
+    FixedPlaces places_;
     State now_;
     std::vector<Index> faces_;  // of the surface
 };

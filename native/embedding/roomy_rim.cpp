@@ -18,8 +18,9 @@ struct Arc {
     double faces;
 };
 
-/// The faces parted by edges that join outer vertices; each part's arc, inner ones first, but for the largest part.
-std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer)
+/// The faces parted by edges that join outer vertices; each part's arc, inner ones first, but for the part with the
+/// centre, or the largest.
+std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer, Index center)
 {
     const Triangles& triangles = filled.triangles;
     const auto n = static_cast<Index>(outer.size());
@@ -50,7 +51,9 @@ std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer)
     std::vector<std::vector<Index>> chords(size.size());  // half-edges of each part
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
         if (chord(h)) chords[part[face_of(h)]].push_back(h);
-    const auto root = static_cast<Index>(std::max_element(size.begin(), size.end()) - size.begin());
+    auto root = static_cast<Index>(std::max_element(size.begin(), size.end()) - size.begin());
+    for (Index h = 0; h < static_cast<Index>(triangles.size()) && center >= 0; ++h)
+        if (origin(triangles, h) == center) root = part[face_of(h)];
     struct Entry {
         Index part, door;  // the part's own half-edge on the edge towards the root; -1 for the root
     };
@@ -76,12 +79,12 @@ std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer)
 
 }  // namespace
 
-VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share)
+VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share, Index center)
 {
     const auto n = static_cast<Index>(outer.size());
     VectorXd steps = VectorXd::Constant(n, 2.0 * std::numbers::pi / n);
     if (n <= most_vertices)
-        for (const Arc& arc : arcs_of(filled, outer)) {
+        for (const Arc& arc : arcs_of(filled, outer, center)) {
             const double share_of_faces = arc.faces / static_cast<double>(filled.triangles.rows());
             const double needed = std::min(std::cbrt(12.0 * std::numbers::pi * share_of_faces), longest_arc);
             double now = 0.0;

@@ -11,6 +11,9 @@ namespace koebe {
 /// needs at least the t at which its faces are as large as the others.
 /// @param rim (n) points of the outer loop on the unit circle, in order; the first keeps its place
 /// @param share 0: the rim as it is; 1: nothing is left of it
-VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share);
+/// @param center a vertex, of no loop, that is to have the middle of the disk: what lies behind an edge is what
+///        the edge parts from it; -1: from the largest part
+VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share,
+                    Index center = -1);
 
 }  // namespace koebe

@@ -47,7 +47,8 @@ VectorXd distortion_weights(const FoldoverProblem& problem)
 class AnglePolish {
 public:
     AnglePolish(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-                const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv)
+                const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
+                const std::vector<Index>& held)
         : vertices_(vertices),
           triangles_(surface.triangles),
           loops_(loops),
@@ -56,6 +57,7 @@ public:
           uv_(uv),
           map_(vertices, surface, loops, circles, off_circle, uv)
     {
+        for (const Index v : held) map_.hold(v);
         std::vector<Index> faces(triangles_.rows());
         std::iota(faces.begin(), faces.end(), 0);
         problem_ = patch_problem(map_, faces, PatchShape::surface, PatchBoundary::sliding).problem;
@@ -65,8 +67,14 @@ public:
             problem_.mobility[v] = Mobility::held;
         }
         const VertexLoop& outer = loops[0];
-        for (std::size_t i = 0; i < (loops.size() == 1 ? 3 : 1); ++i)
-            problem_.mobility[outer[i * outer.size() / 3]] = Mobility::held;
+        std::size_t first = 0, pins = loops.size() == 1 ? 3 : 1;
+        for (const Index v : held)
+            if (map_.loop_of(v) == 0)
+                first = static_cast<std::size_t>(std::ranges::find(outer, v) - outer.begin());
+            else
+                pins = 1;
+        for (std::size_t i = 0; i < pins; ++i)
+            problem_.mobility[outer[(first + i * outer.size() / 3) % outer.size()]] = Mobility::held;
         const VectorXd ratio = conformality(problem_);
         for (Eigen::Index f = 0; f < ratio.size(); ++f)
             if (ratio[f] < flat)
@@ -158,9 +166,9 @@ private:
 
 bool polish_angles(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                    const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
-                   ExecutionContext& context)
+                   ExecutionContext& context, const std::vector<Index>& held)
 {
-    return AnglePolish(vertices, surface, loops, circles, off_circle, uv).run(context);
+    return AnglePolish(vertices, surface, loops, circles, off_circle, uv, held).run(context);
 }
 
 }  // namespace koebe

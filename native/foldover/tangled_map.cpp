@@ -80,7 +80,7 @@ bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
 {
     const bool may = place_[vertex] == Place::inside || boundary == PatchBoundary::sliding ||
                      (place_[vertex] == Place::off_circle && boundary == PatchBoundary::freed);
-    return may && !collapsed(vertex);
+    return may && !held(vertex) && !collapsed(vertex);
 }
 
 bool TangledMap::hangs(Index face) const

@@ -4,6 +4,7 @@
 #include "circles/circle.h"
 #include "core/topology.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ public:
     int loop_of(Index vertex) const { return loop_of_[vertex]; }
     Place place(Index vertex) const { return place_[vertex]; }
     void set_place(Index vertex, Place place) { place_[vertex] = place; }
+    /// From now on the vertex stays where it is.
+    void hold(Index vertex) { held_.push_back(vertex); }
+    bool held(Index vertex) const { return std::ranges::find(held_, vertex) != held_.end(); }
     /// Whether it lies on its circle, up to inner_circle_tolerance.
     bool near_circle(Index vertex) const;
 
@@ -63,6 +67,7 @@ private:
     PlanarPoints& uv_;
     std::vector<Place> place_;
     std::vector<char> flap_;  // 1 for vertices off their circles from the start: rims of flaps
+    std::vector<Index> held_;
     std::vector<int> loop_of_;
     std::vector<Index> begin_, faces_of_;  // faces around each vertex
 };

@@ -133,6 +133,7 @@ UntangleReport untangle(const Vertices& vertices, const Surface& surface, const 
     while (f < surface.triangles.rows() && !tangled(f)) ++f;
     if (f == surface.triangles.rows()) return {};
     TangledMap map(vertices, surface, loops, circles, off_circle, uv);
+    for (const Index v : options.held) map.hold(v);
     return Untangler(map, context, options).run();
 }
 

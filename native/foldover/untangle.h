@@ -10,7 +10,8 @@
 namespace koebe {
 
 struct UntangleOptions {
-    bool slide = true;  ///< along the circles, before any vertex is freed
+    bool slide = true;             ///< along the circles, before any vertex is freed
+    std::vector<Index> held = {};  ///< vertices that stay where they are
 };
 
 struct UntangleReport {

@@ -83,7 +83,8 @@ bool nudge_face(TangledMap& map, Index face)
     PlanarPoints& uv = map.uv();
     std::array<Index, 3> v{map.triangles()(face, 0), map.triangles()(face, 1), map.triangles()(face, 2)};
     for (const Index corner : v)
-        if (map.loop_of(corner) != 0 || map.place(corner) != TangledMap::Place::on_circle) return false;
+        if (map.loop_of(corner) != 0 || map.place(corner) != TangledMap::Place::on_circle || map.held(corner))
+            return false;
     // The middle one is opposite to the longest edge.
     const auto opposite = [&](int k) { return (uv.row(v[(k + 1) % 3]) - uv.row(v[(k + 2) % 3])).squaredNorm(); };
     const int middle = opposite(0) > std::max(opposite(1), opposite(2)) ? 0 : opposite(1) > opposite(2) ? 1 : 2;

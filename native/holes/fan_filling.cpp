@@ -32,18 +32,13 @@ VectorXd edge_lengths_of(const Vertices& loop)
     return lengths;
 }
 
-Eigen::RowVector3d mass_center(const Vertices& given)
+Eigen::RowVector3d mean_vertex(const Vertices& given)
 {
     const ScaledPositions scaled(given);
     const Vertices& loop = scaled.positions;
-    const VectorXd lengths = edge_lengths_of(loop);
-    const double total = lengths.sum();
-    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
-    for (Eigen::Index i = 0; i < loop.rows() && total > 0.0; ++i)
-        center += lengths[i] / total * 0.5 * (loop.row(i) + loop.row((i + 1) % loop.rows()));
-    // Rounding may lead out of the box, where the largest numbers are not finite any more. A loop of no length is
-    // there.
-    center = center.cwiseMax(loop.colwise().minCoeff()).cwiseMin(loop.colwise().maxCoeff());
+    // Rounding may lead out of the box, where the largest numbers are not finite any more.
+    const Eigen::RowVector3d center =
+        loop.colwise().mean().cwiseMax(loop.colwise().minCoeff()).cwiseMin(loop.colwise().maxCoeff());
     return center.unaryExpr([&](double x) { return std::ldexp(x, scaled.exponent); });
 }
 
@@ -53,7 +48,7 @@ SurfacePatch fill_on_surface(const Vertices& loop)
 {
     const Index m = static_cast<Index>(loop.rows());
     SurfacePatch patch{Vertices(m + 1, 3), Triangles(m, 3)};
-    patch.vertices << loop, mass_center(loop);
+    patch.vertices << loop, mean_vertex(loop);
     for (Index i = 0; i < m; ++i) patch.triangles.row(i) << (i + 1) % m, i, m;
     return patch;
 }

@@ -17,7 +17,7 @@ struct SurfacePatch {
     Triangles triangles;
 };
 
-/// Fan around the mass centre of the loop, the length-weighted mean of its edges.
+/// Fan around the mean of the loop's vertices (paper, section 4.4).
 /// The centre is finite, and inside the loop's bounding box, for all finite positions.
 /// @param loop (m, 3) boundary loop, the surface on the left; the patch continues the surface's orientation
 /// @return m + 1 vertices, m triangles

@@ -6,6 +6,7 @@
 #include <CGAL/IO/OFF.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <sstream>
@@ -43,6 +44,10 @@ void require_off_header(std::string_view bytes)
 {
     std::string_view text = bytes;
     const std::string_view keyword = next_word(text);
+    // CGAL ends the keyword at the first such character, and takes what follows for the next word.
+    const auto in_keyword = [](unsigned char c) { return c < 128 && std::isalnum(c) != 0; };
+    if (!std::ranges::all_of(keyword, in_keyword))
+        throw InputError("the file does not start with OFF and three counts");
     std::string_view word = next_word(text);
     if (word.starts_with("BINARY") || keyword.ends_with("SKEL") || keyword.find('n') != std::string_view::npos)
         throw InputError("OFF is supported as a text in three dimensions, not binary, SKEL or nOFF");

@@ -41,7 +41,7 @@ void CondensedState::set_disk(int k, const MatrixXd& disk)
     filled_.block(begin_[k], begin_[k], size_[k], size_[k]) = diagonal_block(sigma_, k) + disk;
 }
 
-void CondensedState::take_steps(const std::vector<OpenedLoops>& together, int& raised)
+void CondensedState::take_steps(const Sweep& together, int& raised)
 {
     std::vector<VectorXd> fluxes;
     for (const OpenedLoops& open : together) fluxes.push_back(flux(open));

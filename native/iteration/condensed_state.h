@@ -22,7 +22,7 @@ public:
 
     std::vector<VectorXcd> images() override;
     bool opens_at_once() const override { return false; }
-    void take_steps(const std::vector<OpenedLoops>& together, int& raised) override;
+    void take_steps(const Sweep& together, int& raised) override;
 
 private:
     /// The flux through open loops, one after the other: of the harmonic function that is 0 on the first and 1 on the

@@ -1,18 +1,18 @@
 #include "iteration/convergence.h"
 
-#include "circles/circle_fit.h"
-
 #include <cmath>
 
 namespace koebe {
 
-CircleState circle_state(const std::vector<VectorXcd>& images, Circle (*fit)(const VectorXcd&))
+CircleState circle_state(const std::vector<VectorXcd>& images)
 {
     CircleState state;
+    std::vector<Roundness> loops;
     for (const VectorXcd& image : images) {
-        state.circles.push_back(fit(image));
-        state.mean_roundness += roundness(image, state.circles.back()) / static_cast<double>(images.size());
+        state.circles.push_back(fit_circle_least_squares(image));
+        loops.push_back(roundness(image, state.circles.back()));
     }
+    state.mean_roundness = mean_roundness(loops);
     return state;
 }
 

@@ -1,7 +1,7 @@
 // When a Koebe iteration ends: how far its circles moved (paper, section 4.4).
 #pragma once
 
-#include "circles/circle.h"
+#include "circles/circle_fit.h"
 #include "core/types.h"
 
 #include <vector>
@@ -10,14 +10,14 @@ namespace koebe {
 
 struct CircleState {
     std::vector<Circle> circles;
-    double mean_roundness = 0.0;  ///< mean e(gamma_k) over all loops (paper, section 5)
+    MeanRoundness mean_roundness;
 };
 
-/// The circle of each loop's image by the given fit, and how round the images are.
-CircleState circle_state(const std::vector<VectorXcd>& images, Circle (*fit)(const VectorXcd&));
+/// The circle of each loop's image by least squares, and how round the images are.
+CircleState circle_state(const std::vector<VectorXcd>& images);
 
-/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), the paper's termination test (section 4.4). A first state is compared with
-/// circles of radius 0 at the origin.
+/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), a length: the root of what the paper's termination test (section 4.4) takes. A
+/// first state is compared with circles of radius 0 at the origin.
 double circle_change(const CircleState& before, const CircleState& after);
 
 /// Whether the circles have moved by less than the tolerance in a sweep. With two loops one step is exact: it reads

@@ -88,7 +88,7 @@ VectorXcd DiskPatch::harmonic_image(const VectorXcd& rim) const
     return harmonic_map(triangles_, lengths_, vertex_count_, fixed, rim);
 }
 
-void DiskPatch::refill(const VectorXcd& rim)
+void DiskPatch::refill(const VectorXcd& rim, double radius)
 {
     if (is_fan_) mesh(rim);
     VectorXcd chart = harmonic_image(rim);
@@ -96,7 +96,7 @@ void DiskPatch::refill(const VectorXcd& rim)
         mesh(rim);
         chart = harmonic_image(rim);
     }
-    lengths_ = planar_lengths(chart, triangles_);
+    lengths_ = radius * planar_lengths(chart, triangles_);
 }
 
 }  // namespace koebe

@@ -7,7 +7,7 @@
 namespace koebe {
 
 struct DiskPatchOptions {
-    /// In mean edges of the rim. 1 is what the paper says, and what keeps second order: the disk of loop 0 may then
+    /// In mean edges of the rim. 1 keeps second order (the paper says nothing of it): the disk of loop 0 may then
     /// have more faces than the surface. With 1.5 the error is up to ten times larger, with 3 it stops falling.
     double longest_edge = 1.0;
     double gradation = 0.25;   ///< growth of the edge length per distance from the rim, dimensionless
@@ -17,14 +17,15 @@ struct DiskPatchOptions {
 /// A disk of triangles. Its first vertices are the loop's, in the loop's order.
 class DiskPatch {
 public:
-    /// The fan around the mass centre of the loop, on the surface. @param loop (m, 3), the surface on the left
+    /// The fan around the mean of the loop's vertices, on the surface. @param loop (m, 3), the surface on the left
     explicit DiskPatch(const Vertices& loop, const DiskPatchOptions& options = {});
 
     /// Makes it the flat disk inside a polygon. A fan gives way to a Delaunay mesh of the polygon, which then follows
     /// new polygons by the harmonic map of its present metric, as long as its triangles stay good.
     /// @param rim (m) points of the unit circle, clockwise, as the loop runs seen from the disk
+    /// @param radius the disk's, by which the lengths are scaled
     /// @throws InputError the polygon is not simple
-    void refill(const VectorXcd& rim);
+    void refill(const VectorXcd& rim, double radius = 1.0);
 
     /// Another metric on the same triangles.
     void set_lengths(const EdgeLengths& lengths) { lengths_ = lengths; }

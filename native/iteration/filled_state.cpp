@@ -34,7 +34,7 @@ Index FilledState::total(const std::vector<int>& loops) const
     return result;
 }
 
-void GroundedState::take_steps(const std::vector<OpenedLoops>&, int& raised)
+void GroundedState::take_steps(const Sweep&, int& raised)
 {
     const std::vector<VectorXd> fluxes = fluxes_against_outer();
     for (int k = 1; k < loop_count(); ++k) take_angles({k}, fluxes[k - 1], raised);

@@ -23,7 +23,7 @@ public:
     /// loop: harmonic where it is filled.
     virtual std::vector<VectorXcd> images() = 0;
 
-    /// Whether all steps of a sweep take effect together (sweep_order).
+    /// Whether all steps of a sweep take effect together.
     virtual bool opens_at_once() const = 0;
 
     /// The outer loop's first angles, where they follow from the other loops'.
@@ -31,7 +31,7 @@ public:
     virtual void start(int&) {}
 
     /// Takes steps of a sweep, all from the present state: new angles for the loops they open. @param raised as above
-    virtual void take_steps(const std::vector<OpenedLoops>& together, int& raised) = 0;
+    virtual void take_steps(const Sweep& together, int& raised) = 0;
 
 protected:
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
@@ -60,7 +60,7 @@ class GroundedState : public FilledState {
 public:
     bool opens_at_once() const final { return true; }
     void start(int& raised) final { take_angles({0}, outer_flux(), raised); }
-    void take_steps(const std::vector<OpenedLoops>&, int& raised) final;
+    void take_steps(const Sweep&, int& raised) final;
 
 protected:
     using FilledState::FilledState;

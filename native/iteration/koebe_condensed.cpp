@@ -1,7 +1,6 @@
 #include "iteration/koebe_condensed.h"
 
 #include "circles/boundary_angles.h"
-#include "circles/circle_fit.h"
 #include "core/memory_limit.h"
 #include "iteration/condensed_state.h"
 #include "iteration/convergence.h"
@@ -66,16 +65,21 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         return outcome;
     }
     const std::unique_ptr<FilledState> state = first_state(laplacian, surface, loops, edges, at_once, flux_of_source);
-    const auto order = sweep_order(loop_count, options.method, state->opens_at_once());
+    const Sweep sweep = fixed_sweep(loop_count, options.method);
+    std::vector<Sweep> order;  // what a sweep takes together, and after it the next such
+    if (state->opens_at_once())
+        order.push_back(sweep);
+    else
+        for (const OpenedLoops& step : sweep) order.push_back({step});
     CircleState now;
     if (loop_count > 2) {
         state->start(outcome.raised_angles);
-        now = circle_state(state->images(), fit_circle_least_squares);
+        now = circle_state(state->images());
     }
     // Steps that take effect together share the change and the roundness they lead to.
-    const auto record = [&](const std::vector<OpenedLoops>& together) {
+    const auto record = [&](const Sweep& together) {
         outcome.loops = state->images();
-        CircleState next = circle_state(outcome.loops, fit_circle_least_squares);
+        CircleState next = circle_state(outcome.loops);
         for (const OpenedLoops& open : together)
             outcome.history.push_back({++outcome.steps, std::pair(open.front(), open.back()), circle_change(now, next),
                                        &open == &together.back() ? next.mean_roundness : now.mean_roundness,

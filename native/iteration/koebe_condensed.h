@@ -20,12 +20,13 @@ Index best_grounded(const std::vector<VertexLoop>& loops);
 /// sum T_k is the surface with all of them. A GK step opens the pair P = (i, j), the rest R staying filled: the
 /// harmonic function f that is 0 on one loop and 1 on the other has f_R = -A_RR^-1 A_RP f_P, and the flux
 /// A_PP f_P + A_PR f_R through its nodes has the conjugate function as its running sum: the new angles. (T_i and T_j
-/// vanish on constants.) A CK step opens one loop, kept at 0, and a source inside S takes the place of the other.
+/// vanish on constants.) A CK step opens one loop, kept at 0, and a source inside S takes the place of the other. A
+/// step of against_outer is a GK step on the pair (0, k).
 ///
 /// From 3 to 8 loops the steps of a sweep follow each other, and R is eliminated in each. Else all loops are opened
 /// from the same state, each against the outer one, and one factor of A serves them all: with N the inverse of A on the
 /// inner loops, the flux through loop k at potential 1 is (N_kk)^-1 1. The outer loop, open in every step, is never
-/// filled, and takes its angles from the flux of the pair (0, 1) in the new state. Both methods are then the same, but
+/// filled, and takes its angles from the flux of the pair (0, 1) in the new state. All methods are then the same, but
 /// for how many loops a step counts. With one loop one step from a source is exact, with two loops one GK step.
 ///
 /// Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected inversion.

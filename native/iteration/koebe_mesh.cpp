@@ -2,17 +2,18 @@
 
 #include "circles/boundary_angles.h"
 #include "circles/circle_fit.h"
-#include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
+#include "core/connectivity.h"
+#include "core/errors.h"
 #include "iteration/convergence.h"
-#include "iteration/sweep_order.h"
+#include "surface/deepest_vertex.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -28,15 +29,50 @@ struct FilledMesh {
     std::vector<Index> offset;  // per disk: what its inner vertices' numbers are raised by; -1 if it is removed
 };
 
+/// The vertex deepest inside the surface, all of its loops taken as boundary; -1 without inner vertices.
+Index deepest_inside(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
+                     const std::vector<VertexLoop>& loops)
+{
+    std::vector<char> outer = unused_vertices(triangles, vertex_count);
+    for (const VertexLoop& loop : loops)
+        for (const Index v : loop) outer[v] = 1;
+    return deepest_vertex(triangles, lengths, outer);
+}
+
+/// The reflection tau in the unit circle around a point, moved there: z -> 1 / conj(z - center).
+struct Reflection {
+    Complex center;
+
+    Complex operator()(Complex z) const { return 1.0 / std::conj(z - center); }
+    VectorXcd operator()(const VectorXcd& z) const
+    {
+        return z.unaryExpr([this](Complex point) { return (*this)(point); });
+    }
+    Circle operator()(const Circle& circle) const
+    {
+        const Complex from = circle.center - center;
+        const double power = std::norm(from) - circle.radius * circle.radius;
+        return {from / power, circle.radius / std::abs(power)};
+    }
+};
+
+/// The picture that a step draws: positions of what it has mapped, and the circles of the loops it has opened.
+struct StepImage {
+    VectorXcd positions;
+    std::vector<Circle> circles;
+};
+
 class MeshKoebe {
 public:
     MeshKoebe(const Vertices& vertices, const Triangles& triangles, const EdgeLengths& lengths,
               const std::vector<VertexLoop>& loops, const KoebeMeshOptions& options)
         : metric_(options.metric),
+          annulus_(options.annulus),
           loops_(loops),
           triangles_(triangles),
           lengths_(lengths),
           vertex_count_(static_cast<Index>(vertices.rows())),
+          radius_(loops.size(), 1.0),
           stale_(loops.size(), 0)
     {
         for (const VertexLoop& loop : loops) {
@@ -47,18 +83,28 @@ public:
         }
     }
 
-    /// One step: disks i and j removed, the rest mapped to an annulus with loop i outside, its circles filled.
-    void open_pair(int i, int j)
+    /// One step: the disks of the open loops removed, the rest mapped with the first of them on the unit circle, their
+    /// circles filled. @param next the loops that the next step opens @return the image of S, (V)
+    VectorXcd step(const OpenedLoops& open, const OpenedLoops& next)
     {
-        const FilledMesh mesh = assemble({i, j});
-        const AnnulusMap map =
-            annulus_map(mesh.triangles, mesh.lengths, mesh.vertex_count, loops_[i], loops_[j], {.inside = false});
-        if (metric_ == KoebeMeshOptions::Metric::present) take_planar_metric(mesh, map.positions);
-        // D_i lies outside the unit circle: tau(z) = 1 / conj(z) brings it in, and conjugation turns it back to the
-        // orientation of the surface. So both rims are conj(z / |z|) on a circle run through clockwise.
-        set_angles(i, gather_loop(map.positions, loops_[i]));
-        set_angles(j, gather_loop(map.positions, loops_[j]).conjugate());
-        stale_[i] = stale_[j] = 1;
+        const FilledMesh mesh = assemble(open);
+        StepImage image = open.size() == 1 ? riemann_image(mesh, open[0]) : annulus_image(mesh, open[0], open[1]);
+        VectorXcd of_surface = image.positions.head(vertex_count_);
+        if (metric_ == KoebeMeshOptions::Metric::reflected) {
+            const Complex center = open.size() == 1 ? gather_loop(of_surface, loops_[next[0]]).mean() : Complex{};
+            const Reflection tau{center};
+            image.positions = tau(image.positions);
+            for (Circle& circle : image.circles) circle = tau(circle);
+        }
+        if (metric_ != KoebeMeshOptions::Metric::first)
+            take_planar_metric(mesh, image.positions, open.size() == 1 ? next[0] : -1);
+        for (std::size_t s = 0; s < open.size(); ++s) {
+            const Circle& circle = image.circles[s];
+            set_angles(open[s], gather_loop(image.positions, loops_[open[s]]).array() - circle.center);
+            radius_[open[s]] = circle.radius;
+            stale_[open[s]] = 1;
+        }
+        return of_surface;
     }
 
     /// Steps of angles raised since the last call.
@@ -80,6 +126,23 @@ public:
     }
 
 private:
+    StepImage riemann_image(const FilledMesh& mesh, int k)
+    {
+        if (!center_) center_ = deepest_inside(triangles_, lengths_, vertex_count_, loops_);
+        return {disk_map(mesh.triangles, mesh.lengths, mesh.vertex_count, loops_[k],
+                         {.center = *center_, .inside = false, .backend = annulus_})
+                    .positions,
+                {Circle{}}};
+    }
+
+    StepImage annulus_image(const FilledMesh& mesh, int i, int j) const
+    {
+        const AnnulusMap map = annulus_map(mesh.triangles, mesh.lengths, mesh.vertex_count, loops_[i], loops_[j],
+                                           {.backend = annulus_, .inside = false});
+        if (!map.converged) throw SolverError("the discrete Yamabe flow of a step's annulus did not converge");
+        return {map.positions, {Circle{}, Circle{0.0, map.inner_radius}}};
+    }
+
     /// The surface with all disks but those, the ones whose rim has moved filled again.
     FilledMesh assemble(const std::vector<int>& removed)
     {
@@ -87,7 +150,10 @@ private:
         Eigen::Index row = triangles_.rows(), face_count = row;
         for (std::size_t k = 0; k < loops_.size(); ++k)
             if (std::find(removed.begin(), removed.end(), static_cast<int>(k)) == removed.end()) {
-                if (std::exchange(stale_[k], 0)) patches_[k].refill(unit_circle_points(angles_[k]).conjugate());
+                // The disk outside a circle is brought in by the reflection in that circle, which keeps the rim. So
+                // each rim is that of a disk, and clockwise where its angles are counter-clockwise.
+                if (std::exchange(stale_[k], 0))
+                    patches_[k].refill(unit_circle_points(angles_[k]).conjugate(), radius_[k]);
                 mesh.offset[k] = mesh.vertex_count - patches_[k].rim_size();
                 mesh.vertex_count += patches_[k].vertex_count() - patches_[k].rim_size();
                 face_count += patches_[k].triangles().rows();
@@ -106,7 +172,8 @@ private:
         return mesh;
     }
 
-    void take_planar_metric(const FilledMesh& mesh, const VectorXcd& z)
+    /// @param opened_next its disk, where the reflection's centre lies, is refilled before it is used; -1: none
+    void take_planar_metric(const FilledMesh& mesh, const VectorXcd& z, int opened_next)
     {
         const EdgeLengths lengths = planar_lengths(z, mesh.triangles);
         Eigen::Index row = triangles_.rows();
@@ -114,34 +181,42 @@ private:
         for (std::size_t k = 0; k < loops_.size(); ++k) {
             if (mesh.offset[k] < 0) continue;
             const Eigen::Index count = patches_[k].triangles().rows();
-            patches_[k].set_lengths(lengths.middleRows(row, count));
+            if (static_cast<int>(k) != opened_next) patches_[k].set_lengths(lengths.middleRows(row, count));
             row += count;
         }
     }
 
-    /// The angles at which a loop runs counter-clockwise round 0, steps that are no steps forward raised to small ones.
+    /// The angles at which a loop runs round 0, counter-clockwise: one that runs clockwise is seen in a mirror. Steps
+    /// that are no steps forward are raised to small ones.
     void set_angles(int k, const VectorXcd& circle)
     {
         const Eigen::Index m = circle.size();
         VectorXd step(m);
         const double least = shortest_step * 2.0 * std::numbers::pi / static_cast<double>(m);
+        for (Eigen::Index b = 0; b < m; ++b) step[b] = std::arg(circle[(b + 1) % m] / circle[b]);
+        const double sense = step.sum() < 0.0 ? -1.0 : 1.0;
+        step *= sense;
         for (Eigen::Index b = 0; b < m; ++b) {
-            step[b] = std::arg(circle[(b + 1) % m] / circle[b]);
             if (!(step[b] > least)) {
                 step[b] = least;
                 ++raised_;
             }
         }
-        angles_[k] = centered_angles(arc_length_angles(step), weights_[k], angles_[k]);
+        const VectorXd angles = arc_length_angles(step).array() + sense * std::arg(circle[0]);
+        angles_[k] =
+            metric_ == KoebeMeshOptions::Metric::first ? centered_angles(angles, weights_[k], angles_[k]) : angles;
     }
 
     KoebeMeshOptions::Metric metric_;
+    AnnulusBackend annulus_;
     const std::vector<VertexLoop>& loops_;
     const Triangles& triangles_;
     EdgeLengths lengths_;
     Index vertex_count_;
+    std::optional<Index> center_;    // p of the Riemann map (section 4.3), from the first step that takes one
     std::vector<VectorXd> weights_;  // per loop: share of each vertex in its length
     std::vector<VectorXd> angles_;   // per loop: where its vertices are on the rim of D_k, counter-clockwise
+    std::vector<double> radius_;     // per loop: of D_k, in the unit of the surface's lengths
     std::vector<DiskPatch> patches_;
     int raised_ = 0;
     std::vector<char> stale_;  // per loop: its disk has not been filled since the angles changed
@@ -157,12 +232,23 @@ std::vector<VectorXcd> gather_loops(const VectorXcd& positions, const std::vecto
 
 }  // namespace
 
+void require_possible(const KoebeMeshOptions& mesh_options, int loop_count, Method method)
+{
+    if (!mesh_options.schedule.empty()) require_schedule(mesh_options.schedule, loop_count, method);
+    if (mesh_options.partners == Partners::changing && (method != Method::gk || !mesh_options.schedule.empty()))
+        throw InputError("partners change with the generalized method alone, and without a schedule");
+    if (mesh_options.annulus == AnnulusBackend::yamabe && mesh_options.metric == KoebeMeshOptions::Metric::first)
+        throw InputError("the Yamabe flow needs one metric on surface and disks: a planar or reflected one");
+}
+
 KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles, const EdgeLengths& lengths,
                            const std::vector<VertexLoop>& loops, const IterationOptions& options,
                            ExecutionContext& context, const KoebeMeshOptions& mesh_options)
 {
     KoebeMeshResult result;
     KoebeOutcome& outcome = result.outcome;
+    const int loop_count = static_cast<int>(loops.size());
+    require_possible(mesh_options, loop_count, options.method);
     MeshKoebe state(vertices, triangles, lengths, loops, mesh_options);
     if (loops.size() == 1) {
         state.open_disk();
@@ -171,24 +257,33 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
         outcome.converged = true;
         return result;
     }
-    const auto pairs = sweep_pairs(static_cast<int>(loops.size()), options.method);
-    CircleState now;
+    const std::vector<Sweep> round = !mesh_options.schedule.empty() ? std::vector<Sweep>{mesh_options.schedule}
+                                     : mesh_options.partners == Partners::changing
+                                         ? round_of_changing_pairs(loop_count)
+                                         : std::vector<Sweep>{fixed_sweep(loop_count, options.method)};
+    CircleState now, at_round_start;
     while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
-        const CircleState at_sweep_start = now;
-        for (std::size_t p = 0; p < pairs.size(); ++p) {
-            context.advance(1.0 - std::pow(0.5, outcome.sweeps + static_cast<double>(p) / pairs.size()));
-            state.open_pair(pairs[p].first, pairs[p].second);
+        const Sweep& sweep = round[outcome.sweeps % round.size()];
+        if (&sweep == &round.front()) at_round_start = now;
+        const Sweep& next_sweep = round[(outcome.sweeps + 1) % round.size()];
+        for (std::size_t s = 0; s < sweep.size(); ++s) {
+            context.advance(1.0 - std::pow(0.5, outcome.sweeps + static_cast<double>(s) / sweep.size()));
+            VectorXcd image = state.step(sweep[s], s + 1 < sweep.size() ? sweep[s + 1] : next_sweep.front());
+            if (mesh_options.record_steps) outcome.step_images.push_back(std::move(image));
             context.checkpoint();
             result.positions = state.disk_image();
             outcome.loops = gather_loops(result.positions, loops);
-            CircleState next = circle_state(outcome.loops, fit_circle_paper);
-            outcome.history.push_back(
-                {++outcome.steps, pairs[p], circle_change(now, next), next.mean_roundness, next.circles});
+            CircleState next = circle_state(outcome.loops);
+            outcome.history.push_back({++outcome.steps,
+                                       {sweep[s].front(), sweep[s].back()},
+                                       circle_change(now, next),
+                                       next.mean_roundness,
+                                       next.circles});
             now = std::move(next);
         }
         ++outcome.sweeps;
         outcome.raised_angles = state.take_raised();
-        outcome.converged = has_converged(at_sweep_start, now, options.tolerance);
+        outcome.converged = &sweep == &round.back() && has_converged(at_round_start, now, options.tolerance);
     }
     return result;
 }

@@ -1,7 +1,7 @@
 // What a Koebe iteration of either engine takes besides its surface, and what it gives.
 #pragma once
 
-#include "circles/circle.h"
+#include "circles/circle_fit.h"
 #include "core/types.h"
 
 #include <utility>
@@ -9,7 +9,10 @@
 
 namespace koebe {
 
-enum class Method { gk, ck };  ///< generalized or conventional Koebe iteration (paper, section 4.4)
+/// gk: generalized Koebe iteration, two loops a step (section 4.4, second algorithm). ck: the conventional one, one
+/// loop a step and all others filled, the outer one too (section 1.2). against_outer: one hole a step, and the outer
+/// loop never filled (section 4.4, first algorithm).
+enum class Method { gk, ck, against_outer };
 
 struct IterationOptions {
     Method method = Method::gk;
@@ -21,10 +24,10 @@ struct IterationOptions {
 /// sweep's change, and its roundness stands in the last of them, the one before in the others.
 struct KoebeStep {
     int step = 0;
-    std::pair<int, int> pair{0, 0};  ///< the two loops left open; (0, k) for the conventional form
+    std::pair<int, int> pair{0, 0};  ///< the two loops left open; (k, k) where it is one
     double change = 0.0;             ///< (sum |c' - c|^2 + |r' - r|^2)^(1/2) over all circles (paper, section 4.4)
-    double mean_roundness = 0.0;     ///< mean e(gamma_k) over all loops (paper, section 5)
-    std::vector<Circle> circles;     ///< of the loops after the step, or after those that take effect together
+    MeanRoundness mean_roundness;
+    std::vector<Circle> circles;  ///< of the loops after the step, or after those that take effect together
 };
 
 /// What a Koebe iteration of either engine hands to the finish.
@@ -35,6 +38,8 @@ struct KoebeOutcome {
     int sweeps = 0, steps = 0;
     bool converged = false;
     int raised_angles = 0;  ///< boundary nodes whose flux vanished in the last sweep
+    /// (V) per step, if asked for: where its map takes the surface, the first loop that it opened on the unit circle.
+    std::vector<VectorXcd> step_images;
 };
 
 }  // namespace koebe

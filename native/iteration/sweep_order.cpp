@@ -1,30 +1,73 @@
 #include "iteration/sweep_order.h"
 
+#include "core/errors.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
 namespace koebe {
 
-std::vector<std::pair<int, int>> sweep_pairs(int loop_count, Method method)
+Sweep fixed_sweep(int loop_count, Method method)
 {
-    std::vector<std::pair<int, int>> pairs;
-    if (method == Method::ck) {
-        for (int k = 1; k < loop_count; ++k) pairs.emplace_back(0, k);
+    Sweep sweep;
+    if (method == Method::ck && loop_count != 2) {
+        for (int k = 0; k < loop_count; ++k) sweep.push_back({k});
+    } else if (method == Method::against_outer) {
+        for (int k = 1; k < loop_count; ++k) sweep.push_back({0, k});
     } else {
-        for (int k = 0; k + 1 < loop_count; k += 2) pairs.emplace_back(k, k + 1);
-        if (loop_count % 2 == 1) pairs.emplace_back(0, loop_count - 1);
+        for (int k = 0; k + 1 < loop_count; k += 2) sweep.push_back({k, k + 1});
+        if (loop_count % 2 == 1) sweep.push_back({0, loop_count - 1});
     }
-    return pairs;
+    return sweep;
 }
 
-std::vector<std::vector<OpenedLoops>> sweep_order(int loop_count, Method method, bool at_once)
+std::vector<Sweep> round_of_changing_pairs(int loop_count)
 {
-    std::vector<OpenedLoops> steps;
-    if (method == Method::ck && loop_count > 2)
-        for (int k = 0; k < loop_count; ++k) steps.push_back({k});
-    else
-        for (const auto& [i, j] : sweep_pairs(loop_count, Method::gk)) steps.push_back({i, j});
-    if (at_once) return {steps};
-    std::vector<std::vector<OpenedLoops>> order;
-    for (const OpenedLoops& step : steps) order.push_back({step});
-    return order;
+    const int seats = loop_count + loop_count % 2;  // an empty one with an odd number
+    std::vector<int> seat(seats);
+    std::iota(seat.begin(), seat.end(), 0);
+    std::vector<Sweep> round;
+    for (int turn = 0; turn + 1 < seats; ++turn) {
+        Sweep sweep;
+        int odd = -1;
+        for (int s = 0; s < seats / 2; ++s) {
+            const auto [low, high] = std::minmax(seat[s], seat[seats - 1 - s]);
+            if (high == loop_count)
+                odd = low;
+            else
+                sweep.push_back({low, high});
+        }
+        if (odd >= 0) sweep.push_back({0, std::max(odd, 1)});
+        round.push_back(std::move(sweep));
+        std::rotate(seat.begin() + 1, seat.end() - 1, seat.end());
+    }
+    return round;
+}
+
+void require_schedule(const Sweep& schedule, int loop_count, Method method)
+{
+    if (loop_count < 2) throw InputError("a surface with one boundary loop takes no schedule");
+    const std::size_t opens = method == Method::ck && loop_count != 2 ? 1 : 2;
+    std::vector<char> opened(loop_count, 0);
+    for (const OpenedLoops& step : schedule) {
+        if (step.size() != opens)
+            throw InputError("a step of the schedule opens " + std::to_string(step.size()) + " loops, not " +
+                             std::to_string(opens));
+        for (const int k : step) {
+            if (k < 0 || k >= loop_count)
+                throw InputError("the schedule names loop " + std::to_string(k) + ", the surface has 0 to " +
+                                 std::to_string(loop_count - 1));
+            opened[k] = 1;
+        }
+        if (step.front() == step.back() && opens == 2)
+            throw InputError("a step of the schedule opens loop " + std::to_string(step.front()) + " twice");
+        if (method == Method::against_outer && std::ranges::find(step, 0) == step.end())
+            throw InputError("a step of the schedule fills loop 0, which this method never does");
+    }
+    if (const auto missed = std::ranges::find(opened, 0); missed != opened.end())
+        throw InputError("the schedule never opens loop " + std::to_string(missed - opened.begin()));
 }
 
 }  // namespace koebe

@@ -19,3 +19,4 @@
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
 #include "surface/harmonic_map.h"
+#include "transfer/correspondence.h"

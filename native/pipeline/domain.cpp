@@ -12,19 +12,38 @@
 namespace koebe {
 namespace {
 
-constexpr double same_length = 1e-9;  // relative difference of loops that are equally long
+InputError no_place_for(Index vertex, const std::string& place, const std::string& reason)
+{
+    return InputError("vertex " + std::to_string(vertex) + " cannot go to " + place + ": " + reason,
+                      ElementKind::vertices, {vertex});
+}
+
+/// The loop that a vertex of the input lies on, in the surface's own order.
+std::size_t loop_with(const Domain& domain, Index vertex)
+{
+    const auto& loops = domain.surface.loops;
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        for (const Index v : loops[k])
+            if (domain.original[v] == vertex) return k;
+    throw InputError("vertex " + std::to_string(vertex) + " lies on no boundary loop", ElementKind::vertices, {vertex});
+}
 
 /// The loop that the options name, in the surface's own order.
 std::size_t choose_outer_loop(const Domain& domain, const UniformizeOptions& options)
 {
     const auto& loops = domain.surface.loops;
-    if (options.outer == OuterLoop::vertex) {
+    if (options.point >= 0) {
+        const std::size_t own = loop_with(domain, options.point);
+        const auto length = [&](std::size_t k) { return loop_edges(domain.vertices, loops[k]).sum(); };
         for (std::size_t k = 0; k < loops.size(); ++k)
-            for (const Index v : loops[k])
-                if (domain.original[v] == options.outer_vertex) return k;
-        throw InputError("vertex " + std::to_string(options.outer_vertex) + " lies on no boundary loop",
-                         ElementKind::vertices, {options.outer_vertex});
+            if (options.outer == OuterLoop::longest && length(k) > (1.0 + same_length) * length(own))
+                throw no_place_for(options.point, "1", "it does not lie on the longest loop");
+        if (options.outer == OuterLoop::vertex && loop_with(domain, options.outer_vertex) != own)
+            throw no_place_for(options.point, "1",
+                               "it does not lie on the loop of vertex " + std::to_string(options.outer_vertex));
+        return own;
     }
+    if (options.outer == OuterLoop::vertex) return loop_with(domain, options.outer_vertex);
     std::size_t longest = 0;
     double length = 0.0;
     for (std::size_t k = 0; k < loops.size(); ++k)
@@ -33,6 +52,22 @@ std::size_t choose_outer_loop(const Domain& domain, const UniformizeOptions& opt
             longest = k;
         }
     return longest;
+}
+
+/// The domain's number of the vertex that is to go to 0.
+Index find_center(const Domain& domain, const UniformizeOptions& options, Index vertex_count)
+{
+    if (options.center < 0) return -1;
+    if (options.balance != Balance::none)
+        throw InputError("center and balance exclude each other: both choose the automorphism of the disk");
+    if (options.center >= vertex_count) throw no_place_for(options.center, "0", "there is none");
+    const auto found = std::ranges::find(domain.original, options.center);
+    if (found == domain.original.end()) throw no_place_for(options.center, "0", "it belongs to no face");
+    const Index center = static_cast<Index>(found - domain.original.begin());
+    for (const VertexLoop& loop : domain.surface.loops)
+        if (std::ranges::find(loop, center) != loop.end())
+            throw no_place_for(options.center, "0", "it lies on a boundary loop");
+    return center;
 }
 
 }  // namespace
@@ -51,6 +86,9 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
     domain.thinnest = form.thinnest;
 
     const std::size_t outer = choose_outer_loop(domain, options);
+    domain.center = find_center(domain, options, static_cast<Index>(vertices.rows()));
+    if (options.point >= 0)
+        domain.point = static_cast<Index>(std::ranges::find(domain.original, options.point) - domain.original.begin());
     domain.outer_rank = rank_by_lowest_vertex(domain, domain.surface.loops[outer]);
     std::vector<std::size_t> order(domain.surface.loops.size());
     std::iota(order.begin(), order.end(), 0);

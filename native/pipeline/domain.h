@@ -10,6 +10,8 @@
 
 namespace koebe {
 
+inline constexpr double same_length = 1e-9;  ///< relative difference of loops that are equally long
+
 /// The surface in its canonical form, with the loops in the order of the iteration.
 struct Domain {
     Surface surface;
@@ -20,6 +22,7 @@ struct Domain {
     std::vector<VectorXd> edges;        // length of the edge from each loop vertex to the next
     std::vector<char> first_corners;    // of each face, the corner that was the first of the input's; of a core: empty
     double thinnest = 0.0;              // least height of a face, in steps of the canonical grid
+    Index center = -1, point = -1;      // vertices that go to 0 and to 1, if any; of a core: none
     int outer_rank = 0;                 // of the outer loop among the input's, which go by their lowest vertices
 };
 

@@ -1,6 +1,7 @@
 #include "pipeline/flip_removal.h"
 
 #include "flaps/flap_map.h"
+#include "pipeline/normalization.h"
 
 #include <algorithm>
 #include <utility>
@@ -20,8 +21,8 @@ CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, Exec
 
 UntangleReport remove_flips(const Domain& whole, CircleMap& map, ExecutionContext& context)
 {
-    UntangleReport report =
-        untangle(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv, context);
+    UntangleReport report = untangle(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv,
+                                     context, {.held = held_vertices(whole)});
     map.off_circle.insert(map.off_circle.end(), report.freed.begin(), report.freed.end());
     std::sort(map.off_circle.begin(), map.off_circle.end());
     return report;

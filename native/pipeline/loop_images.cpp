@@ -37,7 +37,7 @@ KoebeOutcome run_engine(const Domain& domain, const AssembledDomain& assembled, 
                         ExecutionContext& context)
 {
     if (options.engine == Engine::mesh)
-        return koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context).outcome;
+        return koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context, options.mesh).outcome;
     if (!assembled.condensed) return {};
     const IntrinsicMetric& metric = assembled.metric;
     return koebe_condensed(assembled.laplacian, *assembled.condensed, domain.loops, domain.edges,
@@ -120,6 +120,7 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
         });
         wanting = !sound(finer);
         if (!finite(finer) || (wanting && sound(outcome))) continue;
+        for (VectorXcd& image : finer.step_images) image.conservativeResize(domain.surface.vertex_count);
         for (VectorXcd& loop : finer.loops) loop = VectorXcd(loop(Eigen::seqN(0, loop.size() / stride, stride)));
         outcome = std::move(finer);
     }

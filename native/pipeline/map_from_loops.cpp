@@ -5,7 +5,6 @@
 #include "circles/circle_fit.h"
 #include "circles/circle_projection.h"
 #include "circles/crowded_circles.h"
-#include "circles/moebius.h"
 #include "flaps/rim_room.h"
 
 #include <algorithm>
@@ -29,9 +28,9 @@ Moebius normal_position(const std::vector<Circle>& circles)
 bool is_lost(const Circle& circle, const VectorXcd& image)
 {
     constexpr double least_radius = 1e-18, least_share = 4.0 * std::numeric_limits<double>::epsilon();
-    constexpr double no_circle = 0.5;  // roundness
+    constexpr double no_circle = 0.5;  // of the radius
     return !(circle.radius > std::max(least_radius, least_share * std::abs(circle.center))) ||
-           !(roundness(image, circle) < no_circle);
+           !(deviation_from(circle, image) < no_circle);
 }
 
 /// The images put on their circles: (m, 2), loop after loop. Takes their roundness.
@@ -83,21 +82,26 @@ std::optional<CircleMap> map_from_loops(const DomainSolver& solver, const FlapCu
     return map;
 }
 
+std::optional<CircleMap> moved_by(const DomainSolver& solver, const CircleMap& map, const Moebius& automorphism)
+{
+    CircleMap moved = map;
+    for (std::size_t k = 1; k < moved.circles.size(); ++k) moved.circles[k] = automorphism(moved.circles[k]);
+    std::vector<Index> rows;
+    for (const VertexLoop& loop : solver.domain.loops) rows.insert(rows.end(), loop.begin(), loop.end());
+    MatrixXd boundary = map.uv(rows, Eigen::all);
+    const VectorXcd points = automorphism(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1));
+    boundary << points.real(), points.imag();
+    if (!extend(solver, boundary, AnnulusPosition::free, moved)) return {};
+    return moved;
+}
+
 std::optional<CircleMap> with_area_balanced(const DomainSolver& solver, const CircleMap& map)
 {
     const Domain& domain = solver.domain;
     double distortion = 0.0;
     const Moebius balance = least_area_distortion(
         face_scales(domain.vertices, domain.surface.triangles, map.uv, balance_sample), distortion);
-    CircleMap moved = map;
-    for (std::size_t k = 1; k < moved.circles.size(); ++k) moved.circles[k] = balance(moved.circles[k]);
-    std::vector<Index> rows;
-    for (const VertexLoop& loop : domain.loops) rows.insert(rows.end(), loop.begin(), loop.end());
-    MatrixXd boundary = map.uv(rows, Eigen::all);
-    const VectorXcd points = balance(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1));
-    boundary << points.real(), points.imag();
-    if (!extend(solver, boundary, AnnulusPosition::free, moved)) return {};
-    return moved;
+    return moved_by(solver, map, balance);
 }
 
 }  // namespace koebe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle_map.h"
+#include "circles/moebius.h"
 #include "iteration/koebe_outcome.h"
 #include "linear/condensed_laplacian.h"
 #include "pipeline/domain.h"
@@ -21,6 +22,10 @@ struct DomainSolver {
 /// @param cut the flaps that will hang on the rim
 /// @return of the domain's vertices; nothing if the circles leave the disk, meet, or no finite map extends them
 std::optional<CircleMap> map_from_loops(const DomainSolver& solver, const FlapCut& cut, const KoebeOutcome& outcome);
+
+/// The map moved by an automorphism of the disk: its circles and the boundary on them, the interior harmonic again.
+/// @return nothing if the circles leave the disk, meet, or no finite map extends them
+std::optional<CircleMap> moved_by(const DomainSolver& solver, const CircleMap& map, const Moebius& automorphism);
 
 /// The map moved by the automorphism of the disk with the least area distortion (area_balance.h).
 /// @return nothing if the circles leave the disk, meet, or no finite map extends them

@@ -46,7 +46,7 @@ LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
     std::rotate(report.vertices.begin(), std::min_element(report.vertices.begin(), report.vertices.end()),
                 report.vertices.end());
     std::sort(report.off_circle.begin(), report.off_circle.end());
-    report.roundness_projected = count > 0 ? roundness(points.head(count), report.circle) : 0.0;
+    report.roundness_projected = count > 0 ? deviation_from(report.circle, points.head(count)) : 0.0;
     return report;
 }
 

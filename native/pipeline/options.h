@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/types.h"
+#include "iteration/koebe_mesh_options.h"
 #include "iteration/koebe_outcome.h"
 
 namespace koebe {
@@ -13,11 +14,13 @@ enum class Balance { none, area };  ///< area: the disk automorphism with the le
 
 struct UniformizeOptions : IterationOptions {
     Engine engine = Engine::condensed;
+    KoebeMeshOptions mesh;  ///< with Engine::mesh
     OuterLoop outer = OuterLoop::automatic;
     Index outer_vertex = -1;  ///< with OuterLoop::vertex: a vertex of the loop to put on the unit circle
     Balance balance = Balance::none;
-    bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
-    int threads = 0;      ///< at most; 0: all cores. Today one is used: the result is the same for any number
+    Index center = -1, point = -1;  ///< vertices, one inside that goes to 0, one of the outer loop to 1; -1: none
+    bool polish = false;            ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    int threads = 0;                ///< at most; 0: all cores. Today one is used: the result is the same for any number
 };
 
 }  // namespace koebe

@@ -8,7 +8,9 @@
 #include "core/memory_limit.h"
 #include "core/peak_memory.h"
 #include "embedding/embedded_map.h"
+#include "embedding/fixed_places.h"
 #include "foldover/angle_polish.h"
+#include "iteration/koebe_mesh.h"
 #include "linear/dense_spd.h"
 #include "pipeline/domain.h"
 #include "pipeline/final_check.h"
@@ -17,10 +19,13 @@
 #include "pipeline/map_from_loops.h"
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
+#include "pipeline/normalization.h"
 #include "pipeline/outer_loop.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -68,6 +73,8 @@ Problem prepare(const Vertices& vertices, const Triangles& triangles, const Unif
     require_memory_for_faces(triangles.rows());
     Problem problem;
     problem.whole = prepare_domain(vertices, triangles, options);
+    if (options.engine == Engine::mesh)
+        require_possible(options.mesh, static_cast<int>(problem.whole.loops.size()), options.method);
     // A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
     if (!is_polygon(problem.whole))
         problem.cut = cut_flaps(problem.whole.vertices, problem.whole.surface, problem.whole.loops);
@@ -101,7 +108,7 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
 
 /// The map that is one to one from the start (embedded_map), on the circles of the iteration if it has found any.
 /// @param failed the map that the iteration led to, if it led to one
-CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<CircleMap>& failed,
+CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<CircleMap>& failed, FixedPlaces places,
                 ExecutionContext& context)
 {
     const VectorXcd even = unit_circle_points(arc_length_angles(whole.edges[0]));
@@ -112,9 +119,9 @@ CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<Cir
             rim[i] = {failed->uv(v, 0), failed->uv(v, 1)};
         }
     rim = project_onto_circle(Circle{}, rim.allFinite() ? rim : even, 1, least_steps(whole.edges[0].size()));
-    CircleMap map =
-        embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
-                     failed && circles_apart(failed->circles) ? failed->circles : std::vector<Circle>{}, rim, context);
+    CircleMap map = embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
+                                 failed && circles_apart(failed->circles) ? failed->circles : std::vector<Circle>{},
+                                 rim, context, places);
     if (!failed) return map;
     map.roundness = failed->roundness;
     map.shrunk = failed->shrunk;
@@ -130,12 +137,26 @@ CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<Cir
 void polish(const Domain& whole, CircleMap& map, MapFaults& faults, ExecutionContext& context)
 {
     PlanarPoints before = map.uv;
-    polish_angles(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv, context);
+    polish_angles(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv, context,
+                  held_vertices(whole));
     MapFaults polished = find_faults(whole.surface.triangles, whole.loops, map.uv, map.circles);
     if (polished.any() && !faults.any())
         map.uv = std::move(before);
     else
         faults = std::move(polished);
+}
+
+/// The image of each step on the input's vertices.
+std::vector<PlanarPoints> on_input(const std::vector<VectorXcd>& images, const Domain& domain, Index vertex_count)
+{
+    std::vector<PlanarPoints> result;
+    for (const VectorXcd& image : images) {
+        result.push_back(PlanarPoints::Constant(vertex_count, 2, std::numeric_limits<double>::quiet_NaN()));
+        for (Eigen::Index v = 0; v < image.size(); ++v)
+            if (std::isfinite(std::norm(image[v])))
+                result.back().row(domain.original[v]) << image[v].real(), image[v].imag();
+    }
+    return result;
 }
 
 void append(std::vector<Warning>& warnings, std::vector<Warning> more)
@@ -151,6 +172,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.engine = options.engine;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
+    result.center = options.center;
+    result.point = options.point;
     const SerialDenseKernels serial;
     Stopwatch total, stage;
 
@@ -164,8 +187,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.seconds.metric = stage.lap();
 
     // With the outer loop to be chosen the map is perhaps made twice, first on the longest loop.
-    const bool choose =
-        options.balance == Balance::area && options.outer == OuterLoop::automatic && whole.loops.size() > 1;
+    const bool choose = options.balance == Balance::area && options.outer == OuterLoop::automatic && whole.point < 0 &&
+                        whole.loops.size() > 1;
     std::optional<CircleMap> map = iterate(problem, options, 0.15, choose ? 0.5 : 0.9, context, stage, result.seconds);
     if (map && options.balance == Balance::area)
         result.unbalanced_area =
@@ -178,27 +201,42 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
             map = iterate(problem, options, 0.5, 0.9, context, stage, result.seconds);
         }
     if (map && options.balance == Balance::area) map = with_area_balanced(problem.solver(), *map);
+    if (map && whole.center >= 0) map = with_center_moved(problem.solver(), whole, problem.cut, *map, context);
     result.outer_loop = whole.outer_rank;
     result.converged = problem.outcome.converged && map.has_value();
     result.sweeps = problem.outcome.sweeps;
     result.steps = problem.outcome.steps;
     result.history = problem.outcome.history;
+    result.step_images = on_input(problem.outcome.step_images, problem.domain(), result.vertex_count);
 
     context.begin_stage("finish", 0.9, 1.0);
     UntangleReport untangled;
     MapFaults faults;
     if (map) {
         map = hang_back(whole, problem.cut, std::move(*map), context);
+        put_in_place(whole, *map);
         context.advance(0.2);
         untangled = remove_flips(whole, *map, context);
         context.advance(0.5);
         faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
     }
     const bool no_circles = !map;
+    bool out_of_place = false;
     if (!map || faults.any()) {
-        map = embed(whole, problem.cut, map, context);
+        const std::optional<CircleMap> failed = std::move(map);
+        map = embed(whole, problem.cut, failed, {whole.center, whole.point}, context);
+        put_in_place(whole, *map);
         untangled = {};
         faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
+        if (faults.any() && whole.center >= 0) {  // one to one comes first
+            CircleMap elsewhere = embed(whole, problem.cut, failed, {-1, whole.point}, context);
+            if (MapFaults none = find_faults(whole.surface.triangles, whole.loops, elsewhere.uv, elsewhere.circles);
+                !none.any()) {
+                map = std::move(elsewhere);
+                faults = std::move(none);
+                out_of_place = true;
+            }
+        }
     }
     if (options.polish) {
         context.begin_stage("polish", 0.97, 1.0);
@@ -211,6 +249,13 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     append(result.warnings, input_warnings(whole));
     append(result.warnings, iteration_warnings(problem.outcome, no_circles));
     append(result.warnings, flip_warnings(whole, map->uv, problem.cut.flaps, untangled, result.distortion));
+    if (out_of_place) {
+        result.converged = false;
+        result.warnings.push_back({WarningKind::out_of_place,
+                                   "vertex " + std::to_string(options.center) +
+                                       " could not be brought to the centre without turning faces over",
+                                   {options.center}});
+    }
     if (faults.any()) {
         result.converged = false;
         result.warnings.push_back(

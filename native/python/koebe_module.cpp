@@ -9,6 +9,7 @@
 #include "core/topology.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "io/polygon_triangulation.h"
 #include "linear/dense_spd.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
@@ -18,6 +19,7 @@
 #include "shape/loop_matching.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
+#include "transfer/correspondence.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -93,7 +95,10 @@ PYBIND11_MODULE(_koebe, m)
     translate_errors();
     py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
 
-    py::enum_<Method>(m, "Method").value("gk", Method::gk).value("ck", Method::ck);
+    py::enum_<Method>(m, "Method")
+        .value("gk", Method::gk)
+        .value("ck", Method::ck)
+        .value("against-outer", Method::against_outer);
     py::enum_<Engine>(m, "Engine").value("condensed", Engine::condensed).value("mesh", Engine::mesh);
     py::enum_<OuterLoop>(m, "OuterLoop")
         .value("automatic", OuterLoop::automatic)
@@ -105,17 +110,33 @@ PYBIND11_MODULE(_koebe, m)
         .value("harmonic", AnnulusBackend::harmonic)
         .value("yamabe", AnnulusBackend::yamabe);
 
+    using Metric = KoebeMeshOptions::Metric;
+    py::enum_<Metric>(m, "Metric")
+        .value("first", Metric::first)
+        .value("planar", Metric::planar)
+        .value("reflected", Metric::reflected);
+    py::enum_<Partners>(m, "Partners").value("fixed", Partners::fixed).value("changing", Partners::changing);
+
     py::class_<CancelToken>(m, "CancelToken", "A flag that any thread may raise to stop a computation.")
         .def(py::init<>())
         .def("cancel", &CancelToken::cancel)
         .def_property_readonly("cancelled", &CancelToken::cancelled);
 
+    py::class_<KoebeMeshOptions>(m, "KoebeMeshOptions")
+        .def_readwrite("metric", &KoebeMeshOptions::metric)
+        .def_readwrite("partners", &KoebeMeshOptions::partners)
+        .def_readwrite("schedule", &KoebeMeshOptions::schedule)
+        .def_readwrite("annulus", &KoebeMeshOptions::annulus)
+        .def_readwrite("record_steps", &KoebeMeshOptions::record_steps);
     py::class_<UniformizeOptions>(m, "UniformizeOptions")
         .def(py::init<>())
+        .def_readonly("mesh", &UniformizeOptions::mesh)
         .def_readwrite("method", &UniformizeOptions::method)
         .def_readwrite("engine", &UniformizeOptions::engine)
         .def_readwrite("outer", &UniformizeOptions::outer)
         .def_readwrite("outer_vertex", &UniformizeOptions::outer_vertex)
+        .def_readwrite("center", &UniformizeOptions::center)
+        .def_readwrite("point", &UniformizeOptions::point)
         .def_readwrite("tolerance", &UniformizeOptions::tolerance)
         .def_readwrite("max_sweeps", &UniformizeOptions::max_sweeps)
         .def_readwrite("balance", &UniformizeOptions::balance)
@@ -128,9 +149,24 @@ PYBIND11_MODULE(_koebe, m)
     m.attr("warning_elements") = warning_elements;
     py::class_<UniformizeResult>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
+        .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; })
         .def_property_readonly("flipped_faces", [](const UniformizeResult& r) { return r.distortion.flipped; })
         .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
 
+    py::class_<MappedSurface>(m, "MappedSurface")
+        .def(py::init([](const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
+                         const std::vector<VertexLoop>& loops, const std::vector<std::vector<Index>>& off_circle,
+                         const PlanarPoints& centers, const VectorXd& radii, const std::vector<bool>& own) {
+            MappedSurface surface{vertices, triangles, uv, {}};
+            const std::vector<Circle> circles = circles_of(centers, radii);
+            for (std::size_t k = 0; k < loops.size(); ++k)
+                surface.loops.push_back({.vertices = loops[k],
+                                         .circle = circles[k],
+                                         .roundness = {},
+                                         .off_circle = off_circle[k],
+                                         .shrunk = !own[k]});
+            return surface;
+        }));
     m.def("uniformize", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
         return without_gil(progress, cancel, [&](ExecutionContext& context) {
@@ -149,6 +185,13 @@ PYBIND11_MODULE(_koebe, m)
         });
         return std::make_tuple(std::move(filled.vertices), std::move(filled.triangles),
                                py::array_t<Index>(filled.label.size(), filled.label.data()));
+    });
+    using Indices = Eigen::Ref<const Eigen::VectorX<Index>>;
+    m.def("triangulate", [](const Eigen::Ref<const Vertices>& vertices, const Indices& corners, const Indices& begin) {
+        PolygonMesh mesh{vertices, {corners.begin(), corners.end()}, {begin.begin(), begin.end()}};
+        const bool small = begin.size() < small_mesh;
+        const Triangulation cut = detached([mesh = std::move(mesh)] { return triangulate(mesh); }, small);
+        return std::make_tuple(cut.triangles, py::array_t<Index>(cut.face.size(), cut.face.data()));
     });
     m.def("harmonic_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                              const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values,
@@ -190,7 +233,11 @@ PYBIND11_MODULE(_koebe, m)
                         true);
     });
     m.def("module_names", &module_names);
-    m.def("require_own_circles", [](const UniformizeResult& result) { require_own_circles(result.loops); });
+    m.def("require_own_circles", [](const std::vector<bool>& own) {
+        std::vector<LoopReport> loops(own.size());
+        for (std::size_t k = 0; k < own.size(); ++k) loops[k].shrunk = !own[k];
+        require_own_circles(loops);
+    });
     m.def("canonical_order", [](const PlanarPoints& centers, const VectorXd& radii, bool any_outer) {
         return detached(
             [circles = circles_of(centers, radii), any_outer] { return canonical_order(circles, any_outer); });
@@ -212,10 +259,27 @@ PYBIND11_MODULE(_koebe, m)
         .def_readonly("residual", &DomainAlignment::residual)
         .def_readonly("largest", &DomainAlignment::largest)
         .def_readonly("worst", &DomainAlignment::worst)
+        .def_readonly("misses", &DomainAlignment::misses)
         .def_readonly("converged", &DomainAlignment::converged)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
             return planar(d.map(complex(points)));
         });
+    m.def("correspond",
+          [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes) {
+              Correspondence found = detached([source, target, match, fit_holes] {
+                  const SerialDenseKernels serial;
+                  return correspond(source, target, {.match = match, .fit_holes = fit_holes});
+              });
+              py::dict parts;
+              parts["alignment"] = found.alignment;
+              parts["fitted"] = found.fitted;
+              parts["uv"] = found.uv;
+              parts["faces"] = found.places.face;
+              parts["weights"] = found.places.weights;
+              parts["distances"] = found.places.distance;
+              parts["points"] = found.points;
+              return parts;
+          });
     m.def("align_domains",
           [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
              const VectorXd& target_radii, const std::vector<int>& match) {

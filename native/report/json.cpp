@@ -10,7 +10,8 @@ Json step_json(const KoebeStep& step)
     return {{"step", step.step},
             {"pair", {step.pair.first, step.pair.second}},
             {"change", step.change},
-            {"mean_roundness", step.mean_roundness}};
+            {"mean_roundness", step.mean_roundness.all.paper},
+            {"mean_roundness_holes", step.mean_roundness.holes.paper}};
 }
 
 Json loop_json(const LoopReport& loop)
@@ -18,9 +19,21 @@ Json loop_json(const LoopReport& loop)
     return {{"vertices", loop.vertices},
             {"center", {loop.circle.center.real(), loop.circle.center.imag()}},
             {"radius", loop.circle.radius},
-            {"roundness", loop.roundness},
+            {"roundness", loop.roundness.paper},
+            {"roundness_least_squares", loop.roundness.least_squares},
             {"roundness_projected", loop.roundness_projected},
-            {"off_circle", loop.off_circle}};
+            {"off_circle", loop.off_circle},
+            {"own_circle", !loop.shrunk}};
+}
+
+Json mean_roundness_json(const std::vector<LoopReport>& loops)
+{
+    std::vector<Roundness> each;
+    for (const LoopReport& loop : loops) each.push_back(loop.roundness);
+    const MeanRoundness mean = mean_roundness(each);
+    return {{"all", mean.all.paper},
+            {"holes", mean.holes.paper},
+            {"least_squares", {{"all", mean.all.least_squares}, {"holes", mean.holes.least_squares}}}};
 }
 
 Json seconds_json(const StageSeconds& seconds)
@@ -50,7 +63,15 @@ Json warning_json(const Warning& warning)
 
 }  // namespace
 
-const char* to_string(Method method) noexcept { return method == Method::gk ? "gk" : "ck"; }
+const char* to_string(Method method) noexcept
+{
+    switch (method) {
+    case Method::gk: return "gk";
+    case Method::ck: return "ck";
+    case Method::against_outer: return "against-outer";
+    }
+    return "";
+}
 
 const char* to_string(Engine engine) noexcept { return engine == Engine::condensed ? "condensed" : "mesh"; }
 
@@ -71,18 +92,18 @@ Json to_json(const std::vector<Warning>& warnings) { return array_json(warnings,
 
 Json to_json(const UniformizeResult& result)
 {
-    Json report{{"version", KOEBE_VERSION},
-                {"input", ""},
-                {"vertices", result.vertex_count},
-                {"faces", result.face_count},
-                {"method", to_string(result.method)},
-                {"engine", to_string(result.engine)},
-                {"outer_loop", result.outer_loop},
-                {"converged", result.converged},
-                {"sweeps", result.sweeps},
-                {"steps", result.steps},
-                {"history", array_json(result.history, step_json)},
-                {"loops", array_json(result.loops, loop_json)}};
+    Json report{{"version", KOEBE_VERSION},           {"input", ""},
+                {"vertices", result.vertex_count},    {"faces", result.face_count},
+                {"method", to_string(result.method)}, {"engine", to_string(result.engine)},
+                {"outer_loop", result.outer_loop}};
+    if (result.center >= 0) report["center"] = result.center;
+    if (result.point >= 0) report["point"] = result.point;
+    report.update({{"converged", result.converged},
+                   {"sweeps", result.sweeps},
+                   {"steps", result.steps},
+                   {"history", array_json(result.history, step_json)},
+                   {"loops", array_json(result.loops, loop_json)},
+                   {"mean_roundness", mean_roundness_json(result.loops)}});
     report.update(to_json(result.distortion));
     if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);
     if (result.unpolished_angle_error_deg)

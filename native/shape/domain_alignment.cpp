@@ -132,6 +132,7 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
     std::vector<Circle> matched;
     for (const int k : match) matched.push_back(target[k]);
     result.match = std::move(match);
+    result.misses.assign(source.size(), 0.0);
     if (source.size() == 1) return result;
 
     std::vector<std::size_t> largest(source.size() - 1);
@@ -149,11 +150,10 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
     result.iterations = best.iterations;
     result.converged = best.converged;
     result.residual = std::sqrt(left.squaredNorm() / static_cast<double>(source.size() - 1));
-    for (Eigen::Index k = 0; 3 * k < left.size(); ++k)
-        if (const double size = left.segment<3>(3 * k).norm(); result.worst == 0 || size > result.largest) {
-            result.largest = size;
-            result.worst = static_cast<int>(k) + 1;
-        }
+    for (Eigen::Index k = 0; 3 * k < left.size(); ++k) result.misses[k + 1] = left.segment<3>(3 * k).norm();
+    const auto worst = std::max_element(result.misses.begin() + 1, result.misses.end());
+    result.largest = *worst;
+    result.worst = static_cast<int>(worst - result.misses.begin());
     return result;
 }
 

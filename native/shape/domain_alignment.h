@@ -10,11 +10,12 @@
 namespace koebe {
 
 struct DomainAlignment {
-    Moebius map;             ///< target domain -> source domain
-    std::vector<int> match;  ///< the target's loop for each loop of the source; 0 for 0
-    double residual = 0.0;   ///< root of the mean over the holes of |difference of centres|^2 + (of radii)^2
-    double largest = 0.0;    ///< the root for the worst hole; lengths in the unit disk
-    int worst = 0;           ///< that hole's number in the source, 0 if there is none
+    Moebius map;                 ///< target domain -> source domain
+    std::vector<int> match;      ///< the target's loop for each loop of the source; 0 for 0
+    double residual = 0.0;       ///< root of the mean over the holes of |difference of centres|^2 + (of radii)^2
+    double largest = 0.0;        ///< the root for the worst hole; lengths in the unit disk
+    int worst = 0;               ///< that hole's number in the source, 0 if there is none
+    std::vector<double> misses;  ///< that root for each loop of the source; 0 for the outer one
     int iterations = 0;
     bool converged = true;
 };

@@ -15,7 +15,8 @@ struct LoopMatch {
     bool exhaustive = true;             ///< every correspondence was tried
 };
 
-/// The correspondence of the loops with the least L2 distance of the conformal modules (paper, Fig. 13).
+/// The correspondence of the loops with the least L2 distance of the conformal modules (that of the paper's Fig. 13,
+/// where the user names the loops).
 ///
 /// Both modules are taken in one order: by the sum of the two loops' separations from the outer loop (see
 /// conformal_separation), so that the loops which fix the position are large ones. Hence the distance is symmetric, 0

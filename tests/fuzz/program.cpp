@@ -43,6 +43,20 @@ BaseChoice read_base(Reader& reader, std::size_t side)
     return choice;
 }
 
+/// What the mesh engine can be asked for, and combinations that it cannot.
+void read_mesh_options(std::size_t bits, UniformizeOptions& options)
+{
+    using Metric = KoebeMeshOptions::Metric;
+    constexpr Metric metrics[] = {Metric::first, Metric::planar, Metric::reflected, Metric::reflected};
+    options.mesh.metric = metrics[bits & 3];
+    options.mesh.annulus = bits & 4 ? AnnulusBackend::yamabe : AnnulusBackend::harmonic;
+    if (bits & 8) options.method = Method::gk;
+    if ((bits & 24) == 24) options.mesh.partners = Partners::changing;
+    if ((bits & 0x60) == 0x60)
+        for (int k = 0; k <= static_cast<int>(bits >> 13); ++k) options.mesh.schedule.push_back({k, k + 1});
+    options.mesh.record_steps = bits & 0x80;
+}
+
 UniformizeOptions read_options(Reader& reader, const Soup& soup)
 {
     UniformizeOptions options;
@@ -56,7 +70,15 @@ UniformizeOptions read_options(Reader& reader, const Soup& soup)
     options.tolerance = tolerances[more % 4];
     options.max_sweeps = more & 4 ? 1 + static_cast<int>(more >> 5) : 20;
     options.threads = more & 8 ? 2 : 0;
-    options.outer_vertex = static_cast<Index>(reader.two_bytes() % (soup.points.size() + 2)) - 1;
+    const std::size_t rest = reader.two_bytes();
+    options.outer_vertex = static_cast<Index>(rest % (soup.points.size() + 2)) - 1;
+    if (more & 16) {
+        if (options.method == Method::gk) options.method = Method::against_outer;
+        read_mesh_options(rest, options);
+        const Index vertex_count = static_cast<Index>(soup.points.size());
+        if (rest & 0x100) options.center = static_cast<Index>((rest >> 3) % (vertex_count + 1));
+        if (rest & 0x200) options.point = static_cast<Index>((rest >> 5) % (vertex_count + 1));
+    }
     return options;
 }
 

@@ -76,16 +76,44 @@ TEST(CircleFit, length_weights_sum_to_one_and_follow_the_edges)
     EXPECT_LT(std::abs(fit_circle_paper(square).center - Complex(1.0, 1.0)), 1e-15);
 }
 
-TEST(CircleFit, roundness_is_the_root_mean_square_of_the_relative_deviation)
+TEST(CircleFit, roundness_is_the_one_in_print)
 {
-    EXPECT_LT(roundness(points_on({{4.0, 4.0}, 2.0}, 50, 0.7), {{4.0, 4.0}, 2.0}), 1e-15);
+    // Radii in turn 1 + e and 1 - e: the centre is 0 by symmetry, R = 1, and every deviation is e.
+    const double e = 1e-2;
+    VectorXcd star(40);
+    for (int i = 0; i < 40; ++i) star[i] = std::polar(i % 2 == 0 ? 1.0 + e : 1.0 - e, 2.0 * pi * i / 40);
+    EXPECT_NEAR(paper_roundness(star), e, 1e-14);
+    EXPECT_NEAR(paper_roundness(1e-8 * star.array() + Complex(1.0, 1.0)), e, 1e-8);
+    // The centre is weighted by length, the radius is not: a square with a point in the middle of one side has its
+    // centre in the middle, four distances sqrt 2 and one of 1.
+    VectorXcd square(5);
+    square << Complex(0, 0), Complex(1, 0), Complex(2, 0), Complex(2, 2), Complex(0, 2);
+    const double root = std::sqrt(2.0), radius = (4.0 * root + 1.0) / 5.0;
+    const double squares = (4.0 * (root - radius) * (root - radius) + (1.0 - radius) * (1.0 - radius)) / 5.0;
+    EXPECT_NEAR(paper_roundness(square), std::sqrt(squares) / radius, 1e-15);
+    EXPECT_EQ(paper_roundness(VectorXcd::Constant(3, Complex(2.0, 1.0))), 1.0);
+}
+
+TEST(CircleFit, means_are_over_all_loops_and_over_the_holes)
+{
+    const MeanRoundness mean = mean_roundness({{0.1, 0.0}, {0.2, 0.5}, {0.6, 1.0}});
+    EXPECT_NEAR(mean.all.paper, 0.3, 1e-15);
+    EXPECT_NEAR(mean.holes.paper, 0.4, 1e-15);
+    EXPECT_NEAR(mean.all.least_squares, 0.5, 1e-15);
+    EXPECT_NEAR(mean.holes.least_squares, 0.75, 1e-15);
+    EXPECT_EQ(mean_roundness({{0.1, 0.2}}).holes.paper, 0.0);
+}
+
+TEST(CircleFit, the_deviation_is_the_root_mean_square_of_the_relative_one)
+{
+    EXPECT_LT(deviation_from({{4.0, 4.0}, 2.0}, points_on({{4.0, 4.0}, 2.0}, 50, 0.7)), 1e-15);
     // Radius 1 + e cos 5t: root mean square e / sqrt 2, whatever the scale.
     const double e = 1e-3;
     for (const double scale : {1e-8, 1e8}) {
         VectorXcd points(400);
         for (int i = 0; i < 400; ++i)
             points[i] = std::polar(scale * (1.0 + e * std::cos(5.0 * 2.0 * pi * i / 400)), 2.0 * pi * i / 400);
-        EXPECT_NEAR(roundness(points, {{0.0, 0.0}, scale}), e / std::sqrt(2.0), 1e-6);
+        EXPECT_NEAR(deviation_from({{0.0, 0.0}, scale}, points), e / std::sqrt(2.0), 1e-6);
     }
 }
 

@@ -25,13 +25,14 @@ UniformizeResult sample_result()
     result.loops.resize(2);
     result.loops[0].vertices = {0, 1, 2, 3};
     result.loops[1].circle = {{0.25, -0.5}, 0.125};
-    result.loops[1].roundness = 1e-3;
+    result.loops[1].roundness.paper = 1e-3;
     result.loops[1].off_circle = {4};
     result.outer_loop = 1;
     result.converged = true;
     result.sweeps = 2;
     result.steps = 3;
-    result.history = {{1, {0, 1}, 0.5, 0.25, {}}, {2, {1, 0}, 0.125, 0.0625, {}}};
+    result.history = {{1, {0, 1}, 0.5, {{0.25, 0.2}, {0.5, 0.4}}, {}},
+                      {2, {1, 0}, 0.125, {{0.0625, 0.05}, {0.125, 0.1}}, {}}};
     result.distortion.flipped = {1, 2};
     result.distortion.below_resolution = {2};
     result.distortion.conformal_energy = 1.0 / 3.0;
@@ -52,15 +53,16 @@ using Keys = std::vector<std::string>;
 TEST(Json, HasTheKeysOfTheContractInItsOrder)
 {
     const auto report = to_json(sample_result());
-    EXPECT_EQ(keys_of(report),
-              (Keys{"version",          "input",      "vertices",         "faces",    "method",
-                    "engine",           "outer_loop", "converged",        "sweeps",   "steps",
-                    "history",          "loops",      "angle_error_deg",  "beltrami", "area_distortion",
-                    "conformal_energy", "flipped",    "below_resolution", "seconds",  "peak_memory_mb",
-                    "warnings"}));
-    EXPECT_EQ(keys_of(report["history"][0]), (Keys{"step", "pair", "change", "mean_roundness"}));
-    EXPECT_EQ(keys_of(report["loops"][0]),
-              (Keys{"vertices", "center", "radius", "roundness", "roundness_projected", "off_circle"}));
+    EXPECT_EQ(
+        keys_of(report),
+        (Keys{"version",          "input",           "vertices",       "faces",           "method",           "engine",
+              "outer_loop",       "converged",       "sweeps",         "steps",           "history",          "loops",
+              "mean_roundness",   "angle_error_deg", "beltrami",       "area_distortion", "conformal_energy", "flipped",
+              "below_resolution", "seconds",         "peak_memory_mb", "warnings"}));
+    EXPECT_EQ(keys_of(report["history"][0]),
+              (Keys{"step", "pair", "change", "mean_roundness", "mean_roundness_holes"}));
+    EXPECT_EQ(keys_of(report["loops"][0]), (Keys{"vertices", "center", "radius", "roundness", "roundness_least_squares",
+                                                 "roundness_projected", "off_circle", "own_circle"}));
     EXPECT_EQ(keys_of(report["angle_error_deg"]), (Keys{"mean", "sd", "max"}));
     EXPECT_EQ(keys_of(report["beltrami"]), (Keys{"mean", "max"}));
     EXPECT_EQ(keys_of(report["seconds"]),

@@ -44,9 +44,10 @@ std::vector<Circle> six_circles()
 int steps_to(const KoebeMeshResult& result, double roundness_excess)
 {
     const auto& history = result.outcome.history;
-    const double limit = history.back().mean_roundness;
+    const double limit = history.back().mean_roundness.all.paper;
     int steps = static_cast<int>(history.size());
-    while (steps > 1 && std::abs(history[steps - 2].mean_roundness - limit) < roundness_excess * limit) --steps;
+    while (steps > 1 && std::abs(history[steps - 2].mean_roundness.all.paper - limit) < roundness_excess * limit)
+        --steps;
     return steps;
 }
 
@@ -80,7 +81,7 @@ TEST_P(KoebeMeshMethod, the_outer_loop_is_on_the_unit_circle_and_the_others_are_
     const KoebeMeshResult result = run(domain, Lift::polynomial, options);
     for (const Complex z : result.outcome.loops[0]) EXPECT_NEAR(std::abs(z), 1.0, 1e-14);
     for (std::size_t k = 1; k < domain.loops.size(); ++k) {
-        EXPECT_LT(roundness(result.outcome.loops[k], circles_of(result)[k]), 2e-3);
+        EXPECT_LT(deviation_from(circles_of(result)[k], result.outcome.loops[k]), 2e-3);
         EXPECT_EQ(result.outcome.loops[k], gather_loop(result.positions, domain.loops[k]));
     }
     for (Eigen::Index f = 0; f < domain.triangles.rows(); ++f) {
@@ -133,24 +134,29 @@ TEST_P(KoebeMeshMethod, reruns_are_bit_identical_and_units_do_not_matter)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, KoebeMeshMethod, testing::Values(Method::gk, Method::ck),
-                         [](const auto& method) { return method.param == Method::gk ? "gk" : "ck"; });
+INSTANTIATE_TEST_SUITE_P(Methods, KoebeMeshMethod, testing::Values(Method::gk, Method::ck, Method::against_outer),
+                         [](const auto& method) {
+                             return method.param == Method::gk ? "gk" : method.param == Method::ck ? "ck" : "outer";
+                         });
 
-TEST(KoebeMesh, both_methods_find_the_same_circles_and_gk_in_fewer_steps)
+TEST(KoebeMesh, all_methods_find_the_same_circles_and_gk_in_the_fewest_steps)
 {
     const CircleDomain domain = make_circle_domain(six_circles(), 3000);
     for (const Lift kind : curved_lifts) {
-        UniformizeOptions gk, ck;
-        ck.method = Method::ck;
-        const KoebeMeshResult a = run(domain, kind, gk), b = run(domain, kind, ck);
-        EXPECT_LT(inversive_distance_error(circles_of(a), circles_of(b)), 1e-3) << to_string(kind);
-        EXPECT_LT(a.outcome.steps, b.outcome.steps);
-        EXPECT_LT(steps_to(a, 1e-3), steps_to(b, 1e-3)) << to_string(kind);
-        EXPECT_LT(steps_to(a, 1e-5), steps_to(b, 1e-5)) << to_string(kind);
+        const KoebeMeshResult gk = run(domain, kind);
+        for (const Method method : {Method::ck, Method::against_outer}) {
+            UniformizeOptions options;
+            options.method = method;
+            const KoebeMeshResult other = run(domain, kind, options);
+            EXPECT_LT(inversive_distance_error(circles_of(gk), circles_of(other)), 1e-3) << to_string(kind);
+            EXPECT_LT(gk.outcome.steps, other.outcome.steps);
+            EXPECT_LT(steps_to(gk, 1e-3), steps_to(other, 1e-3)) << to_string(kind);
+            EXPECT_LT(steps_to(gk, 1e-5), steps_to(other, 1e-5)) << to_string(kind);
+        }
     }
 }
 
-TEST(KoebeMesh, the_history_names_the_pairs)
+TEST(KoebeMesh, the_history_names_the_open_loops)
 {
     const CircleDomain domain = make_circle_domain(five_circles(), 600);
     UniformizeOptions options;
@@ -164,12 +170,110 @@ TEST(KoebeMesh, the_history_names_the_pairs)
     for (std::size_t s = 0; s < expected.size(); ++s) {
         EXPECT_EQ(gk.history[s].pair, expected[s]);
         EXPECT_EQ(gk.history[s].step, static_cast<int>(s) + 1);
-        EXPECT_GT(gk.history[s].mean_roundness, 0.0);
+        EXPECT_GT(gk.history[s].mean_roundness.all.paper, 0.0);
     }
     options.method = Method::ck;
     const auto ck = run(domain, Lift::sphere, options).outcome;
-    for (std::size_t s = 0; s < ck.history.size(); ++s)
-        EXPECT_EQ(ck.history[s].pair, std::pair(0, 1 + static_cast<int>(s) % 4));
+    EXPECT_EQ(ck.steps, 10);
+    for (int s = 0; s < ck.steps; ++s) EXPECT_EQ(ck.history[s].pair, std::pair(s % 5, s % 5));
+    options.method = Method::against_outer;
+    const auto outer = run(domain, Lift::sphere, options).outcome;
+    EXPECT_EQ(outer.steps, 8);
+    for (int s = 0; s < outer.steps; ++s) EXPECT_EQ(outer.history[s].pair, std::pair(0, 1 + s % 4));
+}
+
+TEST(KoebeMesh, a_step_puts_the_loops_it_opens_on_circles)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 1500);
+    KoebeMeshOptions recorded;
+    recorded.record_steps = true;
+    for (const Method method : {Method::gk, Method::ck, Method::against_outer}) {
+        UniformizeOptions options;
+        options.method = method;
+        options.max_sweeps = 1;
+        const KoebeOutcome outcome = run(domain, Lift::polynomial, options, recorded).outcome;
+        ASSERT_EQ(outcome.step_images.size(), outcome.history.size());
+        for (std::size_t s = 0; s < outcome.history.size(); ++s) {
+            const auto [i, j] = outcome.history[s].pair;
+            const VectorXcd outer = gather_loop(outcome.step_images[s], domain.loops[i]);
+            EXPECT_LT((outer.array().abs() - 1.0).abs().maxCoeff(), 1e-12);
+            // One loop is open with CK, and no other is round yet in the first step; else a second one is round.
+            const VectorXcd other = gather_loop(outcome.step_images[s], domain.loops[i == j ? (i + 1) % 5 : j]);
+            EXPECT_LT(other.cwiseAbs().maxCoeff(), 1.0);
+            if (i == j)
+                EXPECT_GT(deviation_from(fit_circle_least_squares(other), other), s == 0 ? 1e-4 : 0.0);
+            else
+                EXPECT_LT(other.cwiseAbs().maxCoeff() - other.cwiseAbs().minCoeff(), 1e-12);
+        }
+    }
+}
+
+TEST(KoebeMesh, partners_that_change_lead_to_the_same_circles)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 3000);
+    UniformizeOptions options;
+    options.tolerance = 1e-8;
+    KoebeMeshOptions changing;
+    changing.partners = Partners::changing;
+    const KoebeMeshResult result = run(domain, Lift::enneper, options, changing);
+    EXPECT_TRUE(result.outcome.converged);
+    EXPECT_EQ(result.outcome.sweeps % 5, 0);  // whole rounds
+    EXPECT_LT(error_of(domain, result), 1e-3);
+}
+
+TEST(KoebeMesh, a_schedule_is_followed)
+{
+    // The orders of Figs. 2 and 4.
+    const CircleDomain domain =
+        make_circle_domain({Circle{}, {{0.45, 0.0}, 0.2}, {{-0.3, 0.4}, 0.2}, {{-0.2, -0.45}, 0.25}}, 2000);
+    UniformizeOptions options;
+    KoebeMeshOptions fig4;
+    fig4.schedule = {{0, 2}, {3, 0}, {0, 2}, {3, 1}, {0, 2}};
+    const KoebeMeshResult gk = run(domain, Lift::sphere, options, fig4);
+    EXPECT_TRUE(gk.outcome.converged);
+    EXPECT_LT(error_of(domain, gk), 1e-3);
+    for (int s = 0; s < gk.outcome.steps; ++s)
+        EXPECT_EQ(gk.outcome.history[s].pair, std::pair(fig4.schedule[s % 5][0], fig4.schedule[s % 5][1]));
+    options.method = Method::ck;
+    KoebeMeshOptions fig2;
+    fig2.schedule = {{0}, {3}, {1}, {2}};
+    const KoebeMeshResult ck = run(domain, Lift::sphere, options, fig2);
+    EXPECT_TRUE(ck.outcome.converged);
+    EXPECT_LT(error_of(domain, ck), 1e-3);
+    EXPECT_EQ(ck.outcome.history[1].pair, std::pair(3, 3));
+}
+
+TEST(KoebeMesh, what_cannot_be_is_an_error)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 600);
+    const auto refused = [&](Method method, const KoebeMeshOptions& mesh_options) {
+        UniformizeOptions options;
+        options.method = method;
+        try {
+            run(domain, Lift::plane, options, mesh_options);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto scheduled = [](Sweep schedule) {
+        KoebeMeshOptions mesh_options;
+        mesh_options.schedule = std::move(schedule);
+        return mesh_options;
+    };
+    const Sweep pairs{{0, 1}, {2, 3}, {0, 4}};
+    EXPECT_EQ(refused(Method::gk, scheduled(pairs)), "");
+    EXPECT_NE(refused(Method::ck, scheduled(pairs)), "");
+    EXPECT_NE(refused(Method::gk, scheduled({{0, 1}, {2, 3}})).find("never opens loop 4"), std::string::npos);
+    EXPECT_NE(refused(Method::gk, scheduled({{0, 1}, {2, 3}, {4, 5}})).find("names loop 5"), std::string::npos);
+    EXPECT_NE(refused(Method::gk, scheduled({{0, 1}, {2, 3}, {4, 4}})).find("twice"), std::string::npos);
+    EXPECT_NE(refused(Method::against_outer, scheduled(pairs)).find("fills loop 0"), std::string::npos);
+    KoebeMeshOptions changing;
+    changing.partners = Partners::changing;
+    EXPECT_NE(refused(Method::ck, changing), "");
+    KoebeMeshOptions flow;
+    flow.annulus = AnnulusBackend::yamabe;
+    EXPECT_NE(refused(Method::gk, flow).find("one metric"), std::string::npos);
 }
 
 TEST(KoebeMesh, both_engines_find_the_same_circles)
@@ -235,20 +339,53 @@ TEST(KoebeMesh, one_loop_is_the_riemann_map)
     EXPECT_LT((result.positions.array() - turn * disk.points.array()).abs().maxCoeff(), 2e-3);
 }
 
-TEST(KoebeMesh, the_metric_of_the_present_image_drifts)
+TEST(KoebeMesh, the_metric_of_the_image_in_print_drifts)
 {
     // What the paper writes, and why it is not the default: each sweep adds an error of the size of the first.
     const CircleDomain domain = make_circle_domain(five_circles(), 2000);
     UniformizeOptions options;
     options.tolerance = 0.0;
-    KoebeMeshOptions present;
-    present.metric = KoebeMeshOptions::Metric::present;
-    options.max_sweeps = 2;
-    const double early = error_of(domain, run(domain, Lift::polynomial, options, present));
-    options.max_sweeps = 6;
-    const double late = error_of(domain, run(domain, Lift::polynomial, options, present));
-    EXPECT_GT(late, 2.0 * early);
-    EXPECT_LT(error_of(domain, run(domain, Lift::polynomial, options)), 0.1 * early);
+    for (const auto metric : {KoebeMeshOptions::Metric::planar, KoebeMeshOptions::Metric::reflected})
+        for (const Method method : {Method::gk, Method::ck}) {
+            options.method = method;
+            KoebeMeshOptions in_print;
+            in_print.metric = metric;
+            std::vector<double> errors;
+            for (const int sweeps : {2, 4, 8}) {
+                options.max_sweeps = sweeps;
+                errors.push_back(error_of(domain, run(domain, Lift::polynomial, options, in_print)));
+            }
+            EXPECT_GT(errors[1], 1.5 * errors[0]);
+            EXPECT_GT(errors[2], 1.5 * errors[1]);
+            options.max_sweeps = 2;
+            EXPECT_LT(error_of(domain, run(domain, Lift::polynomial, options)), 0.1 * errors[0]);
+        }
+}
+
+TEST(KoebeMesh, the_yamabe_flow_maps_the_annuli_as_the_one_form_does)
+{
+    // The first step starts from the surface, and the two maps differ by O(h^2).
+    for (const Method method : {Method::gk, Method::ck, Method::against_outer}) {
+        UniformizeOptions options;
+        options.method = method;
+        options.max_sweeps = 1;
+        KoebeMeshOptions form;
+        form.metric = KoebeMeshOptions::Metric::reflected;
+        form.record_steps = true;
+        KoebeMeshOptions flow = form;
+        flow.annulus = AnnulusBackend::yamabe;
+        double difference[2];
+        for (const int fine : {0, 1}) {
+            const CircleDomain domain = make_circle_domain(five_circles(), fine ? 6000 : 1500);
+            const VectorXcd a = run(domain, Lift::polynomial, options, form).outcome.step_images[0],
+                            b = run(domain, Lift::polynomial, options, flow).outcome.step_images[0];
+            Complex turn = (a.array() * b.array().conjugate()).sum();
+            turn /= std::abs(turn);
+            difference[fine] = (a - turn * b).cwiseAbs().maxCoeff();
+        }
+        EXPECT_LT(difference[0], 1e-2);
+        EXPECT_LT(difference[1], 0.8 * difference[0]);
+    }
 }
 
 TEST(KoebeMesh, progress_never_goes_back_and_cancelling_stops_it)

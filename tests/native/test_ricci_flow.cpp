@@ -171,7 +171,7 @@ TEST(RicciFlow, loops_become_circles_and_holes_close)
     const RicciFlowResult result = sample.flow({.tolerance = 1e-9, .newton = {}});
     EXPECT_TRUE(result.outcome.converged) << result.reason;
     EXPECT_LT(result.closing_gap, 1e-9);
-    EXPECT_LT(result.outcome.history.back().mean_roundness, 1e-8);
+    EXPECT_LT(result.outcome.history.back().mean_roundness.all.least_squares, 1e-8);
     EXPECT_TRUE(result.collapsed.empty());
     // The metric of the map is the flow's: a packing with the same weights.
     const VectorXd K = discrete_curvature(

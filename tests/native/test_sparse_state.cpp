@@ -63,7 +63,8 @@ TEST(SparseState, finds_the_circles_that_the_dense_state_finds)
         const KoebeRun dense = run(domain, surface, Method::gk, 100000), sparse = run(domain, surface, Method::gk, 0);
         ASSERT_TRUE(dense.outcome.converged && sparse.outcome.converged);
         EXPECT_LT(inversive_distance_error(sparse.circles, dense.circles), 1e-9) << to_string(kind);
-        EXPECT_NEAR(sparse.outcome.history.back().mean_roundness, dense.outcome.history.back().mean_roundness, 1e-10);
+        EXPECT_NEAR(sparse.outcome.history.back().mean_roundness.all.paper,
+                    dense.outcome.history.back().mean_roundness.all.paper, 1e-10);
     }
 }
 

@@ -175,10 +175,11 @@ TEST(Uniformize, gk_needs_fewer_steps_than_ck_to_the_same_roundness)
         options.method = Method::ck;
         const UniformizeResult ck = run(lift(domain.points, kind), domain.triangles, options);
         ASSERT_TRUE(gk.converged && ck.converged);
-        const double wanted = 1.2 * std::max(gk.history.back().mean_roundness, ck.history.back().mean_roundness);
+        const double wanted =
+            1.2 * std::max(gk.history.back().mean_roundness.all.paper, ck.history.back().mean_roundness.all.paper);
         const auto steps_to = [wanted](const UniformizeResult& result) {
             return std::find_if(result.history.begin(), result.history.end(),
-                                [&](const KoebeStep& step) { return step.mean_roundness <= wanted; })
+                                [&](const KoebeStep& step) { return step.mean_roundness.all.paper <= wanted; })
                 ->step;
         };
         EXPECT_LT(steps_to(gk), steps_to(ck)) << to_string(kind);

@@ -180,7 +180,7 @@ def same(a, b):
         {"method": "GK"}, {"method": ""}, {"engine": "dense"}, {"balance": "areas"}, {"outer": "shortest"},
         {"outer": "7"}, {"tolerance": 0}, {"tolerance": -1e-6}, {"tolerance": np.nan}, {"tolerance": np.inf},
         {"tolerance": 10**400}, {"max_sweeps": 0}, {"max_sweeps": -3}, {"max_sweeps": 2**31}, {"threads": -1},
-        {"threads": 2**40},
+        {"threads": 2**40}, {"center": 60, "balance": "area"},
     ],
 )  # fmt: skip
 def test_options_out_of_range_are_value_errors(option):
@@ -196,6 +196,7 @@ def test_options_out_of_range_are_value_errors(option):
         {"outer": None}, {"outer": True}, {"outer": np.array([1])}, {"tolerance": "1e-6"}, {"tolerance": None},
         {"tolerance": 1e-6 + 0j}, {"tolerance": True}, {"tolerance": np.array([1e-6])}, {"max_sweeps": 2.5},
         {"max_sweeps": "5"}, {"max_sweeps": True}, {"max_sweeps": None}, {"threads": 1.0}, {"threads": None},
+        {"center": 1.0}, {"center": True}, {"center": "60"}, {"point": 0.0}, {"point": [0]},
         {"polish": "no"}, {"polish": 1}, {"polish": None}, {"progress": 1}, {"progress": "print"}, {"cancel": True},
         {"cancel": object()}, {"no_such_option": 1},
     ],
@@ -222,6 +223,33 @@ def test_an_outer_vertex_on_no_loop_is_named(vertex):
     with pytest.raises(koebe.InputError) as caught:
         koebe.uniformize(VERTICES, FACES, outer=vertex)
     assert list(caught.value.elements) == [vertex] and not isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize("option", ["center", "point"])
+@pytest.mark.parametrize("vertex", [-1, COUNT, 2**31 - 1, 2**31, 10**30])
+def test_a_place_for_a_vertex_that_does_not_exist_names_it(option, vertex):
+    with pytest.raises(koebe.InputError, match=str(vertex)) as caught:
+        koebe.uniformize(VERTICES, FACES, **{option: vertex})
+    assert list(caught.value.elements) == [vertex] and not isinstance(caught.value, ValueError)
+
+
+def test_the_center_is_inside_and_the_point_on_a_loop():
+    rim, inside = int(RIMS[0][0]), 60
+    for option, vertex in (("center", rim), ("point", inside)):
+        with pytest.raises(koebe.InputError, match=f"vertex {vertex} ") as caught:
+            koebe.uniformize(VERTICES, FACES, **{option: vertex})
+        assert list(caught.value.elements) == [vertex]
+    with pytest.raises(koebe.InputError, match="vertex"):
+        koebe.uniformize(VERTICES, FACES, outer=rim, point=int(RIMS[1][0]))
+    for engine in ("condensed", "mesh"):
+        result = koebe.uniformize(VERTICES, FACES, engine=engine, center=np.int64(inside), point=int(RIMS[1][0]))
+        assert result.uv[inside].tolist() == [0, 0] and result.uv[RIMS[1][0]].tolist() == [1, 0]
+        assert (result.center, result.point) == (inside, RIMS[1][0]) == (
+            result.to_dict()["center"], result.to_dict()["point"],
+        )  # fmt: skip
+        assert RIMS[1][0] in result.loops[0]
+    plain = koebe.uniformize(VERTICES, FACES)
+    assert plain.center is plain.point is None and not {"center", "point"} & plain.to_dict().keys()
 
 
 # ---------------------------------------------------------------- the other functions' own arguments

@@ -27,6 +27,8 @@ WRONG = [
     [], ["--output"], ["--what"], ["in.blend", "more.blend", *OUT], [*OUT, "--out", "x"],
     *([*OUT, "--outer", value] for value in
       ("", "sideways", "-1", "1.5", "2147483648", "99999999999999999999999", "²", "٣", "0x10", "active", " 1")),
+    *([*OUT, name, value] for name in ("--center", "--point") for value in ("", "auto", "-1", "1.5", "cursor")),
+    [*OUT, "--center", "3", "--balance", "area"],
     *([*OUT, "--tolerance", value] for value in ("0", "-1e-6", "nan", "inf", "1e-400", "x", "")),
     *([*OUT, "--max-sweeps", value] for value in ("0", "-1", "1.0", "2147483648", "1e3", "nan", "")),
     *([*OUT, "--threads", value] for value in ("-1", "2147483648", "two", "")),

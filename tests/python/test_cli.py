@@ -88,16 +88,18 @@ def test_the_report_has_the_keys_of_the_contract(mesh):
     report = json.loads((mesh / "report.json").read_text())
     assert list(report) == [
         *("version", "input", "vertices", "faces", "method", "engine", "outer_loop", "converged", "sweeps", "steps"),
-        *("history", "loops", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy", "flipped"),
-        *("below_resolution", "seconds", "peak_memory_mb", "warnings"),
+        *("history", "loops", "mean_roundness", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy"),
+        *("flipped", "below_resolution", "seconds", "peak_memory_mb", "warnings"),
     ]
     assert report["input"] == "in.obj"
     assert report["vertices"] == len(perforated()[0])
     assert (report["method"], report["engine"], report["converged"]) == ("gk", "condensed", True)
-    assert all(list(step) == ["step", "pair", "change", "mean_roundness"] for step in report["history"])
+    for step in report["history"]:
+        assert list(step) == ["step", "pair", "change", "mean_roundness", "mean_roundness_holes"]
     assert len(report["history"]) == report["steps"] > 0
     assert set(report["loops"][0]) == {
-        *("vertices", "center", "radius", "roundness", "roundness_projected", "off_circle")
+        *("vertices", "center", "radius", "roundness", "roundness_least_squares"),
+        *("roundness_projected", "off_circle", "own_circle"),
     }
     assert list(report["seconds"]) == [*("read", "topology", "metric", "factor", "iterate", "finish", "write", "total")]
     parts = [value for stage, value in report["seconds"].items() if stage != "total"]
@@ -140,6 +142,36 @@ def test_outer_picks_the_loop_of_the_unit_circle(mesh):
     for bad in (inner, 10**6):
         run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--outer", bad)
         assert run.returncode == USAGE and re.fullmatch(rf"WrongUsage: --outer: .*{bad}.*\n", run.stderr), run.stderr
+
+
+@pytest.mark.parametrize("command", ["uniformize", "ricci"])
+def test_center_goes_to_0_and_point_to_1(mesh, command):
+    koebe(command, mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json")
+    plain = json.loads((mesh / "report.json").read_text())
+    assert not {"center", "point"} & plain.keys()
+    # The flow does not converge with a hole outside.
+    hole = plain["loops"][2 if command == "uniformize" else 0]["vertices"]
+    rim = {v for loop in plain["loops"] for v in loop["vertices"]}
+    inside = next(v for v in range(len(perforated()[0])) if v not in rim)
+    places = ["--center", inside, "--point", hole[1]]
+    run = koebe(command, mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", *places)
+    assert run.returncode == 0, run.stderr
+    uv, report = Obj(mesh / "out.obj").uv, json.loads((mesh / "report.json").read_text())
+    assert uv[inside].tolist() == [0.5, 0.5] and uv[hole[1]].tolist() == [1.0, 0.5]
+    assert (report["center"], report["point"], report["flipped"]) == (inside, hole[1], 0)
+    assert set(report["loops"][0]["vertices"]) == set(hole)
+    for loop in report["loops"]:
+        away = np.abs(np.linalg.norm(disk(uv)[loop["vertices"]] - loop["center"], axis=1) - loop["radius"])
+        assert away.max() < (1e-12 if command == "uniformize" else 0.05)
+
+    longest, hole = plain["loops"][0]["vertices"][0], plain["loops"][2]["vertices"]
+    for option, bad, more in (
+        ("--center", 10**6, []), ("--center", hole[0], []), ("--point", 10**6, []), ("--point", inside, []),
+        ("--point", hole[0], ["--outer", longest]), ("--point", hole[0], ["--outer", "longest"]),
+    ):  # fmt: skip
+        run = koebe(command, mesh / "in.obj", mesh / "new.obj", option, bad, *more)
+        assert run.returncode == USAGE and re.fullmatch(rf"WrongUsage: {option}: .*{bad}.*\n", run.stderr), run.stderr
+        assert not (mesh / "new.obj").exists()
 
 
 def test_vertices_of_no_face_and_faces_of_no_area_stay_in_the_file(tmp_path):
@@ -192,6 +224,9 @@ def test_out_may_be_in(mesh):
         ["uniformize", "in.obj", "out.obj", "--balance", "angle"],
         ["uniformize", "in.obj", "out.obj", "--outer", "-1"],
         ["uniformize", "in.obj", "out.obj", "--outer", "short"],
+        ["uniformize", "in.obj", "out.obj", "--center", "-1"],
+        ["uniformize", "in.obj", "out.obj", "--point", "first"],
+        ["uniformize", "in.obj", "out.obj", "--center", "60", "--balance", "area"],
         ["uniformize", "in.obj", "out.obj", "--tolerance", "0"],
         ["uniformize", "in.obj", "out.obj", "--tolerance", "nan"],
         ["uniformize", "in.obj", "out.obj", "--tolerance", "1e-3x"],
@@ -444,7 +479,7 @@ def test_ricci_has_the_files_and_the_report_of_uniformize(mesh):
     assert list(ricci) == list(gk)
     assert (ricci["method"], ricci["engine"], ricci["input"]) == ("ricci", "circle_packing", "in.obj")
     assert ricci["converged"] and ricci["steps"] >= ricci["sweeps"] == len(ricci["history"])
-    assert max(loop["roundness"] for loop in ricci["loops"]) < 1e-5
+    assert max(loop["roundness_least_squares"] for loop in ricci["loops"]) < 1e-5
     # The same circles, but for an automorphism of the disk: intersections of pairs.
     assert np.allclose(inversive_distances(ricci), inversive_distances(gk), rtol=0.05)
     assert np.array_equal(Obj(mesh / "ricci.obj").vertices, Obj(mesh / "koebe.obj").vertices)

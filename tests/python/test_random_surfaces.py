@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import koebe
+import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
@@ -17,6 +18,48 @@ def test_a_few_of_each_kind_keep_their_promises(kind):
         surface = random_surfaces.make(kind, seed)
         if surface is not None:
             assert promises.broken(surface[1], koebe.uniformize(*surface)) == [], seed
+
+
+# Vertices deep in flaps and limbs, of meshes of a few faces: where an automorphism turns faces over.
+PLACED = [
+    ("stacked", 2, 17, 23), ("stacked", 8, 7, 4), ("sphere", 2, 3, 4), ("ragged", 0, 311, None),
+    ("ragged", 6, 111, 231), ("ragged", 8, 108, 95), ("lifted", 3, 171, 140), ("lifted", 9, 158, 30),
+    ("planar", 8, 86, 57), ("degenerate", 0, 5, None),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "seed", "center", "point"), PLACED)
+def test_vertices_are_brought_to_their_places_without_a_flip(kind, seed, center, point):
+    vertices, triangles = random_surfaces.make(kind, seed)
+    result = koebe.uniformize(vertices, triangles, center=center, point=point)
+    assert promises.broken(triangles, result) == [] and result.converged
+    assert result.uv[center].tolist() == [0, 0] and (point is None or result.uv[point].tolist() == [1, 0])
+
+
+def test_a_vertex_that_cannot_be_brought_to_0_is_named_and_no_face_is_flipped():
+    vertices, triangles = random_surfaces.make("joined", 1008)
+    result = koebe.uniformize(vertices, triangles, center=222, point=31)
+    assert promises.broken(triangles, result) == [] and not result.converged
+    assert [w.elements for w in result.warnings if w.kind == "out_of_place"] == [[222]]
+    assert result.uv[31].tolist() == [1, 0]
+
+
+@pytest.mark.parametrize("kind", random_surfaces.KINDS)
+def test_any_vertices_of_each_kind_can_be_given_places(kind):
+    for seed in range(3000, 3004):
+        surface = random_surfaces.make(kind, seed)
+        if surface is None:
+            continue
+        rng = np.random.default_rng(seed)
+        rim = np.concatenate(koebe.boundary_loops(surface[1], vertex_count=len(surface[0])))
+        inside = np.setdiff1d(surface[1], rim)
+        center, point = int(rng.choice(inside)) if len(inside) else None, int(rng.choice(rim))
+        result = koebe.uniformize(*surface, center=center, point=point, polish=seed % 2 == 0)
+        assert promises.broken(surface[1], result) == [], seed
+        assert np.abs(result.uv[point] - [1, 0]).max() <= 1e-12, seed
+        if center is not None:
+            placed = np.abs(result.uv[center]).max() <= 1e-12
+            assert placed or "out_of_place" in [w.kind for w in result.warnings], seed
 
 
 def test_the_polish_is_undone_where_a_loop_would_cross_itself():

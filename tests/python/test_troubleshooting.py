@@ -18,7 +18,8 @@ NOT_FROM_BLENDER = (
     "already has a face on that side", "cannot be linked with the fans", "separate parts (faces",
     "must be shrunk at least once", "is no inner vertex", "no path joins", "points of a polygon coincide",
     "polygons cross", "a polygon", "there is no boundary loop", "dense ", "sparse factorization",
-    "the order must name", "a circle domain has one circle", "the first circle must be", "the match must name",
+    "the order must name", "center and balance exclude", "a circle domain has one circle", "the first circle must be",
+    "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "partners change",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
 )  # fmt: skip
 OPTION_ERRORS = "maps/options.py", "batch.py"  # the panel's fields cannot take such values

@@ -13,8 +13,11 @@ from ._api import (
     harmonic_map,
     uniformize,
 )
+from ._family import Family, family
+from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
-from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning
+from ._plot import plot
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning, load
 from ._shapes import (
     DomainAlignment,
     align_domains,
@@ -24,13 +27,16 @@ from ._shapes import (
     module_distance,
     module_names,
 )
+from ._transfer import Correspondence, transfer
 from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
 
 __all__ = [
     "CIRCLE_TOLERANCE",
     "CancelToken",
     "Cancelled",
+    "Correspondence",
     "DomainAlignment",
+    "Family",
     "InputError",
     "KoebeError",
     "OptionError",
@@ -47,11 +53,17 @@ __all__ = [
     "canonical_order",
     "conformal_module",
     "disk_map",
+    "disk_to_uv",
     "distortion",
+    "family",
     "fill_holes",
     "harmonic_map",
+    "load",
     "match_loops",
     "module_distance",
     "module_names",
+    "plot",
+    "transfer",
     "uniformize",
+    "uv_to_disk",
 ]

@@ -6,16 +6,44 @@ from typing import Any
 import numpy as np
 
 from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
+from ._meshes import is_mesh, read_mesh
 from ._native import _koebe
-from ._options import callback, choice, flag, outer_loop, positive, token, whole
-from ._result import UniformizeResult
-from .errors import InputError, SolverError, TopologyError
+from ._options import callback, choice, flag, outer_loop, positive, sweep, token, vertex, whole
+from ._result import Source, UniformizeResult
+from .errors import InputError, OptionError, SolverError, TopologyError
 
 Progress = Callable[[float, str], Any]
 
 
+def _set_mesh_engine(
+    options: "_koebe.UniformizeOptions", partners: Any, schedule: Any, metric: Any, annulus: Any, record_steps: Any
+) -> None:
+    mesh = options.mesh
+    mesh.partners = choice(partners, "partners", _koebe.Partners)
+    mesh.schedule = sweep(schedule, "schedule")
+    mesh.metric = choice(metric, "metric", _koebe.Metric)
+    mesh.annulus = choice(annulus, "annulus", _koebe.AnnulusBackend)
+    mesh.record_steps = flag(record_steps, "record_steps")
+    if options.engine != _koebe.Engine.mesh:
+        asked = {
+            "partners": partners != "fixed",
+            "schedule": schedule is not None,
+            "metric": metric != "first",
+            "annulus": annulus != "harmonic",
+            "record_steps": record_steps,
+        }
+        if any(asked.values()):
+            name = next(name for name, is_asked in asked.items() if is_asked)
+            raise OptionError(f"{name} is an option of engine='mesh'")
+    if mesh.partners == _koebe.Partners.changing and (options.method != _koebe.Method.gk or mesh.schedule):
+        raise OptionError("partners change with method='gk' alone, and without a schedule")
+    if mesh.annulus == _koebe.AnnulusBackend.yamabe and mesh.metric == _koebe.Metric.first:
+        raise OptionError("annulus='yamabe' needs metric='planar' or 'reflected'")
+
+
 def _options(
-    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any
+    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any,
+    center: Any, point: Any,
 ) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = choice(method, "method", _koebe.Method)
@@ -26,12 +54,15 @@ def _options(
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
     options.threads = whole(threads, "threads", least=0)
     options.polish = flag(polish, "polish")
+    options.center, options.point = vertex(center, "center"), vertex(point, "point")
+    if center is not None and balance != "none":
+        raise OptionError("center and balance exclude each other: both choose the automorphism of the disk")
     return options
 
 
 def uniformize(
     vertices: Any,
-    triangles: Any,
+    triangles: Any = None,
     *,
     method: str = "gk",
     engine: str = "condensed",
@@ -43,12 +74,22 @@ def uniformize(
     cancel: "_koebe.CancelToken | None" = None,
     threads: int = 0,
     polish: bool = False,
+    center: int | None = None,
+    point: int | None = None,
+    partners: str = "fixed",
+    schedule: Sequence[Sequence[int]] | None = None,
+    metric: str = "first",
+    annulus: str = "harmonic",
+    record_steps: bool = False,
 ) -> UniformizeResult:
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
     vertices     (V, 3) float32 or float64, any unit, any order, read-only accepted, never modified
     triangles    (F, 3) int32 or int64, counter-clockwise seen from outside
-    method       'gk': pairs of loops opened at once; 'ck': one loop and the outer one (paper, section 4.4)
+    In place of both: a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh or a meshio Mesh, with triangles,
+    quadrilaterals or polygons; the result's to_mesh() gives the same kind back, with UVs and fields
+    method       'gk': two loops a step (paper, section 4.4, second algorithm); 'ck': one loop a step, all others filled
+                 (section 1.2); 'against-outer': one hole a step, the outer loop never filled (section 4.4, first one)
     engine       'condensed': boundary angles alone (default); 'mesh': the paper's patches as real triangles
     outer        the loop on the unit circle: 'auto', 'longest', or a vertex of it
     tolerance    stop when the circles move by less in a sweep, a length in the unit disk
@@ -58,15 +99,47 @@ def uniformize(
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
     threads      of the dense and sparse kernels; 0 takes all cores
     polish       at the end, lower the angle error with the circles as they are; takes many times as long
+    center       a vertex inside the surface that goes to 0; not together with balance
+    point        a vertex of a boundary loop that goes to 1; its loop is the one on the unit circle. Both together leave
+                 no freedom (paper, section 4.3); center alone turns nothing, point alone only turns
+
+    With engine='mesh', the paper's own choices:
+    partners     'fixed', or 'changing': with 'gk' each sweep pairs the loops another way (Fig. 4)
+    schedule     the loops that each step of a sweep opens, as places in the result's `loops`: pairs, with 'ck' single
+                 ones; None: the method's own order
+    metric       each step's: 'first', the surface's; 'planar', of the last step's image, as in print; 'reflected', that
+                 after the reflection tau in a circle inside a hole
+    annulus      'harmonic': 1-forms (section 4.2); 'yamabe': the discrete Yamabe flow (abstract)
+    record_steps keep each step's own image: `step_maps`
 
     One loop gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe
     iteration (section 4.4). Ctrl-C ends the call at once, as it does in all functions here.
     Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
-    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish)
+    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point)
+    _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    return UniformizeResult(_koebe.uniformize(*as_surface(vertices, triangles), options, progress, cancel))
+    source = _source(vertices, triangles)
+    native = _koebe.uniformize(source.vertices, source.triangles, options, progress, cancel)
+    return UniformizeResult(native.report(), native.uv, np.array(native.flipped_faces), native.step_maps, source)
+
+
+def _source(vertices: Any, triangles: Any) -> Source:
+    """The surface as arrays, of a mesh of another package too."""
+    if not is_mesh(vertices):
+        if triangles is None:
+            raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh or meshio")
+        return Source(*as_surface(vertices, triangles))
+    if triangles is not None:
+        raise TypeError("a mesh has its own faces: give no triangles")
+    polygons = read_mesh(vertices)
+    positions = as_points(np.asarray(polygons.vertices, dtype=np.float64), "vertices", 3)
+    corners = polygons.corners
+    if len(corners) and not 0 <= corners.min() <= corners.max() < len(positions):
+        raise InputError("faces of the mesh name a vertex that does not exist")
+    faces, polygon = _koebe.triangulate(positions, corners.astype(np.int32), polygons.begin.astype(np.int32))
+    return Source(*as_surface(positions, faces), vertices, polygons, polygon)
 
 
 def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[np.ndarray]:
@@ -116,8 +189,8 @@ def fill_holes(
     """Fill boundary loops.
 
     loops   ranks in the list that boundary_loops gives; None for all of them
-    fair    False: fans around the loops' mass centres (paper, section 4.4). True: triangles as long as those around
-            the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
+    fair    False: fans around the means of the loops' vertices (paper, section 4.4). True: triangles as long as those
+            around the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
     Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
     """
     positions, faces = as_surface(vertices, triangles)

@@ -1,6 +1,7 @@
 """Options as the native module takes them: TypeError for a wrong type, OptionError for a wrong value."""
 
 import math
+from collections.abc import Mapping
 from numbers import Integral, Real
 from typing import Any
 
@@ -14,11 +15,28 @@ _MOST = 2**31 - 1  # of a 32-bit integer
 
 def choice(value: Any, option: str, enumeration: Any) -> Any:
     """The member of a native enumeration with this name."""
-    members = enumeration.__members__
+    return choice_of(value, option, enumeration.__members__)
+
+
+def choice_of(value: Any, option: str, members: Mapping[str, Any]) -> Any:
+    """What this name stands for."""
     _require(value, option, str, "a text")
     if value not in members:
         raise OptionError(f"{option} must be one of {', '.join(members)}, not {value!r}")
     return members[value]
+
+
+def sweep(value: Any, option: str) -> list[list[int]]:
+    """The loops that each step of a sweep opens."""
+    if value is None:
+        return []
+    if isinstance(value, (str, bytes)):
+        raise TypeError(f"{option} must be a list of steps, each a list of loops, not {value!r}")
+    listed = [[step] if isinstance(step, Integral) else step for step in value]
+    steps = [[whole(loop, option, least=0) for loop in step] for step in listed]
+    if not steps or not all(steps):
+        raise OptionError(f"{option} must have steps, and each step loops, not {value!r}")
+    return steps
 
 
 def flag(value: Any, option: str) -> bool:
@@ -55,6 +73,16 @@ def outer_loop(value: Any) -> tuple["_koebe.OuterLoop", int]:
     if not 0 <= value <= _MOST:
         raise InputError(f"vertex {value} does not exist: outer must be a vertex of a boundary loop", [int(value)])
     return _koebe.OuterLoop.vertex, int(value)
+
+
+def vertex(value: Any, option: str) -> int:
+    """A vertex of the surface, -1 where none is given."""
+    if value is None:
+        return -1
+    _require(value, option, Integral, "a vertex")
+    if not 0 <= value <= _MOST:
+        raise InputError(f"vertex {value} does not exist: {option} must be a vertex of the surface", [int(value)])
+    return int(value)
 
 
 def callback(value: Any, option: str) -> Any:

@@ -1,12 +1,22 @@
 """What a uniformization gives."""
 
 import copy
+import json
+import os
+import zipfile
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
 from typing import Any, TypedDict
 
 import numpy as np
 
 from ._arrays import as_loops
+from ._fields import disk_to_uv, face_angle_error_deg, log_scale
+from ._files import whole_file
+from ._meshes import Polygons, mesh_with_fields
 from ._native import _koebe
+from .errors import InputError
 
 # UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
 UV_RESOLUTION: float = _koebe.uv_resolution
@@ -84,12 +94,29 @@ class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
 
 
 class Step(TypedDict):
-    """A step of the Koebe iteration: the loops it opened, the change of all circles, the mean e(gamma_k) after it."""
+    """A step of the Koebe iteration: the loops it opened, the change of all circles, the mean e(gamma_k) after it.
+
+    mean_roundness_holes is the mean without the outer loop.
+    """
 
     step: int
     pair: list[int]
     change: float
     mean_roundness: float
+    mean_roundness_holes: float
+
+
+class MeanOverLoops(TypedDict):
+    """Means over all loops, and over all but the outer one; 0 without any."""
+
+    all: float
+    holes: float
+
+
+class MeanRoundness(MeanOverLoops):
+    """Means of the paper's e(gamma_k), and of `roundness_least_squares`."""
+
+    least_squares: MeanOverLoops
 
 
 class Seconds(TypedDict):
@@ -105,6 +132,17 @@ class Seconds(TypedDict):
     total: float
 
 
+@dataclass(frozen=True)
+class Source:
+    """The surface that was mapped: its arrays, and the mesh of another package that they came from, if they did."""
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    mesh: Any = None
+    polygons: Polygons | None = None
+    polygon: np.ndarray | None = None  # (F,) of each triangle
+
+
 class UniformizeResult:
     """A circle domain and its report.
 
@@ -112,12 +150,18 @@ class UniformizeResult:
     loops            int32 arrays of vertices, the surface on the left, the outer loop first
     centers, radii   (L, 2) and (L,) circles in the unit disk
     roundness        (L,) the paper's e(gamma_k) before the final projection (section 5)
+    roundness_least_squares     (L,) deviation from the circle of least squares, in radii, before the final projection
+    mean_roundness   their means
     off_circle       int32 arrays: vertices of each loop that are not on its circle
+    own_circle       (L,) whether each circle is the surface's: the iteration's, and not lost in rounding
     vertices, faces  their counts
     method, engine   as chosen
     outer_loop       which of boundary_loops(triangles) is the outer one
+    center, point    vertices at 0 and at 1, as they were asked for, or None
     converged, sweeps, steps     of the iteration
-    history          one entry a step: step, pair, change, mean_roundness
+    history          one entry a step, a Step
+    step_maps        per step, if asked for: (V, 2) its own image, the first loop that it opened on the unit circle; NaN
+                     for vertices that are not in it, or that it could not place
     angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say
     flipped, below_resolution    counts of faces, as in the command's JSON
     flipped_faces    int32 array of the faces that `flipped` counts, rising
@@ -131,16 +175,22 @@ class UniformizeResult:
     centers: np.ndarray
     radii: np.ndarray
     roundness: np.ndarray
+    roundness_least_squares: np.ndarray
+    mean_roundness: MeanRoundness
     off_circle: list[np.ndarray]
+    own_circle: np.ndarray
     vertices: int
     faces: int
     method: str
     engine: str
     outer_loop: int
+    center: int | None = None
+    point: int | None = None
     converged: bool
     sweeps: int
     steps: int
     history: list[Step]
+    step_maps: list[np.ndarray]
     angle_error_deg: AngleError
     beltrami: Beltrami
     area_distortion: AreaDistortion
@@ -152,28 +202,107 @@ class UniformizeResult:
     peak_memory_mb: float
     warnings: list[Warning]
 
-    def __init__(self, native: "_koebe.UniformizeResult") -> None:
-        report: dict[str, Any] = native.report()
-        self._native = native
+    def __init__(
+        self,
+        report: dict[str, Any],
+        uv: np.ndarray,
+        flipped_faces: np.ndarray,
+        step_maps: list[np.ndarray],
+        source: Source,
+    ) -> None:
         self._report = report
+        self._source = source
         loops = report["loops"]
         vars(self).update({name: value for name, value in report.items() if name not in {"version", "input"}})
-        self.uv = native.uv
+        self.uv = uv
         self.uv.flags.writeable = False
         self.loops = as_loops([loop["vertices"] for loop in loops])
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
+        self.roundness_least_squares = np.array([loop["roundness_least_squares"] for loop in loops])
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
-        self.flipped_faces = np.array(native.flipped_faces, dtype=np.int32)
+        self.own_circle = np.array([loop["own_circle"] for loop in loops])
+        self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
+        self.step_maps = step_maps
         self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        return self._source.vertices, self._source.triangles
+
+    @cached_property
+    def log_scale(self) -> np.ndarray:
+        """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN without one."""
+        return log_scale(self._source.vertices, self._source.triangles, self.uv)
+
+    @cached_property
+    def face_angle_error_deg(self) -> np.ndarray:
+        """(F,) mean angle error of each triangle's corners, degrees; NaN for triangles without area."""
+        return face_angle_error_deg(self._source.vertices, self._source.triangles, self.uv)
+
+    def to_mesh(self) -> Any:
+        """The mesh that was given, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and
+        koebe_angle_error (degrees) at the faces. Raises InputError if arrays were given."""
+        source = self._source
+        if source.polygons is None or source.polygon is None:
+            raise InputError("the surface came as arrays: there is no mesh to give back")
+        faces, known = len(source.polygons.cell), np.isfinite(self.face_angle_error_deg)
+        number, error = source.polygon[known], self.face_angle_error_deg[known]
+        with np.errstate(invalid="ignore"):
+            angle = np.bincount(number, error, minlength=faces) / np.bincount(number, minlength=faces)
+        return mesh_with_fields(source.mesh, source.polygons, disk_to_uv(self.uv), self.log_scale, angle)
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict."""
         return copy.deepcopy(self._report)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write all of it to a file, which `koebe.load` reads: NumPy's .npz. The file is whole or absent.
+
+        Of a mesh of another package its arrays are kept, not the mesh.
+        """
+        steps = np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2))
+        with whole_file(path) as file:
+            np.savez_compressed(
+                file, report=np.array(json.dumps(self._report)), uv=self.uv, flipped_faces=self.flipped_faces,
+                step_maps=steps, vertices=self._source.vertices, triangles=self._source.triangles,
+            )  # fmt: skip
 
     def __repr__(self) -> str:
         return (
             f"<koebe.UniformizeResult {self.vertices} vertices, {len(self.loops)} loops, "
             f"{self.sweeps} sweeps, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
         )
+
+    def _repr_html_(self) -> str:
+        """The circle domain and its figures, as a notebook shows them."""
+        circles = "".join(
+            f'<circle cx="{x:.6g}" cy="{-y:.6g}" r="{radius:.6g}" fill="{"#e8eef7" if k == 0 else "#fff"}"/>'
+            for k, ((x, y), radius) in enumerate(zip(self.centers, self.radii, strict=True))
+        )
+        lines = [
+            f"{self.vertices:,} vertices, {self.faces:,} faces, {len(self.loops)} loops",
+            f"{'converged' if self.converged else 'not converged'} in {self.sweeps} sweeps",
+            f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
+            *(escape(str(warning)) for warning in self.warnings),
+        ]
+        return (
+            '<div style="display:flex;gap:1em"><svg width="160" height="160" viewBox="-1.02 -1.02 2.04 2.04" '
+            f'stroke="#1d4e89" stroke-width="0.012">{circles}</svg><div>{"<br/>".join(lines)}</div></div>'
+        )
+
+
+def load(path: str | os.PathLike[str]) -> UniformizeResult:
+    """The result that `save` has written. Raises InputError for a file that is none, OSError for one that cannot be
+    read."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            report = json.loads(str(file["report"]))
+            return UniformizeResult(
+                report, file["uv"], file["flipped_faces"], list(file["step_maps"]),
+                Source(file["vertices"], file["triangles"]),
+            )  # fmt: skip
+    except (KeyError, ValueError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        raise InputError(f"{os.fspath(path)} is no result of koebe: {error}") from None

@@ -19,7 +19,7 @@ from .errors import InputError, OptionError
 def _require_own_circles(domain: Any) -> None:
     """Refuse a result with circles other than the iteration's: it has no module."""
     if isinstance(domain, UniformizeResult):
-        _koebe.require_own_circles(domain._native)
+        _koebe.require_own_circles(domain.own_circle.tolist())
 
 
 def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
@@ -90,10 +90,12 @@ class DomainAlignment:
     match       the target's loop for each of the source's
     residual    root of the mean over the holes of squared differences of centres and radii
     largest, worst    the largest of them and its hole
+    misses      (L,) each loop's, in lengths of the disk: root of the squared differences of centre and radius
+    misses_in_radii    the same in radii of the source's loop: what is small in the disk may be large for a small hole
     converged   whether no step made the residual smaller
     """
 
-    def __init__(self, native: "_koebe.DomainAlignment") -> None:
+    def __init__(self, native: "_koebe.DomainAlignment", radii: np.ndarray) -> None:
         self._native = native
         self.a: complex = native.a
         self.turn: complex = native.turn
@@ -101,6 +103,8 @@ class DomainAlignment:
         self.residual: float = native.residual
         self.largest: float = native.largest
         self.worst: int = native.worst
+        self.misses = np.array(native.misses)
+        self.misses_in_radii = self.misses / radii
         self.converged: bool = native.converged
 
     def __call__(self, points: Any) -> np.ndarray:
@@ -118,4 +122,4 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
     chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(b[1]), "loops")
     if match is not None and not len(chosen):
         raise InputError("the match must name each of the target's loops once, the outer one first")
-    return DomainAlignment(_koebe.align_domains(*a, *b, chosen))
+    return DomainAlignment(_koebe.align_domains(*a, *b, chosen), a[1])

@@ -1,25 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Some of the paper's figures: level sets of a harmonic function and its conjugate, and a circle domain
-reflected in its circles again and again."""
+"""The paper's Figs. 6 and 7: level sets of a harmonic function and of its conjugate, on a surface and on its image."""
 
-import json
 import math
-import os
-import struct
 import subprocess
-import sys
-import zlib
 from pathlib import Path
 
 import convergence
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import demo  # noqa: E402
-
-KOEBE = ROOT / "build" / "koebe"
+KOEBE = Path(__file__).resolve().parent.parent / "build" / "koebe"
 PAPER = "#f4efe6"
 WARM, COLD, EDGE = "#c8553d", "#1d5f78", "#1b2a41"
 
@@ -133,67 +122,6 @@ def boundary_graph(triangles, points):
     return graph
 
 
-# ---------------------------------------------------------------- reflections
-
-
-def mapped_sample(out, name):
-    """The result for a sample, that of `make demo` if it is there."""
-    report = out / f"{name}.json"
-    if not report.exists():
-        blender = os.environ.get("BLENDER", "blender")
-        arguments = ["--output", out / f"{name}.blend", "--report", report]
-        demo.run_script(blender, ROOT / "addon" / "batch.py", arguments, ROOT / "blend_samples" / f"{name}.blend")
-    return json.loads(report.read_text(encoding="utf-8"))["objects"][0]
-
-
-def reflect_into(z, circles, rounds=40):
-    """Where reflections in the circles bring points: into the domain inside the first and outside the others; and how
-    many it took. On the limit set it never ends."""
-    z, depth = z.copy(), np.zeros(z.shape, int)
-    for _ in range(rounds):
-        moved = np.zeros(z.shape, bool)
-        for k, (center, radius) in enumerate(circles):
-            d = z - center
-            out = (np.abs(d) > radius) if k == 0 else (np.abs(d) < radius)
-            out &= np.abs(d) > 1e-12
-            z[out] = center + radius**2 / np.conj(d[out])
-            depth += out
-            moved |= out
-        if not moved.any():
-            break
-    return z, depth
-
-
-def schottky(out, sample, pixels=900, half=1.3, finer=3):
-    """The circle domain of a sample in its checker, and its reflections in its circles: RGB (pixels, pixels, 3)."""
-    loops = mapped_sample(out.parent, sample)["loops"]
-    circles = [(complex(*loop["center"]), loop["radius"]) for loop in loops]
-    side = (np.arange(pixels * finer) + 0.5) / (pixels * finer) * 2 * half - half
-    z, depth = reflect_into(side[None, :] - 1j * side[:, None], circles)
-    checker = (np.floor(12 * z.real) + np.floor(12 * z.imag)) % 2 == 0
-    pairs = np.array([[(244, 239, 230), (54, 101, 111)], [(251, 233, 205), (190, 84, 56)]], float)
-    colors = pairs[depth % 2, checker.astype(int)] * np.maximum(1.0 - 0.06 * depth, 0.5)[..., None]
-    for center, radius in circles:
-        ring = np.abs(np.abs(side[None, :] - 1j * side[:, None] - center) - radius) < 0.004
-        colors[ring] = (27, 42, 65)
-    return colors.reshape(pixels, finer, pixels, finer, 3).mean(axis=(1, 3)).round().astype(np.uint8)
-
-
-def write_png(path, colors):
-    """8-bit RGB (PNG specification, chunks IHDR, IDAT, IEND; no filter)."""
-    height, width, _ = colors.shape
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = np.column_stack([np.zeros(height, np.uint8), colors.reshape(height, -1)])
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    body = chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 9)) + chunk(b"IEND", b"")
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + body)
-
-
-def draw(out):
-    """All of them, into the folder."""
-    for holes, name in ((1, "level_sets.svg"), (0, "level_sets_disk.svg")):
-        (out / name).write_text(level_sets(out, holes), encoding="utf-8")
-    write_png(out / "schottky.png", schottky(out, "perforated_panel"))
+def pictures(out):
+    """Fig. 6 on the annulus and Fig. 7 on the disk, by name."""
+    return {"level_sets": level_sets(out, 1), "level_sets_disk": level_sets(out, 0)}

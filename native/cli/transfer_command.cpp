@@ -1,0 +1,135 @@
+// koebe transfer A B OUT
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "cli/mapping_options.h"
+#include "cli/mesh_input.h"
+#include "cli/output_files.h"
+#include "cli/progress_line.h"
+#include "cli/result_line.h"
+#include "cli/standard_streams.h"
+#include "cli/subcommand.h"
+
+#include "core/detachable_run.h"
+#include "io/atomic_file.h"
+#include "io/mesh_writer.h"
+#include "pipeline/uniformize.h"
+#include "report/json.h"
+#include "transfer/correspondence.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace koebe::cli {
+namespace {
+
+struct Request {
+    std::string first, second, output, json;
+    WrittenFormat format = WrittenFormat::obj;
+    bool aligned_only = false, quiet = false;
+    UniformizeOptions options;
+
+    std::vector<OutputFile> files() const { return {{"OUT", output}, {"--json", json}}; }
+};
+
+struct MappedInput {
+    MeshInput mesh;
+    MappedSurface surface;
+    bool converged = false;
+};
+
+MappedInput read_and_map(const std::string& path, const Request& request, const CancelToken& token)
+{
+    MappedInput input{read_mesh_input(path, token), {}, false};
+    ProgressLine progress(request.quiet);
+    ExecutionContext context(progress.callback(), token);
+    const Vertices& vertices = input.mesh.polygons.vertices;
+    const Triangles& triangles = input.mesh.triangulation.triangles;
+    UniformizeResult result =
+        with_filed_faces(input.mesh, [&] { return uniformize(vertices, triangles, request.options, context); });
+    input.surface = {vertices, triangles, std::move(result.uv), std::move(result.loops)};
+    input.converged = result.converged;
+    return input;
+}
+
+nlohmann::ordered_json report(const Request& request, const MappedInput& a, const MappedInput& b,
+                              const Correspondence& found)
+{
+    const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+    std::vector<double> in_radii = found.alignment.misses;
+    for (std::size_t k = 0; k < in_radii.size(); ++k) in_radii[k] /= a.surface.loops[k].circle.radius;
+    nlohmann::ordered_json places = nlohmann::ordered_json::array();
+    for (Eigen::Index v = 0; v < found.places.face.size(); ++v) {
+        const auto corners = b.surface.triangles.row(found.places.face[v]);
+        const auto weights = found.places.weights.row(v);
+        places.push_back(
+            {{"triangle", {corners[0], corners[1], corners[2]}}, {"weights", {weights[0], weights[1], weights[2]}}});
+    }
+    return {{"version", KOEBE_VERSION},         {"a", name(request.first)},
+            {"b", name(request.second)},        {"converged", a.converged && b.converged},
+            {"match", found.alignment.match},   {"residual", found.alignment.residual},
+            {"misses", found.alignment.misses}, {"misses_in_radii", in_radii},
+            {"fitted", found.fitted},           {"largest_distance", found.places.distance.maxCoeff()},
+            {"places", std::move(places)}};
+}
+
+std::string result_line(const Request& request, const MappedInput& a, const MappedInput& b, const Correspondence& found)
+{
+    double worst = 0.0;
+    for (std::size_t k = 1; k < found.alignment.misses.size(); ++k)
+        worst = std::max(worst, found.alignment.misses[k] / a.surface.loops[k].circle.radius);
+    char text[96];
+    std::snprintf(text, sizeof text, ": %lld points, holes miss by up to %.2g radii%s",
+                  static_cast<long long>(found.points.rows()), worst, found.fitted ? ", fitted" : ", not fitted");
+    return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") + "\n";
+}
+
+int run(const Request& request)
+{
+    const CancelToken token = cancel_on_signal();
+    require_writable_files(request.files(), !request.quiet);
+    const auto a = std::make_shared<const MappedInput>(read_and_map(request.first, request, token));
+    const auto b = std::make_shared<const MappedInput>(read_and_map(request.second, request, token));
+    ExecutionContext context({}, token);
+    const Correspondence found = run_detachable<Correspondence>(context, [request, a, b](ExecutionContext& own) {
+        return correspond(a->surface, b->surface, {.match = {}, .fit_holes = !request.aligned_only}, own);
+    });
+    std::vector<AtomicFile> files;
+    PolygonMesh moved = a->mesh.polygons;
+    moved.vertices = found.points;
+    write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv);
+    if (!request.json.empty()) files.emplace_back(request.json).write(json_text(report(request, *a, *b, found)));
+    context.checkpoint();
+    for (AtomicFile& file : files) file.commit();
+    if (!request.quiet) print(result_line(request, *a, *b, found), "; the files are written");
+    return a->converged && b->converged ? done : not_converged;
+}
+
+}  // namespace
+
+Subcommand add_transfer(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options =
+        app.add_subcommand("transfer", "the points of surface A on surface B, through the two circle domains");
+    options->add_option("A", request->first, "surface with holes: OBJ, OFF, PLY or STL")->required();
+    options->add_option("B", request->second, "surface with as many holes")->required();
+    options->add_option("OUT", request->output, "OBJ or PLY to write: A's faces, its vertices where they lie on B")
+        ->required();
+    options->add_flag("--no-fit", request->aligned_only,
+                      "lay the domains over each other, but bend no hole onto the other's");
+    add_mapping_options(*options, request->options);
+    options
+        ->add_option("--json", request->json,
+                     "write there in which triangle of B each point lies, and how far the holes miss")
+        ->type_name("FILE");
+    options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    options->callback([request] {
+        request->format = required_format(request->output);
+        require_different_files(request->files(), {request->first, request->second}, !request->quiet);
+    });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

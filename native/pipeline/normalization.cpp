@@ -1,0 +1,93 @@
+#include "pipeline/normalization.h"
+
+#include "circles/moebius.h"
+#include "pipeline/flip_removal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr int most_rounds = 12;
+constexpr double settled = 1e-10;   // disk units: what is left is moved vertex by vertex
+constexpr double worthwhile = 0.5;  // of the distance from 0 that a round may leave
+constexpr double on_circle = 1e-9;  // disk units: off the unit circle by rounding alone
+
+Complex at(const PlanarPoints& uv, Index vertex) { return {uv(vertex, 0), uv(vertex, 1)}; }
+
+/// The image of a circle inside the disk. Its radius is no difference of points, which are too few digits apart where
+/// the circle is tiny.
+Circle image_of(const Circle& circle, const Moebius& moebius)
+{
+    const double a = std::abs(moebius.a), pole = std::abs(1.0 - std::conj(moebius.a) * circle.center);
+    const double radius = circle.radius * (1.0 - a * a) / (pole * pole - a * a * circle.radius * circle.radius);
+    return {moebius(circle).center, radius};
+}
+
+/// Where the centre lies in a map of the solver's domain, drawn with its flap if it lies in one.
+Complex center_of(const Domain& whole, const FlapCut& cut, const CircleMap& map, ExecutionContext& context)
+{
+    if (cut.flaps.empty()) return at(map.uv, whole.center);
+    const auto kept = std::ranges::find(cut.vertices, whole.center);
+    if (kept != cut.vertices.end()) return at(map.uv, static_cast<Index>(kept - cut.vertices.begin()));
+    return at(hang_back(whole, cut, map, context).uv, whole.center);
+}
+
+}  // namespace
+
+CircleMap with_center_moved(const DomainSolver& solver, const Domain& whole, const FlapCut& cut, const CircleMap& map,
+                            ExecutionContext& context)
+{
+    CircleMap best = map;
+    Complex center = center_of(whole, cut, map, context);
+    Moebius total;
+    for (int round = 0; round < most_rounds && std::abs(center) > settled; ++round) {
+        context.checkpoint();
+        // As one automorphism without a turn, and from the map as it was: rounding does not add up.
+        const Moebius next{total.inverse()(center)};
+        if (!(std::abs(next.a) < 1.0)) break;
+        std::optional<CircleMap> moved = moved_by(solver, map, next);
+        if (!moved) break;
+        const Complex now = center_of(whole, cut, *moved, context);
+        if (!(std::abs(now) < std::abs(center))) break;
+        const bool last = std::abs(now) > worthwhile * std::abs(center);
+        best = std::move(*moved);
+        total = next;
+        center = now;
+        if (last) break;
+    }
+    return best;
+}
+
+void put_in_place(const Domain& whole, CircleMap& map)
+{
+    if (held_vertices(whole).empty()) return;
+    Moebius moebius;
+    if (whole.center >= 0) moebius.a = at(map.uv, whole.center);
+    if (!(std::abs(moebius.a) < 1.0)) return;
+    if (whole.point >= 0) {
+        const Complex image = moebius(at(map.uv, whole.point));
+        moebius.turn = std::conj(image) / std::abs(image);
+    }
+    if (moebius.a == 0.0 && moebius.turn == 1.0) return;
+    for (std::size_t k = 1; k < map.circles.size(); ++k) map.circles[k] = image_of(map.circles[k], moebius);
+    const VectorXcd before = map.uv.col(0) + Complex(0.0, 1.0) * map.uv.col(1);
+    VectorXcd points = moebius(before);
+    for (const Index v : whole.loops[0])
+        if (std::abs(std::abs(before[v]) - 1.0) < on_circle) points[v] /= std::abs(points[v]);
+    if (whole.center >= 0) points[whole.center] = 0.0;
+    if (whole.point >= 0) points[whole.point] = 1.0;
+    map.uv << points.real(), points.imag();
+}
+
+std::vector<Index> held_vertices(const Domain& whole)
+{
+    std::vector<Index> held;
+    for (const Index v : {whole.center, whole.point})
+        if (v >= 0) held.push_back(v);
+    return held;
+}
+
+}  // namespace koebe

@@ -1,0 +1,29 @@
+// The paper's normalization: a vertex inside the surface at 0, one of the outer loop at 1 (section 4.3).
+#pragma once
+
+#include "circles/circle_map.h"
+#include "core/execution.h"
+#include "pipeline/domain.h"
+#include "pipeline/map_from_loops.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// The map moved by z -> (z - a) / (1 - conj(a) z) on its circles, the interior harmonic again, so that the domain's
+/// centre lies at 0 up to the mesh's resolution: a Moebius map commutes with the extension only up to that, so a is
+/// found in a few rounds. Neither a strong automorphism turns thin faces over then, nor is the rotation another.
+/// @param solver of the core, or of the whole surface without flaps @param map of the solver's domain
+/// @return the best that was found, map itself if nothing is better
+CircleMap with_center_moved(const DomainSolver& solver, const Domain& whole, const FlapCut& cut, const CircleMap& map,
+                            ExecutionContext& context);
+
+/// The rest, exactly and vertex by vertex: the automorphism that sends the domain's centre to 0 and its point to 1.
+/// Nothing if the domain names neither.
+/// @param map of the whole domain, changed in place
+void put_in_place(const Domain& whole, CircleMap& map);
+
+/// The domain's centre and point, as far as it names them: vertices that stay where put_in_place has put them.
+std::vector<Index> held_vertices(const Domain& whole);
+
+}  // namespace koebe

@@ -1,0 +1,99 @@
+"""Many shapes with their loops in one order, so that their modules can be compared as vectors."""
+
+import csv
+import io
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ._arrays import as_indices
+from ._files import whole_file
+from ._options import whole
+from ._shapes import conformal_module, match_loops, module_names
+from .errors import InputError
+
+
+@dataclass(frozen=True)
+class Family:
+    """The modules of shapes with as many loops, in one order of the loops.
+
+    modules    (N, 3n - 3) float64, a row a shape; lengths in the unit disk
+    columns    what the numbers are called: r_1, y_2, r_2, ...
+    orders     (N, n + 1) int32: of each shape's loops, the outer one first, in the order that all share
+    labels     of the shapes
+    """
+
+    modules: np.ndarray
+    columns: list[str]
+    orders: np.ndarray
+    labels: list[str]
+
+    @property
+    def distances(self) -> np.ndarray:
+        """(N, N) L2 distances of the modules: a metric, since the order of the loops is one."""
+        return np.linalg.norm(self.modules[:, None] - self.modules[None], axis=2)
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """A row a shape: its label and its module, with a head line, as R's read.csv and pandas read it."""
+        text = io.StringIO(newline="")
+        writer = csv.writer(text)
+        writer.writerow(["label", *self.columns])
+        for label, row in zip(self.labels, self.modules, strict=True):
+            writer.writerow([label, *map(repr, row.tolist())])
+        with whole_file(path) as file:
+            file.write(text.getvalue().encode())
+
+
+def family(
+    results: Sequence[Any],
+    *,
+    reference: int = 0,
+    order: Sequence[int] | None = None,
+    orders: Sequence[Sequence[int]] | None = None,
+    labels: Sequence[str] | None = None,
+) -> Family:
+    """One order of the loops for all shapes, and their modules in it.
+
+    results     of uniformize, or what has centers and radii: as many loops each, two at least
+    reference   the shape whose loops decide: each other's are those that correspond to them (match_loops)
+    order       of the reference's loops, the outer one first (mouth, eye, eye); None: as in its result
+    orders      of every shape's loops, in your words; then nothing is matched
+    labels      of the shapes, such as file names; None: 0, 1, 2, ...
+    module_distance of two shapes takes the best order for those two, so three such distances need not obey the triangle
+    inequality; those of a family do. Raises InputError, also for circles that are not the surface's.
+    """
+    shapes = list(results)
+    if not shapes:
+        raise InputError("there are no shapes")
+    count = len(shapes[0].radii)
+    for number, shape in enumerate(shapes):
+        if len(shape.radii) != count:
+            raise InputError(f"shape {number} has {len(shape.radii)} loops, shape 0 has {count}")
+    if labels is not None and len(labels) != len(shapes):
+        raise InputError(f"there are {len(labels)} labels for {len(shapes)} shapes")
+    if orders is None:
+        first = whole(reference, "reference", least=0, most=len(shapes) - 1)
+        wanted = np.arange(count, dtype=np.int32) if order is None else as_indices(order, "order", count, "loops")
+        chosen = [_like(shapes[first], shape, wanted) for shape in shapes]
+    elif order is not None:
+        raise InputError("give one order, or the orders of all shapes")
+    elif len(orders) != len(shapes):
+        raise InputError(f"there are {len(orders)} orders for {len(shapes)} shapes")
+    else:
+        chosen = [as_indices(each, "orders", count, "loops") for each in orders]
+    modules = [conformal_module(shape, order=each.tolist()) for shape, each in zip(shapes, chosen, strict=True)]
+    names = [str(label) for label in (labels if labels is not None else range(len(shapes)))]
+    return Family(np.array(modules), module_names(count), np.array(chosen), names)
+
+
+def _like(reference: Any, shape: Any, wanted: np.ndarray) -> np.ndarray:
+    """The shape's loops that correspond to the reference's in the order wanted."""
+    if shape is reference:
+        return wanted
+    order, other, _ = match_loops(reference, shape)
+    partner = np.empty_like(other)
+    partner[order] = other
+    return partner[wanted]

@@ -1,0 +1,55 @@
+"""Coordinates of a circle domain, and what a map does at each vertex and face. NumPy alone."""
+
+from typing import Any
+
+import numpy as np
+
+from ._arrays import as_points
+
+
+def disk_to_uv(points: Any) -> np.ndarray:
+    """UVs (n, 2) in [0, 1]^2 of points (n, 2) of the unit disk: u = (1 + x) / 2, v = (1 + y) / 2."""
+    return 0.5 * (1.0 + as_points(points, "points", 2))
+
+
+def uv_to_disk(uv: Any) -> np.ndarray:
+    """Points (n, 2) of the unit disk at UVs (n, 2): the inverse of disk_to_uv. The disk of radius 1 is UVs' 1/2."""
+    return 2.0 * as_points(uv, "uv", 2) - 1.0
+
+
+def log_scale(vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """(V,) log of the map's scale at each vertex, disk lengths per surface length: half the log of the ratio of the
+    areas of the faces around it. NaN at vertices of no face, and where an area vanishes."""
+    on_surface, in_disk = (
+        _around(triangles, len(vertices), np.abs(_areas(points, triangles))) for points in (vertices, uv)
+    )
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scale = 0.5 * np.log(in_disk / on_surface)
+    return np.where(np.isfinite(scale), scale, np.nan)
+
+
+def face_angle_error_deg(vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """(F,) mean |angle in the UVs - angle on the surface| of each face's corners, degrees; NaN without area."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        error = np.degrees(np.abs(_angles(vertices[triangles]) - _angles(uv[triangles])).mean(axis=1))
+    return np.where(_areas(vertices, triangles) > 0.0, error, np.nan)
+
+
+def _angles(corners: np.ndarray) -> np.ndarray:
+    """(F, 3) angles of triangles (F, 3, d)."""
+    sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)  # from each corner to the next
+    here, before, across = sides, np.roll(sides, 1, axis=1), np.roll(sides, -1, axis=1)
+    return np.arccos(np.clip((here**2 + before**2 - across**2) / (2.0 * here * before), -1.0, 1.0))
+
+
+def _areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(F,) areas of triangles in space or, signed, in the plane."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    if points.shape[1] == 2:
+        (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+        return 0.5 * (ux * vy - uy * vx)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def _around(triangles: np.ndarray, vertex_count: int, values: np.ndarray) -> np.ndarray:
+    return np.bincount(triangles.ravel(), np.repeat(values, 3), minlength=vertex_count)

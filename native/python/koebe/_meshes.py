@@ -1,0 +1,162 @@
+"""Meshes of other packages, and back: PyVista, trimesh, meshio. Told by their classes, so that none is imported here.
+
+Each holds vertices, and cells of which some are faces: the others (points, lines) are kept and carry no values.
+"""
+
+import copy
+import importlib
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError
+
+UV, LOG_SCALE, ANGLE_ERROR = "koebe_uv", "koebe_log_scale", "koebe_angle_error"
+
+_VTK_FACES = {5: "triangle", 7: "polygon", 9: "quad"}  # numbers of VTK's cell types
+_VTK_PIXEL = 8  # a quadrilateral whose last two corners are the other way round
+_VTK_NO_FACES = {1, 2, 3, 4}  # points and lines
+
+
+@dataclass(frozen=True)
+class Polygons:
+    """The faces of a mesh of another package.
+
+    vertices   (V, 3) as there
+    corners    vertex of each corner, face after face
+    begin      (P + 1,) where each face's corners begin
+    cell       (P,) the number of each face among all cells
+    cell_count of all cells
+    """
+
+    vertices: np.ndarray
+    corners: np.ndarray
+    begin: np.ndarray
+    cell: np.ndarray
+    cell_count: int
+
+
+def is_mesh(thing: Any) -> bool:
+    return _kind(thing) is not None
+
+
+def read_mesh(mesh: Any) -> Polygons:
+    """Raises InputError for a mesh with no faces, or with cells that are no faces of a surface."""
+    readers = {"trimesh": _from_trimesh, "pyvista": _from_pyvista, "meshio": _from_meshio}
+    polygons = readers[_kind(mesh) or "meshio"](mesh)
+    if not len(polygons.cell):
+        raise InputError("the mesh has no faces")
+    return polygons
+
+
+def mesh_with_fields(mesh: Any, polygons: Polygons, uv: np.ndarray, log_scale: np.ndarray, angle: np.ndarray) -> Any:
+    """A copy of the mesh with texture coordinates (V, 2), and the fields of its vertices (V,) and faces (P,)."""
+    of_cells = np.full(polygons.cell_count, np.nan)
+    of_cells[polygons.cell] = angle
+    kind = _kind(mesh)
+    if kind == "trimesh":
+        result = mesh.copy()
+        result.visual = importlib.import_module("trimesh.visual").TextureVisuals(uv=uv)
+        result.vertex_attributes[LOG_SCALE] = log_scale
+        result.face_attributes[ANGLE_ERROR] = of_cells
+    elif kind == "pyvista":
+        result = mesh.copy(deep=True)
+        result.point_data[UV], result.point_data[LOG_SCALE] = uv, log_scale
+        result.cell_data[ANGLE_ERROR] = of_cells
+        result.active_texture_coordinates = uv
+    else:
+        result = copy.deepcopy(mesh)
+        result.point_data[UV], result.point_data[LOG_SCALE] = uv, log_scale
+        ends = np.cumsum([len(block.data) for block in result.cells])[:-1]
+        result.cell_data[ANGLE_ERROR] = np.split(of_cells, ends)
+    return result
+
+
+def _kind(thing: Any) -> str | None:
+    names = {(base.__module__.partition(".")[0], base.__name__) for base in type(thing).__mro__}
+    if ("trimesh", "Trimesh") in names:
+        return "trimesh"
+    if names & {("pyvista", "PolyData"), ("pyvista", "UnstructuredGrid")}:
+        return "pyvista"
+    return "meshio" if ("meshio", "Mesh") in names else None
+
+
+def _from_trimesh(mesh: Any) -> Polygons:
+    faces = np.asarray(mesh.faces)
+    return _polygons(mesh.vertices, [faces], [np.arange(len(faces))], len(faces))
+
+
+def _from_pyvista(mesh: Any) -> Polygons:
+    if hasattr(mesh, "celltypes"):
+        types = np.asarray(mesh.celltypes)
+        pixels = types == _VTK_PIXEL
+        others = set(types.tolist()) - {*_VTK_FACES, *_VTK_NO_FACES, _VTK_PIXEL}
+        if others:
+            raise InputError(
+                f"the grid has cells of VTK's types {sorted(others)}, which are no triangles, quadrilaterals or "
+                "polygons: give mesh.extract_surface()"
+            )
+        sizes, corners = _unpadded(mesh.cells)
+        begin = np.concatenate([[0], np.cumsum(sizes)])
+        for first in begin[:-1][pixels]:
+            corners[[first + 2, first + 3]] = corners[[first + 3, first + 2]]
+        is_face = pixels | np.isin(types, list(_VTK_FACES))
+        kept = np.repeat(is_face, sizes)
+        return _packed(mesh.points, corners[kept], sizes[is_face], np.flatnonzero(is_face), len(types))
+    if mesh.n_strips:
+        raise InputError("the mesh has triangle strips: give mesh.triangulate()")
+    sizes, corners = _unpadded(mesh.faces)
+    before = mesh.n_verts + mesh.n_lines  # VTK numbers them first
+    return _packed(mesh.points, corners, sizes, before + np.arange(len(sizes)), mesh.n_cells)
+
+
+def _from_meshio(mesh: Any) -> Polygons:
+    blocks, cells, begin = [], [], 0
+    for block in mesh.cells:
+        if block.type in ("triangle", "quad") or block.type.startswith("polygon"):
+            blocks.append(block.data)
+            cells.append(begin + np.arange(len(block.data)))
+        elif block.type not in ("vertex", "line"):
+            raise InputError(f"the mesh has cells of the type {block.type!r}: only triangles, quads and polygons")
+        begin += len(block.data)
+    return _polygons(mesh.points, blocks, cells, begin)
+
+
+def _polygons(vertices: Any, blocks: list[Any], cells: list[np.ndarray], cell_count: int) -> Polygons:
+    """Blocks of faces: tables (k, n), or lists of faces of any sizes."""
+    sizes, corners = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    for block in blocks:
+        faces = [np.asarray(face) for face in block] if _is_ragged(block) else np.asarray(block)
+        sizes.append(np.array([len(face) for face in faces], dtype=np.int64))
+        corners.append(np.concatenate(faces) if isinstance(faces, list) else faces.ravel())
+    number = np.concatenate([np.zeros(0, np.int64), *cells])
+    return _packed(vertices, np.concatenate(corners), np.concatenate(sizes), number, cell_count)
+
+
+def _is_ragged(block: Any) -> bool:
+    return len(block) > 0 and (not isinstance(block, np.ndarray) or block.dtype == object)
+
+
+def _packed(vertices: Any, corners: np.ndarray, sizes: np.ndarray, cell: np.ndarray, cell_count: int) -> Polygons:
+    points = np.asarray(vertices)
+    if points.ndim == 2 and points.shape[1] == 2:  # meshio keeps planar meshes so
+        points = np.column_stack([points, np.zeros(len(points), points.dtype)])
+    begin = np.concatenate([[0], np.cumsum(sizes)])
+    return Polygons(points, np.asarray(corners).astype(np.int64), begin, cell, cell_count)
+
+
+def _unpadded(padded: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Sizes (P,) and corners of cells that are filed as their size and their corners, one after the other."""
+    flat = np.array(padded, dtype=np.int64)
+    if len(flat) and len(flat) % (flat[0] + 1) == 0:  # all of one size: no loop
+        table = flat.reshape(-1, flat[0] + 1)
+        if (table[:, 0] == flat[0]).all():
+            return table[:, 0].copy(), table[:, 1:].ravel()
+    sizes, at = [], 0
+    while at < len(flat):
+        sizes.append(flat[at])
+        at += flat[at] + 1
+    counts = np.array(sizes, dtype=np.int64)
+    heads = np.concatenate([[0], np.cumsum(counts + 1)])[:-1].astype(np.int64)
+    return counts, np.delete(flat, heads)

@@ -1,0 +1,76 @@
+"""Points of one surface on another, through their circle domains."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ._arrays import as_indices
+from ._native import _koebe
+from ._options import flag
+from ._result import UniformizeResult
+from ._shapes import DomainAlignment
+from .errors import InputError
+
+
+@dataclass(frozen=True)
+class Correspondence:
+    """A point of surface a for each vertex of surface b.
+
+    faces       (V_b,) int32 triangle of a that it lies in
+    weights     (V_b, 3) its barycentric coordinates there: at least 0, of sum 1
+    points      (V_b, 3) the same in space, in a's unit
+    distances   (V_b,) how far outside a's domain b's vertex was before it was put to the nearest point, disk lengths
+    alignment   of a's domain over b's: which loops correspond, and by how much the holes miss
+    fitted      whether the holes were then bent onto each other; False where that would have turned faces over
+    uv          (V_a, 2) a's domain as it was laid over b's
+    """
+
+    faces: np.ndarray
+    weights: np.ndarray
+    points: np.ndarray
+    distances: np.ndarray
+    alignment: DomainAlignment
+    fitted: bool
+    uv: np.ndarray
+    triangles: np.ndarray
+
+    def carry(self, field: Any) -> np.ndarray:
+        """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's, linear in each face."""
+        values = np.asarray(field, dtype=np.float64)
+        if values.ndim not in (1, 2) or len(values) != len(self.uv):
+            raise InputError(f"the field has the shape {values.shape}, not a row for each of {len(self.uv)} vertices")
+        return np.einsum("vk,vk...->v...", self.weights, values[self.triangles[self.faces]])
+
+
+def transfer(
+    a: UniformizeResult, b: UniformizeResult, field: Any = None, *, match: Sequence[int] | None = None, fit: bool = True
+) -> Any:
+    """What surface a has at the points that correspond to the vertices of surface b, with as many loops.
+
+    a's circle domain is laid over b's by the automorphism of the disk that brings the holes nearest (align_domains).
+    fit=True then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, no
+    face turns over, but it is quasi-conformal where the holes differ.
+    field    (V_a,) or (V_a, k) at a's vertices: its values at b's vertices, (V_b,) or (V_b, k) float64, are returned
+             None: the Correspondence itself
+    match    a's loop for each of b's, 0 for 0; None: as match_loops finds them
+    Raises InputError, also where circles are not those of the surface.
+    """
+    for result in (a, b):
+        if not isinstance(result, UniformizeResult):
+            raise TypeError(f"transfer takes results of uniformize, not {type(result).__name__}")
+    chosen = [] if match is None else as_indices(match, "match", len(a.loops), "loops").tolist()
+    if match is not None and not chosen:
+        raise InputError("the match must name each of the loops of a once, the outer one first")
+    found = _koebe.correspond(_mapped(b), _mapped(a), chosen, flag(fit, "fit"))
+    found["alignment"] = DomainAlignment(found["alignment"], b.radii)
+    places = Correspondence(**found, triangles=a.surface[1])
+    return places if field is None else places.carry(field)
+
+
+def _mapped(result: UniformizeResult) -> "_koebe.MappedSurface":
+    off = [np.sort(vertices).tolist() for vertices in result.off_circle]
+    loops = [loop.tolist() for loop in result.loops]
+    circles = result.centers, result.radii, result.own_circle.tolist()
+    return _koebe.MappedSurface(*result.surface, result.uv, loops, off, *circles)

@@ -1,0 +1,53 @@
+// Points of one surface on another, through their circle domains.
+#pragma once
+
+#include "core/execution.h"
+#include "pipeline/result.h"
+#include "shape/domain_alignment.h"
+#include "transfer/nearest_triangle.h"
+
+#include <optional>
+#include <vector>
+
+namespace koebe {
+
+/// A surface and its map.
+struct MappedSurface {
+    Vertices vertices;
+    Triangles triangles;
+    PlanarPoints uv;                ///< points of the unit disk
+    std::vector<LoopReport> loops;  ///< of the map, the outer one first
+};
+
+struct CorrespondenceOptions {
+    std::vector<int> match;  ///< as of align_domains, or empty to look for it
+    bool fit_holes = true;   ///< bend the target's domain until its holes are the source's
+};
+
+struct Correspondence {
+    DomainAlignment alignment;
+    bool fitted = false;  ///< whether the holes were then bent onto each other; not where that would turn faces over
+    PlanarPoints uv;      ///< (V_b, 2) the target's domain as it was laid over the source's
+    PlacesInTriangles places;  ///< (V_a) where the source's vertices lie in the target's triangles
+    Vertices points;           ///< (V_a, 3) the same in space: a point of the target for each vertex of the source
+};
+
+/// The target's domain with its holes bent onto the source's circles, in steps: the rims are moved and scaled as their
+/// circles are, the inside follows by the harmonic displacement of the present domain. A step that turns faces over is
+/// halved. So the map is one to one, but quasi-conformal where the holes differ.
+/// @param uv (V_b, 2) the target's aligned domain @param alignment that of these points
+/// @return nothing if holes get into each other's way
+/// @throws SolverError, Cancelled
+std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source, const MappedSurface& target,
+                                              const DomainAlignment& alignment, const PlanarPoints& uv,
+                                              const ExecutionContext& context = {});
+
+/// Lays the target's circle domain over the source's (align_domains), bends its holes onto the source's, and looks up
+/// where the source's vertices lie in it. A vertex that lies outside, by the height of an arc over its edge at a rim,
+/// takes the nearest point: none is lost.
+/// @throws InputError as align_domains; circles that are not the surfaces' (require_own_circles); SolverError,
+/// Cancelled
+Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
+                          const CorrespondenceOptions& options, const ExecutionContext& context = {});
+
+}  // namespace koebe

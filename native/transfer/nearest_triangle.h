@@ -1,0 +1,19 @@
+// The triangles of a planar mesh that are nearest to given points.
+#pragma once
+
+#include "core/types.h"
+
+namespace koebe {
+
+struct PlacesInTriangles {
+    Eigen::VectorX<Index> face;  ///< (n) the nearest triangle of each point
+    Vertices weights;            ///< (n, 3) barycentric coordinates of the nearest point in it: >= 0, of sum 1
+    VectorXd distance;           ///< (n) from the point to it, 0 within rounding inside the mesh
+};
+
+/// By CGAL's tree of bounding boxes. Triangles without area count as the segments or points that they are.
+/// @param corners (V, 2) finite @param triangles (F, 3), F >= 1 @param points (n, 2) finite
+PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles,
+                                    const PlanarPoints& points);
+
+}  // namespace koebe

@@ -1,0 +1,38 @@
+"""Pictures of a result."""
+
+import sys
+
+import koebe
+import numpy as np
+import pytest
+from test_meshes import TRIANGLES, VERTICES
+
+RESULT = koebe.uniformize(VERTICES, TRIANGLES)
+
+
+@pytest.mark.parametrize("field", ["checker", "log_scale", "angle_error"])
+def test_the_surface_and_its_domain_are_drawn(field, tmp_path):
+    figure = koebe.plot(RESULT, field=field)
+    space, plane = figure.axes[:2]
+    assert len(figure.axes) == (2 if field == "checker" else 3)  # with a colour bar
+    drawn = [(*patch.center, patch.radius) for patch in plane.patches]
+    assert np.allclose(drawn, np.column_stack([RESULT.centers, RESULT.radii]))
+    pieces = len(plane.collections[0].get_paths()) / len(TRIANGLES)
+    assert pieces > 1 if field == "checker" else pieces == 1
+    areas = [path.vertices[:-1] for path in plane.collections[0].get_paths()]
+    area = sum(0.5 * np.cross(b - a, c - a) for a, b, c in (np.c_[t, np.zeros(3)][:3] for t in areas))[2]
+    assert np.isclose(area, np.pi * (1 - (RESULT.radii[1:] ** 2).sum()), rtol=0.05)
+    figure.savefig(tmp_path / "picture.png")
+    assert (tmp_path / "picture.png").stat().st_size > 10_000
+
+
+def test_another_field_is_an_error():
+    with pytest.raises(koebe.OptionError, match="field must be one of checker, log_scale, angle_error"):
+        koebe.plot(RESULT, field="area")
+
+
+def test_matplotlib_is_loaded_by_no_one_else():
+    import subprocess
+
+    done = subprocess.run([sys.executable, "-c", "import koebe, sys; sys.exit('matplotlib' in sys.modules)"])
+    assert done.returncode == 0
