@@ -25,7 +25,7 @@ for platform in "$@"; do
     cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DKOEBE_BUNDLE=ON -DKOEBE_TARGET="$target" \
         -DCMAKE_TOOLCHAIN_FILE="$PWD/native/bundle/zig.cmake" -DKOEBE_ZIG="$packages/ziglang/zig" \
         -Dpybind11_include="$packages/pybind11/include" \
-        -DKOEBE_BUILD_CLI=OFF -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
+        -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
     cmake --build "$folder"
     rm -f dist/koebe-*-py3-none-"$tag".whl
     "$venv/bin/python" scripts/bundle_wheel.py "$folder" "$tag" dist

@@ -1,4 +1,5 @@
 # The shared library of the wheels: everything inside, only KOEBE_API seen, no system library but the C library's.
+target_sources(koebe_core PRIVATE bundle/exception_memory.cpp)
 target_link_libraries(koebe_core PRIVATE koebe_cholmod)
 target_compile_definitions(koebe_core PUBLIC KOEBE_SHARED PRIVATE KOEBE_OWN_KERNELS)
 set_target_properties(koebe_core PROPERTIES
@@ -22,7 +23,4 @@ if(WIN32)
   set_target_properties(koebe_core PROPERTIES PREFIX "")
   target_link_libraries(koebe_core PRIVATE psapi)
   target_compile_definitions(koebe_core PRIVATE WIN32_LEAN_AND_MEAN NOMINMAX)
-  # Files are read and written by the command, which Windows has not yet.
-  list(FILTER all EXCLUDE REGEX "^io/")
-  set_target_properties(koebe_core PROPERTIES SOURCES "${all}")
 endif()

@@ -15,6 +15,9 @@ CancelToken cancel_on_signal()
 {
     static CancelToken token;
     signalled = &token;
+#if defined(_WIN32)
+    for (const int signal : {SIGINT, SIGTERM, SIGBREAK}) std::signal(signal, raise_token);  // which ends with the first
+#else
     struct sigaction action {};
     action.sa_handler = raise_token;
     action.sa_flags = SA_RESETHAND | SA_RESTART;
@@ -24,6 +27,7 @@ CancelToken cancel_on_signal()
         if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
     }
     for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+#endif
     return token;
 }
 

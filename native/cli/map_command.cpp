@@ -21,8 +21,6 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 namespace koebe::cli {
 namespace {
 
@@ -79,7 +77,7 @@ std::string result_line(const MapRequest& request, const UniformizeResult& resul
 /// All of them, for people only: scripts find them in the JSON.
 void show_warnings(const UniformizeResult& result)
 {
-    if (::isatty(STDERR_FILENO) != 1) return;
+    if (!is_error_shown()) return;
     for (const Warning& warning : result.warnings) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
 }
 

@@ -2,13 +2,12 @@
 
 #include "cli/standard_streams.h"
 #include "io/atomic_file.h"
+#include "io/descriptor.h"
 #include "io/file_identity.h"
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
-
-#include <unistd.h>
 
 namespace koebe::cli {
 
@@ -33,7 +32,7 @@ void require_different_files(const std::vector<OutputFile>& outputs, const std::
         for (const std::string& input : inputs)
             if (name != "OUT" && io::same_file(path, input))
                 throw CLI::ValidationError(name, "is the mesh '" + input + "' itself");
-        if (has_line && io::same_file(path, STDOUT_FILENO))
+        if (has_line && io::is_open_as(standard_output, path))
             throw CLI::ValidationError(name, "is standard output, where the result line goes");
     }
 }

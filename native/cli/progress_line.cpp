@@ -1,12 +1,12 @@
 #include "cli/progress_line.h"
 
-#include <cstdio>
+#include "cli/standard_streams.h"
 
-#include <unistd.h>
+#include <cstdio>
 
 namespace koebe::cli {
 
-ProgressLine::ProgressLine(bool quiet) : active_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool quiet) : active_(!quiet && is_error_shown()) {}
 
 ProgressCallback ProgressLine::callback()
 {

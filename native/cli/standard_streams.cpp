@@ -7,7 +7,12 @@
 #include <cstring>
 
 #include <fcntl.h>
+#if defined(_WIN32)
+#include <io.h>
+#include <windows.h>
+#else
 #include <unistd.h>
+#endif
 
 namespace koebe::cli {
 namespace {
@@ -19,6 +24,25 @@ namespace {
 
 }  // namespace
 
+#if defined(_WIN32)
+
+// A stream that is closed has no handle there, and no file takes its place.
+void keep_standard_streams() {}
+
+void require_standard_output()
+{
+    if (::_get_osfhandle(standard_output) < 0) fail(EBADF, "");
+}
+
+bool is_error_shown()
+{
+    const HANDLE console = ::GetStdHandle(STD_ERROR_HANDLE);
+    DWORD mode = 0;
+    return ::GetConsoleMode(console, &mode) && ::SetConsoleMode(console, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+}
+
+#else
+
 void keep_standard_streams()
 {
     // Each is open in the direction that nobody asks for; open() takes the lowest number that is free.
@@ -29,9 +53,13 @@ void keep_standard_streams()
 
 void require_standard_output()
 {
-    const int flags = ::fcntl(STDOUT_FILENO, F_GETFL);
+    const int flags = ::fcntl(standard_output, F_GETFL);
     if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY) fail(EBADF, "");
 }
+
+bool is_error_shown() { return ::isatty(STDERR_FILENO) == 1; }
+
+#endif
 
 void print(std::string_view text, const std::string& done)
 {

@@ -6,6 +6,11 @@
 
 namespace koebe::cli {
 
+constexpr int standard_output = 1;  // as every system numbers it
+
+/// Whether a person reads standard error as it is written, by a terminal that obeys what erases a line.
+bool is_error_shown();
+
 /// Fills the places of standard streams that are closed, so that no file opened later takes them and gets what is
 /// meant for people. Writing to a standard output that was closed stays an error.
 void keep_standard_streams();

@@ -1,16 +1,13 @@
 #include "io/file_identity.h"
 
+#include "io/descriptor.h"
 #include "io/extension.h"
 #include "io/file_error.h"
 #include "io/temporary_name.h"
 
 #include <cerrno>
 #include <cstring>
-#include <optional>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <system_error>
 
 namespace koebe::io {
 namespace {
@@ -19,42 +16,34 @@ namespace fs = std::filesystem;
 
 constexpr int most_links = 40;  // as the kernel has it
 
-std::optional<struct stat> status_of(const fs::path& path)
+bool is_there(const fs::path& path)
 {
-    struct stat status;
-    if (::stat(path.c_str(), &status) != 0) return {};
-    return status;
-}
-
-bool same(const struct stat& a, const struct stat& b)
-{
-    if (a.st_dev != b.st_dev || a.st_ino != b.st_ino) return false;
-    const auto null = status_of("/dev/null");
-    return !(S_ISCHR(a.st_mode) && null && a.st_rdev == null->st_rdev);
+    std::error_code error;
+    return fs::exists(path, error);
 }
 
 /// Asked of the file system itself, by a file that lives for a moment.
 bool ignores_case(const fs::path& folder)
 {
     const fs::path small = temporary_name(folder);
-    const int descriptor = ::open(small.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    const int descriptor = open_new(small);
     if (descriptor < 0) return false;  // nothing can be made there at all
-    ::close(descriptor);
+    close_written(descriptor);
     std::string large = small.filename().string();
     for (char& c : large)
         if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    const bool found = status_of(folder / large).has_value();
-    ::unlink(small.c_str());
+    const bool found = is_there(folder / large);
+    remove_now(small);
     return found;
 }
 
 bool same_name_to_be(const fs::path& a, const fs::path& b)
 {
-    const auto folder_a = status_of(folder_of(a)), folder_b = status_of(folder_of(b));
-    if (!folder_a || !folder_b) return a.lexically_normal() == b.lexically_normal();
-    if (!same(*folder_a, *folder_b)) return false;
+    const fs::path folder_a = folder_of(a), folder_b = folder_of(b);
+    if (!is_there(folder_a) || !is_there(folder_b)) return a.lexically_normal() == b.lexically_normal();
+    if (!is_same(folder_a, folder_b)) return false;
     if (a.filename() == b.filename()) return true;
-    return lower(a.filename().string()) == lower(b.filename().string()) && ignores_case(folder_of(a));
+    return lower(a.filename().string()) == lower(b.filename().string()) && ignores_case(folder_a);
 }
 
 }  // namespace
@@ -74,23 +63,17 @@ fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.
 
 bool is_pipe_or_device(const fs::path& path)
 {
-    const auto status = status_of(path);
-    return status && !S_ISREG(status->st_mode) && !S_ISDIR(status->st_mode);
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
 bool same_file(const fs::path& a, const fs::path& b)
 {
-    const auto status_a = status_of(a), status_b = status_of(b);
-    if (status_a && status_b) return same(*status_a, *status_b);
-    if (status_a || status_b) return false;
+    const bool has_a = is_there(a), has_b = is_there(b);
+    if (has_a && has_b) return is_same(a, b);
+    if (has_a || has_b) return false;
     return same_name_to_be(followed(a), followed(b));
-}
-
-bool same_file(const fs::path& a, int descriptor)
-{
-    struct stat open_file;
-    const auto status = status_of(a);
-    return status && ::fstat(descriptor, &open_file) == 0 && same(*status, open_file);
 }
 
 }  // namespace koebe::io

@@ -20,7 +20,4 @@ bool is_pipe_or_device(const std::filesystem::path& path);
 /// @throws FileError links form a circle
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// The same for an open file.
-bool same_file(const std::filesystem::path& a, int descriptor);
-
 }  // namespace koebe::io

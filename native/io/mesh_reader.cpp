@@ -1,5 +1,6 @@
 #include "io/mesh_reader.h"
 
+#include "io/descriptor.h"
 #include "io/extension.h"
 #include "io/file_error.h"
 #include "io/format_readers.h"
@@ -31,7 +32,7 @@ Reader reader_for(const std::string& filed)
 std::string read_bytes(const fs::path& path)
 {
     const auto fail = [&path] { throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")"); };
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(io::open_to_read(path), std::fclose);
     if (!file) fail();
     if (fs::is_character_file(path) || fs::is_block_file(path))  // those may have no end
         throw FileError("cannot read " + path.string() + " (it is a device)");

@@ -1,6 +1,7 @@
 // Triangles for the computation, out of polygons as filed.
 #pragma once
 
+#include "core/api.h"
 #include "io/polygon_mesh.h"
 
 #include <vector>
@@ -22,6 +23,6 @@ struct Triangulation {
 ///
 /// @param mesh with finite vertices and indices in range
 /// @throws InputError a polygon that cannot be cut, as one that goes to and fro (1 2 1 3) (elements: faces)
-Triangulation triangulate(const PolygonMesh& mesh);
+KOEBE_API Triangulation triangulate(const PolygonMesh& mesh);
 
 }  // namespace koebe

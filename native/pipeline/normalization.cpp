@@ -10,7 +10,7 @@
 namespace koebe {
 namespace {
 
-constexpr int most_rounds = 12;
+constexpr int most_centering_rounds = 12;
 constexpr double settled = 1e-10;   // disk units: what is left is moved vertex by vertex
 constexpr double worthwhile = 0.5;  // of the distance from 0 that a round may leave
 constexpr double on_circle = 1e-9;  // disk units: off the unit circle by rounding alone
@@ -43,7 +43,7 @@ CircleMap with_center_moved(const DomainSolver& solver, const Domain& whole, con
     CircleMap best = map;
     Complex center = center_of(whole, cut, map, context);
     Moebius total;
-    for (int round = 0; round < most_rounds && std::abs(center) > settled; ++round) {
+    for (int round = 0; round < most_centering_rounds && std::abs(center) > settled; ++round) {
         context.checkpoint();
         // As one automorphism without a turn, and from the map as it was: rounding does not add up.
         const Moebius next{total.inverse()(center)};

@@ -1,6 +1,7 @@
 // Points of one surface on another, through their circle domains.
 #pragma once
 
+#include "core/api.h"
 #include "core/execution.h"
 #include "pipeline/result.h"
 #include "shape/domain_alignment.h"
@@ -47,7 +48,7 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
 /// takes the nearest point: none is lost.
 /// @throws InputError as align_domains; circles that are not the surfaces' (require_own_circles); SolverError,
 /// Cancelled
-Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
-                          const CorrespondenceOptions& options, const ExecutionContext& context = {});
+KOEBE_API Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
+                                    const CorrespondenceOptions& options, const ExecutionContext& context = {});
 
 }  // namespace koebe
