@@ -4,7 +4,7 @@
 Usage: bundle_wheel.py BUILD_FOLDER PLATFORM_TAG OUT_FOLDER     PLATFORM_TAG: manylinux_2_28_x86_64, win_amd64, ...
 
 The wheel holds the package `koebe`, in it the shared library, and beside that a module `_koebe` for each Python, which
-finds its own by the suffix. So its tag is py3-none-PLATFORM, and Blender's extensions take it for every Python. Name,
+finds its own by the suffix; the command is there too. So its tag is py3-none-PLATFORM, and Blender's extensions take it for every Python. Name,
 dependencies and the like come from pyproject.toml, the version from CMakeLists.txt. Equal input gives an equal wheel.
 """
 
@@ -18,7 +18,9 @@ from pathlib import Path
 from package_extension import DATE, ROOT, project_version
 
 PACKAGE = ROOT / "native" / "python" / "koebe"
-BINARIES = ("libkoebe.so", "libkoebe.dylib", "koebe.dll", "_koebe.*.so", "_koebe.*.pyd")
+LIBRARIES = ("libkoebe.so", "libkoebe.dylib", "koebe.dll")
+MODULES = ("_koebe.*.so", "_koebe.*.pyd")
+PROGRAMS = ("bin/koebe", "koebe.exe")  # Windows looks for the library beside the program
 
 
 def project_value(name: str, text: str) -> str:
@@ -51,16 +53,18 @@ def metadata(version: str) -> str:
 def members(build: Path, platform: str, version: str) -> dict[str, bytes]:
     """What the wheel holds but for its RECORD: path -> content."""
     files = {f"koebe/{path.name}": path.read_bytes() for path in [*PACKAGE.glob("*.py"), PACKAGE / "py.typed"]}
-    binaries = sorted({path for pattern in BINARIES for path in (build / "koebe").glob(pattern)})
-    modules = [path for path in binaries if path.name.startswith("_koebe.")]
-    if len(binaries) - len(modules) != 1 or not modules:
-        raise SystemExit(f"{build / 'koebe'} holds no bundle: {[path.name for path in binaries]}")
-    files.update({f"koebe/{path.name}": path.read_bytes() for path in binaries})
+    found = {kind: sorted(path for pattern in patterns for path in (build / "koebe").glob(pattern))
+             for kind, patterns in {"library": LIBRARIES, "modules": MODULES, "program": PROGRAMS}.items()}
+    if len(found["library"]) != 1 or len(found["program"]) != 1 or not found["modules"]:
+        raise SystemExit(f"{build / 'koebe'} holds no bundle: {found}")
+    for path in (path for paths in found.values() for path in paths):
+        files[f"koebe/{path.relative_to(build / 'koebe').as_posix()}"] = path.read_bytes()
     info = f"koebe-{version}.dist-info"
     files[f"{info}/METADATA"] = metadata(version).encode()
     files[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: koebe\nRoot-Is-Purelib: false\nTag: py3-none-{platform}\n".encode()
     )
+    files[f"{info}/entry_points.txt"] = b"[console_scripts]\nkoebe = koebe.__main__:main\n"
     for name in ("LICENSE", "THIRD_PARTY.md"):
         files[f"{info}/licenses/{name}"] = (ROOT / name).read_bytes()
     return files
@@ -85,7 +89,7 @@ def main() -> None:
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name in [*sorted(set(files) - {record}), record]:
             entry = zipfile.ZipInfo(name, DATE)
-            mode = 0o755 if name.endswith((".so", ".dylib", ".pyd", ".dll")) else 0o644
+            mode = 0o755 if name.endswith((".so", ".dylib", ".pyd", ".dll", *PROGRAMS)) else 0o644
             entry.external_attr = (0o100000 | mode) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, files[name])

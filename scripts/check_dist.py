@@ -55,7 +55,7 @@ def main() -> None:
         tag = wheel.stem.rsplit("-", 1)[1]
         system = re.match(r"[a-z]+", tag)[0]
         with zipfile.ZipFile(wheel) as archive:
-            binaries = [name for name in archive.namelist() if name.endswith((".so", ".dylib", ".dll", ".pyd"))]
+            binaries = [name for name in archive.namelist() if name.endswith((".so", ".dylib", ".dll", ".pyd", ".exe", "bin/koebe"))]
             missing = [python for python in PYTHONS if not any(f"_koebe.cp{python}-" in name or f"-{python}-" in name
                                                                for name in binaries)]
             said = [f"has no module for Python {python}" for python in missing]

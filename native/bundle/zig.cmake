@@ -32,6 +32,7 @@ set(CMAKE_CXX_COMPILER ${tools}/c++)
 set(CMAKE_AR ${tools}/ar CACHE FILEPATH "")
 set(CMAKE_RANLIB ${tools}/ranlib CACHE FILEPATH "")
 set(CMAKE_RC_COMPILER ${tools}/rc)
+set(CMAKE_INSTALL_NAME_TOOL true)  # wanted for macOS, and not called: names are final when linked
 foreach(kind SHARED MODULE EXE)
   string(APPEND CMAKE_${kind}_LINKER_FLAGS_INIT " -s")  # zig's compilers always write what debuggers want
 endforeach()

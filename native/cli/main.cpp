@@ -1,7 +1,8 @@
 #include "cli/command.h"
 
 #if !defined(KOEBE_OWN_KERNELS)
-#include "cli/openblas_start.h"
+#include "cli/dense_buffers.h"
+#include "cli/fast_kernels.h"
 #endif
 
 int main(int argc, char** argv)

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/halfedge_mesh.h"
+#include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,7 @@ PlanarMesh planar_patch(const VectorXcd& polygon)
 {
     double length = 0.0;
     for (Eigen::Index i = 0; i < polygon.size(); ++i)
-        length += std::abs(polygon[(i + 1) % polygon.size()] - polygon[i]);
+        length += distance(polygon[(i + 1) % polygon.size()], polygon[i]);
     return planar_patch(polygon, {.longest = length / static_cast<double>(polygon.size())});
 }
 

@@ -1,6 +1,7 @@
 #include "iteration/disk_patch.h"
 
 #include "holes/fan_filling.h"
+#include "planar/planar_predicates.h"
 #include "surface/harmonic_map.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ double mean_edge(const VectorXcd& polygon)
 {
     double length = 0.0;
     for (Eigen::Index i = 0; i < polygon.size(); ++i)
-        length += std::abs(polygon[(i + 1) % polygon.size()] - polygon[i]);
+        length += distance(polygon[(i + 1) % polygon.size()], polygon[i]);
     return length / static_cast<double>(polygon.size());
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "planar/planar_predicates.h"
 #include "planar/planar_region.h"
 #include "planar/size_field.h"
 
@@ -23,8 +24,6 @@ using Cdt = PlanarRegion::Cdt;
 /// has 0.577; splitting at 0.76 leaves edges whose mean is the wanted length.
 constexpr double split_ratio = 0.76;
 
-double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
-double distance(Complex a, Complex b) { return std::sqrt(std::norm(a - b)); }
 double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
 
 struct Candidate {
@@ -67,7 +66,7 @@ std::vector<Candidate> candidates(const PlanarRegion& region, const SizeField& s
         const Complex u = to_complex(f->vertex(1)->point()) - a, v = to_complex(f->vertex(2)->point()) - a;
         const Complex centroid = a + (u + v) / 3.0;
         const Complex arm = Complex(0.0, 1.0) * (u * std::norm(v) - v * std::norm(u)) / (2.0 * cross(u, v));
-        const double radius = std::abs(arm), wanted = size(centroid);
+        const double radius = distance(arm, 0.0), wanted = size(centroid);
         if (radius <= split_ratio * wanted) continue;
         if (std::isfinite(radius)) result.push_back({a + arm, radius / wanted});
         result.push_back({centroid, 0.0});

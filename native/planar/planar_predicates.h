@@ -1,12 +1,18 @@
-// Small tests on points of the plane.
+// Small measures and tests on points of the plane.
 #pragma once
 
 #include "core/types.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace koebe {
 
 /// a x b: twice the signed area of the triangle 0, a, b.
 inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
+
+/// |a - b|, rounded alike everywhere. Of std::abs the last bit is another in every C library, and a mesh may hang on it.
+inline double distance(Complex a, Complex b) { return std::sqrt(std::norm(a - b)); }
 
 /// Whether the closed segments a-b and c-d have a point in common, up to round-off.
 inline bool segments_meet(Complex a, Complex b, Complex c, Complex d)

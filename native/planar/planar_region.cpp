@@ -2,20 +2,57 @@
 
 #include "core/errors.h"
 
-#include <utility>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace koebe::detail {
+namespace {
+
+/// Interior points in rows of cells, to and fro, so that the walk from each to the next is short. CGAL has an order of
+/// its own for this (spatial_sort), but another one with every C++ library, and four points on a circle may be joined
+/// in either way: the mesh would hang on the library.
+std::vector<std::size_t> to_and_fro(const std::vector<Complex>& points)
+{
+    const double rows = std::max(1.0, std::floor(std::sqrt(0.5 * static_cast<double>(points.size()))));
+    Complex low(0.0, 0.0), high(0.0, 0.0);
+    for (const Complex z : points) {
+        low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
+        high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
+    }
+    const double height = std::max(high.imag() - low.imag(), std::numeric_limits<double>::min());
+    std::vector<std::tuple<double, double, std::size_t>> keys;
+    keys.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double row = std::floor(rows * ((points[i].imag() - low.imag()) / height));
+        keys.emplace_back(row, std::fmod(row, 2.0) == 0.0 ? points[i].real() : -points[i].real(), i);
+    }
+    std::ranges::sort(keys);
+    std::vector<std::size_t> order;
+    order.reserve(points.size());
+    for (const auto& key : keys) order.push_back(std::get<2>(key));
+    return order;
+}
+
+}  // namespace
 
 PlanarRegion::PlanarRegion(const std::vector<VectorXcd>& polygons, const std::vector<Complex>& interior)
 {
-    std::vector<std::pair<Cdt::Point, Index>> points;
+    std::vector<Cdt::Vertex_handle> handles;
+    Cdt::Face_handle near;
+    const auto insert = [&](Complex z, Index number) {
+        const auto count = cdt_.number_of_vertices();
+        const Cdt::Vertex_handle vertex = cdt_.insert(to_point(z), near);
+        near = vertex->face();
+        if (cdt_.number_of_vertices() == count) return Cdt::Vertex_handle();  // there is one at that place
+        vertex->info() = number;
+        return vertex;
+    };
     for (const VectorXcd& polygon : polygons)
-        for (const Complex z : polygon) points.emplace_back(to_point(z), static_cast<Index>(points.size()));
-    const std::size_t boundary_count = points.size();
-    for (const Complex z : interior) points.emplace_back(to_point(z), static_cast<Index>(points.size()));
-    cdt_.insert(points.begin(), points.end());
-    std::vector<Cdt::Vertex_handle> handles(points.size());
-    for (auto v = cdt_.finite_vertices_begin(); v != cdt_.finite_vertices_end(); ++v) handles[v->info()] = v;
+        for (const Complex z : polygon) handles.push_back(insert(z, static_cast<Index>(handles.size())));
+    const std::size_t boundary_count = handles.size();
+    for (const std::size_t i : to_and_fro(interior)) insert(interior[i], static_cast<Index>(boundary_count + i));
 
     std::vector<Index> lost;
     for (std::size_t i = 0; i < boundary_count; ++i)

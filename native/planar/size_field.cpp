@@ -1,5 +1,7 @@
 #include "planar/size_field.h"
 
+#include "planar/planar_predicates.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +9,6 @@ namespace koebe {
 namespace {
 
 constexpr Eigen::Index run_length = 16;
-
-double distance(Complex a, Complex b) { return std::sqrt(std::norm(a - b)); }
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 // Laws of identity: what is one file on the disk is the same, whatever it is called, and nothing else is.
+#include "io/descriptor.h"
 #include "io/file_identity.h"
 
 #include "io/atomic_file.h"
@@ -66,8 +67,8 @@ TEST(FileIdentity, OpenFilesAndTheNullDevice)
     const TemporaryFolder folder;
     const fs::path file = folder.write("file", "");
     const int descriptor = ::open(file.c_str(), O_RDONLY);
-    EXPECT_TRUE(same_file(file, descriptor));
-    EXPECT_FALSE(same_file(folder.path() / "new", descriptor));
+    EXPECT_TRUE(is_open_as(descriptor, file));
+    EXPECT_FALSE(is_open_as(descriptor, folder.path() / "new"));
     ::close(descriptor);
     EXPECT_FALSE(same_file("/dev/null", "/dev/null"));  // it keeps nothing
 }

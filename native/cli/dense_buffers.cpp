@@ -1,9 +1,9 @@
-#include "cli/openblas_start.h"
+#include "cli/dense_buffers.h"
 
 #include "cli/exit_code.h"
+#include "cli/fast_kernels.h"
 #include "cli/scarce_memory.h"
 
-#include <climits>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 extern "C" {
-char* openblas_get_corename();
 int openblas_get_num_threads();
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 }
@@ -68,29 +67,7 @@ bool has_threads_without_room()
                            !is_room_for(static_cast<std::size_t>(threads) * buffer));
 }
 
-/// Starts this program again with the environment as it is now; returns only where that cannot be.
-void restart(char** arguments)
-{
-    char program[PATH_MAX] = {};  // by its own name, which is what the process is then called
-    if (readlink("/proc/self/exe", program, sizeof program - 1) > 0) execv(program, arguments);
-}
-
 }  // namespace
-
-void restart_with_fast_kernels(char** arguments)
-{
-#if defined(__x86_64__)
-    constexpr const char* choice = "OPENBLAS_CORETYPE";
-    if (std::getenv(choice) != nullptr || openblas_get_corename() != std::string_view("Prescott")) return;
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
-    const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
-    setenv(choice, wide ? "SKYLAKEX" : "HASWELL", 1);
-    restart(arguments);  // the slow kernels do it where it cannot be
-#else
-    (void)arguments;
-#endif
-}
 
 void restart_without_dense_threads(char** arguments)
 {
