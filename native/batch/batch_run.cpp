@@ -103,7 +103,7 @@ public:
         }
         close();
         try {
-            if (!failure_) write_summary(options_.output, claims_);
+            if (!failure_ && options_.writes_summary) write_summary(options_.output, claims_);
         } catch (...) {
             failure_ = std::current_exception();
         }

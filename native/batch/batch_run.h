@@ -21,6 +21,7 @@ struct BatchOptions {
     std::filesystem::path output;  ///< the folder
     unsigned workers = 1;
     double stale = 120.0;  ///< seconds (Claims)
+    bool writes_summary = true;
     Recipe mesh, blend;
     /// The words of the process that maps a file, the program first.
     std::function<std::vector<std::string>(const BatchFile&, const Scratch&)> command;

@@ -113,6 +113,13 @@ Json summary_row(const Json& report)
             {"version", entry("version")}};
 }
 
+void write_summary(const fs::path& folder, double stale)
+{
+    Claims claims(folder / work_folder, stale);
+    write_summary(folder, claims);
+    claims.remove_folder();
+}
+
 void write_summary(const fs::path& folder, Claims& claims)
 {
     Claims::Claim claim = claims.wait(claimed_name);

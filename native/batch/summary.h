@@ -23,5 +23,8 @@ nlohmann::ordered_json summary_row(const nlohmann::ordered_json& report);
 /// once one after the other writes, and each looks for new reports when it has: so the last table has all.
 /// @throws FileError
 void write_summary(const std::filesystem::path& folder, Claims& claims);
+/// The same outside a run.
+/// @param stale as Claims takes it
+void write_summary(const std::filesystem::path& folder, double stale);
 
 }  // namespace koebe::batch

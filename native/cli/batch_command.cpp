@@ -34,7 +34,7 @@ struct Request : MapRequest {
     std::string folder, base, format = "obj", blender, blender_script;
     int workers = 0;
     double time_limit = 0.0, stale = 120.0;
-    bool retry = false;
+    bool retry = false, list = false, no_summary = false, summary_only = false, ends_with_input = false;
 };
 
 void add_batch_options(CLI::App& app, Request& request)
@@ -60,6 +60,13 @@ void add_batch_options(CLI::App& app, Request& request)
         ->check(positive_number())
         ->capture_default_str()
         ->type_name("SECONDS");
+    CLI::Option* const list =
+        app.add_flag("--list", request.list, "map nothing, print a line for each file: its folder, a tab, its name");
+    CLI::Option* const none = app.add_flag("--no-summary", request.no_summary, "leave the table to another run");
+    app.add_flag("--summary-only", request.summary_only, "map nothing, write the table of what is there")
+        ->excludes(list)
+        ->excludes(none);
+    app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
     const std::string group = "Files of Blender";
     app.add_option("--blender", request.blender, "map .blend files too, by this program and the add-on")
@@ -137,10 +144,24 @@ batch::FileList files_of(const Request& request)
     }
 }
 
-batch::BatchOptions batch_options(const Request& request)
+/// What runs on single files are called with.
+void print_list(const batch::FileList& list)
+{
+    std::string text;
+    for (const batch::BatchFile& file : list.files) {
+        const std::string source = batch::generic_utf8(file.source);
+        if (source.find_first_of("\t\r\n") != std::string::npos)
+            throw WrongUsage("no line can hold the name of " + source);
+        text += source.substr(0, source.size() - file.name.size() - 1) + "\t" + file.name + "\n";
+    }
+    print(text);
+}
+
+batch::BatchOptions batch_options(const Request& request, const fs::path& output)
 {
     batch::BatchOptions options;
-    options.output = fs::weakly_canonical(batch::path_of(request.folder));
+    options.output = output;
+    options.writes_summary = !request.no_summary;
     options.workers = request.workers > 0 ? static_cast<unsigned>(request.workers) : batch::core_count();
     options.stale = request.stale;
     options.mesh = {options_report(request, request.words), request.time_limit, request.retry};
@@ -157,30 +178,42 @@ batch::BatchOptions batch_options(const Request& request)
     return options;
 }
 
-std::string result_line(const batch::BatchCount& count, std::size_t total, const fs::path& folder)
+std::string result_line(const batch::BatchCount& count, std::size_t total, const batch::BatchOptions& options)
 {
     std::string line = counted(total, "file") + ": " + std::to_string(count.done) + " done";
     if (count.not_converged > 0) line += ", " + std::to_string(count.not_converged) + " not converged";
     if (count.failed > 0) line += ", " + std::to_string(count.failed) + " failed";
     if (count.unchanged > 0) line += " (" + std::to_string(count.unchanged) + " unchanged)";
-    return one_line(line + "; the table is " + batch::utf8(folder / batch::summary_json)) + "\n";
+    if (options.writes_summary) line += "; the table is " + batch::utf8(options.output / batch::summary_json);
+    return one_line(line) + "\n";
 }
 
 int run(const Request& request)
 {
+    if (request.ends_with_input) end_with_input();
     if (!request.quiet) require_standard_output();
     const batch::FileList list = files_of(request);
     if (list.blends_passed_over > 0 && !request.quiet)
         std::fprintf(stderr, "%s of Blender's passed over: name the program with --blender\n",
                      counted(list.blends_passed_over, "file").c_str());
     if (list.files.empty()) throw WrongUsage("there is no mesh file in " + request.inputs.front());
-    const batch::BatchOptions options = batch_options(request);
+    const fs::path output = fs::weakly_canonical(batch::path_of(request.folder));
+    if (request.list) {
+        print_list(list);
+        return done;
+    }
+    if (request.summary_only) {
+        batch::write_summary(output, request.stale);
+        if (!request.quiet) print(one_line("the table is " + batch::utf8(output / batch::summary_json)) + "\n");
+        return done;
+    }
+    const batch::BatchOptions options = batch_options(request, output);
     const batch::BatchCount count = run_batch(list.files, options);
     if (count.interrupted) {
         std::fputs("interrupted: what is done stays, and the same call goes on from there\n", stderr);
         return interrupted;
     }
-    if (!request.quiet) print(result_line(count, list.files.size(), options.output), "; the files are written");
+    if (!request.quiet) print(result_line(count, list.files.size(), options), "; the files are written");
     return count.failed > 0 ? cannot_be_mapped : count.not_converged > 0 ? not_converged : done;
 }
 

@@ -264,6 +264,22 @@ def test_a_base_gives_single_files_the_names_of_a_whole_run(library, tmp_path):
     assert contents(tmp_path / "single") == contents(tmp_path / "whole")
 
 
+def test_runs_on_single_files_leave_the_table_to_one_of_all(library, tmp_path):
+    out = tmp_path / "out"
+    listed = batch(library, library / "masks" / "c.obj", "--output", out, "--list")
+    assert listed.returncode == 0 and not out.exists()
+    pairs = [line.split("\t") for line in listed.stdout.splitlines()]
+    own = str(library / "masks")
+    names = ["a.obj", "b.obj", "broken.ply", "closed.off", "masks/c.obj", "masks/d.obj"]
+    assert sorted(pairs) == sorted([[str(library), name] for name in names] + [[own, "c.obj"]])
+    for folder, name in pairs:
+        batch(f"{folder}/{name}", "--base", folder, "--output", out, "--no-summary")
+    assert not (out / "summary.json").exists()
+    done = batch(library, "--output", out, "--summary-only")
+    assert (done.returncode, done.stdout) == (0, f"the table is {out}/summary.json\n")
+    assert list(rows(out)) == sorted([*names, "c.obj"])
+
+
 # ---------------------------------------------------------------- what is done again
 
 
