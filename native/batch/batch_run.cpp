@@ -433,6 +433,8 @@ private:
         std::ostringstream line;
         line << '[' << count_.done + count_.not_converged + count_.failed << '/' << total_ << "] "
              << report["name"].get<std::string>() << ": " << how;
+        if (error.is_object() && !is_lasting(error, {{}, 0.0, false}) && error_name(error) != "TimeLimit")
+            ++count_.lost;
         if (code == not_converged) line << ", not converged";
         if (error.is_object())
             line << ", " << error_name(error) << ": " << error.value("reason", "");

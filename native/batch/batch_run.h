@@ -31,7 +31,8 @@ struct BatchOptions {
 
 struct BatchCount {
     std::size_t done = 0, not_converged = 0, failed = 0;  ///< of all files, whoever mapped them
-    std::size_t unchanged = 0;                            ///< among them, those that were so before
+    std::size_t lost = 0;       ///< of those that failed, what came of the machine: the next run tries them again
+    std::size_t unchanged = 0;  ///< among them, those that were so before
     bool interrupted = false;
 };
 

@@ -24,15 +24,6 @@ bool is_there_as_written(const fs::path& output, const Json& report)
     }
 }
 
-/// Whether the same would come of another try.
-bool is_lasting(const Json& error, const Recipe& recipe)
-{
-    const std::string name = error.value("name", "");
-    if (recipe.retry || name == "FileError" || name == "Killed" || name == "NativeError") return false;
-    if (name != "TimeLimit") return true;
-    return recipe.time_limit > 0.0 && recipe.time_limit <= error.value("seconds", 0.0);
-}
-
 }  // namespace
 
 std::optional<Json> read_report(const fs::path& path)
@@ -42,6 +33,14 @@ std::optional<Json> read_report(const fs::path& path)
     const auto is_text = [&](const char* name) { return report.contains(name) && report[name].is_string(); };
     if (!report.is_object() || !is_text("name") || !is_text("input_sha256") || !report.contains("exit_code")) return {};
     return report;
+}
+
+bool is_lasting(const Json& error, const Recipe& recipe)
+{
+    const std::string name = error.value("name", "");
+    if (recipe.retry || name == "FileError" || name == "Killed" || name == "NativeError") return false;
+    if (name != "TimeLimit") return true;
+    return recipe.time_limit > 0.0 && recipe.time_limit <= error.value("seconds", 0.0);
 }
 
 bool is_current(const Json& report, const BatchFile& file, const std::string& input_sha256, const Recipe& recipe)

@@ -27,6 +27,9 @@ std::optional<nlohmann::ordered_json> read_report(const std::filesystem::path& p
 bool is_current(const nlohmann::ordered_json& report, const BatchFile& file, const std::string& input_sha256,
                 const Recipe& recipe);
 
+/// Whether the same would come of another try.
+bool is_lasting(const nlohmann::ordered_json& error, const Recipe& recipe);
+
 /// The head of a report: version, name, input, input_sha256, options.
 nlohmann::ordered_json report_head(const BatchFile& file, const std::string& input_sha256, const Recipe& recipe);
 

@@ -34,7 +34,8 @@ struct Request : MapRequest {
     std::string folder, base, format = "obj", blender, blender_script;
     int workers = 0;
     double time_limit = 0.0, stale = 120.0;
-    bool retry = false, list = false, no_summary = false, summary_only = false, ends_with_input = false;
+    bool retry = false, list = false, no_summary = false, summary_only = false, exit_zero = false,
+         ends_with_input = false;
 };
 
 void add_batch_options(CLI::App& app, Request& request)
@@ -66,6 +67,8 @@ void add_batch_options(CLI::App& app, Request& request)
     app.add_flag("--summary-only", request.summary_only, "map nothing, write the table of what is there")
         ->excludes(list)
         ->excludes(none);
+    app.add_flag("--exit-zero", request.exit_zero,
+                 "0 also where a mesh was not mapped, for farms: 3 only where the machine failed");
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
     const std::string group = "Files of Blender";
@@ -214,6 +217,7 @@ int run(const Request& request)
         return interrupted;
     }
     if (!request.quiet) print(result_line(count, list.files.size(), options), "; the files are written");
+    if (request.exit_zero) return count.lost > 0 ? cannot_be_mapped : done;
     return count.failed > 0 ? cannot_be_mapped : count.not_converged > 0 ? not_converged : done;
 }
 

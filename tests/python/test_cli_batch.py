@@ -383,10 +383,18 @@ def test_a_killed_process_is_told_and_tried_again(blends, tmp_path):
     assert run.wait(timeout=20) == CANNOT_BE_MAPPED
     assert rows(tmp_path / "out")["wait.blend"]["error"] == "Killed"
     (files.path / "wait.blend").write_text("sleep 30")  # the same bytes
-    run = start(*words)
+    run = start(*words, "--exit-zero")
     until(lambda: len(files.runs("wait")) == 2)
     os.kill(files.runs("wait")[1], signal.SIGKILL)
-    run.wait(timeout=20)
+    assert run.wait(timeout=20) == CANNOT_BE_MAPPED
+
+
+def test_a_farm_may_ask_for_zero_where_the_mesh_is_at_fault(blends, library, tmp_path):
+    files = blends(bad="exit 3", slow="exit 4")
+    words = (*files.words, library, "--output", tmp_path / "out", "--exit-zero")
+    assert batch(*words).returncode == 0
+    assert batch(*words).returncode == 0
+    assert sum(row["exit_code"] == 3 for row in rows(tmp_path / "out").values()) == 3
 
 
 def test_a_program_that_cannot_be_started_is_an_error_in_one_line(blends, tmp_path):

@@ -13,11 +13,13 @@ _PACKAGE = Path(__file__).resolve().parent
 
 
 def path() -> Path:
-    """The command: in the package's own folder bin, or in the build folder that the package lies in.
+    """The command: in the package's own folder bin (on Windows beside its library, in the package's own folder), or in
+    the build folder that the package lies in.
 
     Raises KoebeError if the package was installed without it.
     """
-    for place in (_PACKAGE / "bin" / _NAME, _PACKAGE.parents[1] / _NAME):
+    for folder in (_PACKAGE / "bin", _PACKAGE, _PACKAGE.parents[1]):
+        place = folder / _NAME
         if place.is_file():
             if not os.access(place, os.X_OK):  # Blender unpacks wheels without the bits that say so
                 with contextlib.suppress(OSError):
