@@ -26,7 +26,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SECONDARY:
-.PHONY: help build native wheel package lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-asan \
+.PHONY: help build native wheel package lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-farms test-asan \
         test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
@@ -83,6 +83,10 @@ test-bpy-%: package build/venv-bpy-%/.done
 test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys in Blender's window: out/gui/
 	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1280x800x24' \
 	    $(PYTHON) -m pytest -p no:cacheprovider -rA tests/gui
+
+# A Slurm of two nodes on this machine: it wants root, and minutes.
+test-farms: native $(DONE)/install-farms ## koebe batch as a Slurm job array and as a Flamenco job, a node lost half way
+	$(PYTHON) -m pytest -p no:cacheprovider -rA tests/farms
 
 # A quarter of an hour: not in `make test` either.
 soak: package $(DONE)/install-blender ## 2,000 maps in one Blender, the memory measured

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install the Debian packages that are missing.
-# Usage: scripts/install.sh build|blender|gui|fuzz ...       LIST=1 prints the names and installs nothing.
+# Usage: scripts/install.sh build|blender|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
 set -euo pipefail
 
 declare -A groups=(
@@ -11,6 +11,8 @@ declare -A groups=(
         python3-dev python3-venv python3-numpy python3-pytest python3-hypothesis ca-certificates"
     # the form of C++, and what can be said of it without running it
     [lint]="clang-format clang-tidy"
+    # Slurm, which tests/farms starts, and Go for the engine of Flamenco's job types
+    [farms]="slurm-wlm munge golang-go procps"
     # clang with libFuzzer and its sanitizers; llvm has the symbolizer, by which findings name lines
     [fuzz]="clang libclang-rt-dev llvm"
     # Blender, what the bpy wheels link, and a screen with software OpenGL for windows and renders

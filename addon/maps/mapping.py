@@ -99,7 +99,7 @@ class _Run:
 
     def _may_be_of_memory(self, error: Exception | None) -> bool:
         """Whether an island that failed beside others is to be tried alone."""
-        return error is not None and not isinstance(error, (self._koebe.InputError, self._koebe.TopologyError))
+        return isinstance(error, self._koebe.SolverError) or isinstance(getattr(error, "__cause__", None), MemoryError)
 
     def _share(self, size: int) -> Progress | None:
         """Progress of work of this size as a part of that of all, which never falls."""
@@ -207,7 +207,9 @@ def _foreseen(koebe: ModuleType, error: Exception) -> Exception:
     if isinstance(error, (koebe.KoebeError, MapError)):
         return error
     traceback.print_exception(type(error), error, error.__traceback__)
-    return MapError(f"{type(error).__name__}, which nobody foresaw: {error}")
+    unforeseen = MapError(f"{type(error).__name__}, which nobody foresaw: {error}")
+    unforeseen.__cause__ = error
+    return unforeseen
 
 
 def _shape(one: IslandOutcome, options: Options) -> None:

@@ -369,6 +369,7 @@ private:
     {
         std::error_code error;
         fs::remove(task.scratch.output, error);
+        if (task.file->is_blend) remove_left_blends(*task.file, task.claim);  // what Blender wrote beside it
         task.claim.release();
     }
 

@@ -27,7 +27,7 @@ struct Figures {
     {
         if (!part.contains("angle_error_deg")) return;
         any = true;
-        const double part_faces = part.value("island_faces", part.value("faces", 0.0));
+        const double part_faces = part.value("faces", 0.0);
         faces += part_faces;
         flipped += part.value("flipped", 0.0);
         below_resolution += part.value("below_resolution", 0.0);

@@ -1,4 +1,4 @@
-"""What the tests of farms share: a library of surfaces, what an undisturbed run makes of it, and how results compare."""
+"""What the tests of farms share: a library of surfaces, what one run makes of it, and how results compare."""
 
 import json
 import sys

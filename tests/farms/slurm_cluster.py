@@ -85,11 +85,10 @@ class Cluster:
 
     def start(self, name, program, *words):
         path = shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")
-        log = open(self.folder / f"{name}.out", "wb")
-        self.processes[name] = subprocess.Popen(
-            [path, *map(str, words)], env=self.environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL
-        )
-        log.close()
+        with open(self.folder / f"{name}.out", "wb") as log:
+            self.processes[name] = subprocess.Popen(
+                [path, *map(str, words)], env=self.environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL
+            )
 
     def run(self, *words):
         done = subprocess.run(list(map(str, words)), env=self.environment, capture_output=True, text=True, timeout=60)
