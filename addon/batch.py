@@ -4,6 +4,10 @@
     blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend --report OUT.json [options]
     blender -b --python-exit-code 1 -P batch.py -- IN.blend --output OUT.blend --report OUT.json [options]
     python batch.py IN.blend -- --output OUT.blend --report OUT.json [options]     (with the bpy module)
+    blender -b --python-exit-code 1 -P batch.py -- A.blend FOLDER ... --output FOLDER [options]
+
+The last form maps a library: every file by a Blender of its own, what is done and unchanged is skipped. It is the
+command `koebe batch --blender`, which the native module brings, and has its exit codes.
 
 Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage, 3 the file cannot be read or an
 object cannot be mapped (no OUT), 4 not converged (OUT is written), 130 interrupted (nothing is written).
@@ -12,10 +16,12 @@ OUT and the report are written to temporary files and renamed: each is whole or 
 """
 
 import concurrent.futures
+import importlib
 import importlib.util
 import os
 import shutil
 import signal
+import subprocess
 import sys
 import traceback
 from collections.abc import Iterable
@@ -64,6 +70,7 @@ from koebe_uv_batch.blender.mesh_object import MeshObject  # noqa: E402
 from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, Request, parse  # noqa: E402
 from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
+from koebe_uv_batch.jobs import native_package  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.maps import json_report, wording  # noqa: E402
 from koebe_uv_batch.maps.options import Options  # noqa: E402
@@ -87,7 +94,12 @@ def main() -> int:
 
 def run() -> int:
     """Read, map, save, report; return the exit code. Raises Stop where there is nothing to report on."""
-    request, source = request_and_source()
+    request, sources = request_and_sources()
+    if request.ends_with_input:
+        SIGNALS.watch_input()
+    if len(sources) > 1 or os.path.isdir(sources[0]):
+        return map_library(request, sources)
+    source = os.path.abspath(sources[0])
     output, report_file = targets(request, source)
     content = {"input": source, "output": None, "layer": request.options.layer, "exit_code": None, "objects": []}
     job = None
@@ -114,22 +126,46 @@ def run() -> int:
     return code
 
 
-def request_and_source() -> tuple[Request, str]:
-    """What is asked for, and the path of the .blend file."""
+def request_and_sources() -> tuple[Request, list[str]]:
+    """What is asked for, and the paths that are given."""
     at = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     request = parse(sys.argv[at + 1 :])
     sources = [bpy.data.filepath] if bpy.app.binary_path else sys.argv[1:at]
-    sources = [source for source in (*sources, request.source) if source]
-    if len(sources) != 1:
+    sources = [source for source in (*sources, *request.sources) if source]
+    opened = len(sources) - len(request.sources)
+    if not sources or (opened and len(sources) > 1):
         what = "no IN.blend" if not sources else f"more than one IN.blend: {', '.join(sources)}"
         usage = IN_BLENDER if bpy.app.binary_path else WITH_BPY
         raise Stop(USAGE, f"{what}; usage: {usage}")
-    return request, os.path.abspath(sources[0])
+    return request, sources
+
+
+def map_library(request: Request, sources: list[str]) -> int:
+    """Map many files by the command of the native module, each in a Blender of its own; its exit code."""
+    if not bpy.app.binary_path:
+        raise Stop(USAGE, "several files and folders need Blender's program: koebe batch --blender PROGRAM")
+    if request.report is not None:
+        raise Stop(USAGE, "--report is of one file: the reports of several are beside the results")
+    try:
+        native_package.load()
+        command = importlib.import_module("koebe._command").path()
+    except NativeError as error:
+        raise Stop(BROKEN, error, "NativeError") from error
+    words = [str(command), "batch", "--end-with-input", *sources, "--output", request.output, *request.library.batch]
+    words += ["--blender", bpy.app.binary_path, "--blender-script", str(HERE / "batch.py")]
+    words += [f"--blender-argument={word}" for word in request.library.each]
+    process = subprocess.Popen(words, stdin=subprocess.PIPE)
+    while True:
+        try:
+            return process.wait(POLL_SECONDS)
+        except subprocess.TimeoutExpired:
+            if SIGNALS.came:
+                process.terminate()  # it ends what it has started, and leaves what is done
 
 
 def targets(request: Request, source: str) -> tuple[Target, Target | None]:
     """The files to write, of which the second may be None."""
-    output = Target(request.output)
+    output = Target(request.output, scratch=request.ends_with_input)
     if output.direct:
         raise Stop(USAGE, f"--output {request.output} is no file that can be replaced")
     if request.report is None:

@@ -44,6 +44,7 @@ def main() -> None:
         tree = next(Path(scratch).iterdir())
         libraries = sorted(tree.rglob("*.so*"))
         require_fast_blas(libraries)
+        libraries += tree.glob("koebe/bin/*")  # the command, which calls them
         names = set().union(*(exported(lib) for lib in libraries
                               if lib.parent.name.endswith(".libs") and not lib.name.startswith(KEEP)))
         mapping = Path(scratch) / "symbols"

@@ -4,7 +4,7 @@
 import argparse
 import csv
 import dataclasses
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from ..maps import options
 from .exit_and_signals import USAGE, Stop
@@ -16,14 +16,24 @@ WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
 
 
 @dataclasses.dataclass(frozen=True)
+class Library:
+    """What a run on many files takes beside: `batch` are words of `koebe batch`, `each` those of a run on one file."""
+
+    batch: list[str]
+    each: list[str]
+
+
+@dataclasses.dataclass(frozen=True)
 class Request:
     """What to do: files as they were given, names of objects or None for all, and the options of the map."""
 
-    source: str | None
+    sources: list[str]
     output: str
     report: str | None
     names: list[str] | None
     options: options.Options
+    library: Library
+    ends_with_input: bool
 
 
 class _Parser(argparse.ArgumentParser):
@@ -40,9 +50,17 @@ def parse(arguments: list[str]) -> Request:
         epilog="Exit code: 0 done, 1 something broke, 2 wrong usage, 3 the file or an object cannot be mapped "
         "(no OUT.blend), 4 not converged (OUT.blend is written), 130 interrupted (nothing is written).",
     )  # fmt: skip
-    parser.add_argument("source", nargs="?", metavar="IN.blend", help="opened by the script, if no file is open yet")
-    parser.add_argument("--output", required=True, metavar="OUT.blend")
+    parser.add_argument(
+        "sources", nargs="*", metavar="IN.blend",
+        help="opened by the script, if no file is open yet. Several, or a folder: each by a process of its own",
+    )  # fmt: skip
+    parser.add_argument("--output", required=True, metavar="OUT.blend", help="of several files or a folder: a folder")
     parser.add_argument("--report", metavar="OUT.json")
+    many = parser.add_argument_group("of several files or a folder")
+    many.add_argument("--workers", metavar="N", help="files at a time; default: one for each core")
+    many.add_argument("--time-limit", metavar="SECONDS", help="for a file")
+    many.add_argument("--retry", action="store_true", help="try files again that could not be mapped")
+    parser.add_argument("--end-with-input", action="store_true", help=argparse.SUPPRESS)  # said by koebe batch
     parser.add_argument(
         "--objects", action="append", metavar="A,B,...",
         help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
@@ -66,7 +84,10 @@ def parse(arguments: list[str]) -> Request:
     parser.add_argument("--checker-size", type=_checker_size, default=default.checker_size, metavar="SQUARES")
     parser.add_argument("--checker-even", action=argparse.BooleanOptionalAction, default=default.checker_even)
     values = vars(parser.parse_args(arguments))
-    files = {name: values.pop(name) for name in ("source", "output", "report")}
+    files = {name: values.pop(name) for name in ("sources", "output", "report")}
+    batch = _words({name: values.pop(name) for name in ("workers", "time_limit", "retry")})
+    ends_with_input = values.pop("end_with_input")
+    each = _words({name: value for name, value in values.items() if value != parser.get_default(name)})
     names = values.pop("objects")
     if values["center"] is not None and values["balance"] == "area":
         raise Stop(USAGE, "--center excludes --balance area: both choose the centre of the disk")
@@ -77,7 +98,22 @@ def parse(arguments: list[str]) -> Request:
         chosen = options.Options(**values)
     except (options.OptionError, UnicodeError) as error:
         raise Stop(USAGE, error) from None
-    return Request(**files, names=None if names is None else _split(names), options=chosen)
+    return Request(
+        **files, names=None if names is None else _split(names), options=chosen, library=Library(batch, each),
+        ends_with_input=ends_with_input,
+    )  # fmt: skip
+
+
+def _words(values: dict[str, Any]) -> list[str]:
+    """Options as they are written on a command line; those that are None are left out."""
+    words = []
+    for name, value in values.items():
+        dashed = name.replace("_", "-")
+        if isinstance(value, bool):
+            words += [f"--{dashed}"] if value else [] if name == "retry" else [f"--no-{dashed}"]
+        elif value is not None:
+            words += [f"--{dashed}={one}" for one in (value if isinstance(value, list) else [value])]
+    return words
 
 
 def _whole_number(text: str) -> int:

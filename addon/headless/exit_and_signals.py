@@ -2,12 +2,16 @@
 """How a batch run ends: exit codes, its reason in one line, and signals."""
 
 import contextlib
+import os
 import signal
 import sys
+import threading
+import time
 from collections.abc import Iterable
 from types import FrameType
 from typing import Any, TextIO
 
+LAST_SECONDS = 5.0  # for a process whose starter is gone
 DONE, BROKEN, USAGE, UNMAPPABLE, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
 
@@ -39,6 +43,18 @@ class Signals:
             # What the caller has ignored, as nohup does, stays ignored.
             if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, self._note)
+
+    def watch_input(self) -> None:
+        """From now on the end of standard input counts as a signal: that of the process which started this one."""
+        threading.Thread(target=self._wait_for_input, name="koebe input", daemon=True).start()
+
+    def _wait_for_input(self) -> None:
+        with contextlib.suppress(OSError):
+            while os.read(0, 1):
+                pass
+        self.came = True
+        time.sleep(LAST_SECONDS)  # nobody is there to wait for the end of what is read or written
+        os._exit(INTERRUPTED)
 
     def _note(self, number: int, frame: FrameType | None) -> None:
         self.came = True

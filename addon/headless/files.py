@@ -30,8 +30,9 @@ class Target:
     Raises Stop with USAGE if it cannot be written, so that a computation is not in vain.
     """
 
-    def __init__(self, given: str) -> None:
-        self.given = given
+    def __init__(self, given: str, scratch: bool = False) -> None:
+        """`scratch`: the file is another process's to move to its place; it is not there yet, and written directly."""
+        self.given, self._scratch = given, scratch
         path = os.path.realpath(given)
         self.path = Path(path[1:] if path.startswith("//") else path)  # which Blender takes for the .blend's folder
         self._temporary: Path | None = None
@@ -70,12 +71,13 @@ class Target:
             return
         _remove_abandoned(self.path.parent)
         # No file of that name may exist yet: Blender would keep it as a backup.
-        temporary = self._temporary = self.path.with_name(f"{PREFIX}{uuid.uuid4().hex}{SUFFIX}")
+        other = self.path if self._scratch else self.path.with_name(f"{PREFIX}{uuid.uuid4().hex}{SUFFIX}")
+        temporary = self._temporary = other
         with self._failure():
             write(str(temporary))
             with open(temporary, "rb+") as file:
                 os.fsync(file.fileno())  # a disk may find out only now that it is full
-            if self.path.exists():
+            if self.path.exists() and not self._scratch:
                 shutil.copymode(self.path, temporary)
 
     def put(self) -> None:

@@ -2,8 +2,10 @@
 """From surfaces to UV coordinates of their corners: the one function behind operator and batch."""
 
 import contextlib
+import functools
+import itertools
 import traceback
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from types import ModuleType
 from typing import Any
 
@@ -14,6 +16,7 @@ from .islands import cut_into_islands, whole_island
 from .options import Options
 from .outcomes import IslandOutcome, MapError, Progress, SurfaceOutcome, Task
 from .packing import Placement, fit_placement, pack_disks
+from .side_by_side import Unit, side_by_side
 from .surface import Island
 from .triangles import areas, signed_areas
 from .tube import unroll
@@ -30,16 +33,14 @@ def map_surfaces(
     """Map every island of every task's surface to its circle domain and lay the islands out.
 
     `koebe` is the native package; `progress(fraction, stage)` is called on this thread; `cancel` is a
-    `koebe.CancelToken`, and `koebe.Cancelled` ends everything. Any other error is the outcome of its island.
+    `koebe.CancelToken`, and `koebe.Cancelled` ends everything. Any other error is the outcome of its island. Islands
+    are mapped side by side, at most `options.threads` at once, and the outcomes are the same for any number. An
+    exception that leaves this function raises the token, so that nothing goes on behind its back.
     """
-    sizes = [int(np.count_nonzero(task.surface.selected[task.surface.triangle_face])) for task in tasks]
-    done, outcomes = 0, []
-    for task, size in zip(tasks, sizes, strict=True):
-        share = _share_of(progress, done, size, sum(sizes))
-        outcome = SurfaceOutcome(task, _map_islands(koebe, task, options, share, cancel))
-        _shape(koebe, outcome, options)
-        outcomes.append(outcome)
-        done += size
+    run = _Run(koebe, options, sum(map(_size, tasks)), progress, cancel or koebe.CancelToken())
+    outcomes = [SurfaceOutcome(task, islands) for task, islands in zip(tasks, run.map(tasks), strict=True)]
+    for outcome in outcomes:
+        _unroll(koebe, outcome, options)
     _lay_out(koebe, outcomes, options)
     for outcome in outcomes:
         for one in outcome.mapped:
@@ -48,40 +49,92 @@ def map_surfaces(
     return outcomes
 
 
-def _map_islands(
-    koebe: ModuleType, task: Task, options: Options, progress: Progress | None, cancel: Any
-) -> list[IslandOutcome]:
-    """The outcome of each island of a task's surface."""
-    first: IslandOutcome | None = None
-    whole = whole_island(task.surface)
-    if whole is not None:
-        (first,) = _map_each(koebe, [whole], task, options, progress, cancel)
-        if first.error is None:
-            return [first]
+class _Run:
+    """The native calls of one run, some at once."""
+
+    def __init__(
+        self, koebe: ModuleType, options: Options, size: int, progress: Progress | None, cancel: Any
+    ) -> None:
+        self._koebe, self._options, self._progress, self._cancel = koebe, options, progress, cancel
+        self._total, self._done, self._told = max(size, 1), 0, 0.0  # triangles: all, done for good; share last told
+
+    def map(self, tasks: Sequence[Task]) -> list[list[IslandOutcome]]:
+        """The outcome of each island of each task's surface."""
+        # Each surface as it is, and what the solver refuses so, cut into its islands.
+        wholes = [whole_island(task.surface) for task in tasks]
+        each = iter(
+            self._map_all([(task, [whole]) for task, whole in zip(tasks, wholes, strict=True) if whole], _is_mapped)
+        )
+        outcomes = [next(each) if whole else [] for whole in wholes]
+        cut = {index: _cut(task, *one) for index, (task, one) in enumerate(zip(tasks, outcomes, strict=True))}
+        cut = {index: islands for index, islands in cut.items() if islands}
+        again = self._map_all([(tasks[index], islands) for index, islands in cut.items()], _is_any)
+        for index, ones in zip(cut, again, strict=True):
+            outcomes[index] = ones
+        return outcomes
+
+    def _map_all(
+        self, surfaces: list[tuple[Task, list[Island]]], counts: Callable[[IslandOutcome], bool]
+    ) -> list[list[IslandOutcome]]:
+        """The outcomes of islands of surfaces. The work of those that do not count is to be done again."""
+        units: list[Unit[IslandOutcome]] = []
+        for task, islands in surfaces:
+            centers, points = places.centers(islands, task.center), places.points(islands, task.point)
+            for island, center, point in zip(islands, centers, points, strict=True):
+                vertices = {"outer": _outer_loop(island, task.outer), "center": center, "point": point}
+                compute = functools.partial(
+                    _map_island, self._koebe, island, vertices, self._options, cancel=self._cancel
+                )
+                units.append(Unit(len(island.triangles), compute))
+        share = self._share(sum(unit.size for unit in units))
+        outcomes = side_by_side(units, self._options.threads, share, self._cancel.cancel, counts)
+        self._done += sum(unit.size for unit, one in zip(units, outcomes, strict=True) if counts(one))
+        if len(units) > 1 and self._options.threads != 1:
+            outcomes = [
+                unit.compute(None) if self._may_be_of_memory(one.error) else one
+                for unit, one in zip(units, outcomes, strict=True)
+            ]
+        each = iter(outcomes)
+        return [list(itertools.islice(each, len(islands))) for _, islands in surfaces]
+
+    def _may_be_of_memory(self, error: Exception | None) -> bool:
+        """Whether an island that failed beside others is to be tried alone."""
+        return isinstance(error, self._koebe.SolverError) or isinstance(getattr(error, "__cause__", None), MemoryError)
+
+    def _share(self, size: int) -> Progress | None:
+        """Progress of work of this size as a part of that of all, which never falls."""
+        progress, done = self._progress, self._done
+        if progress is None:
+            return None
+
+        def tell(fraction: float, stage: str) -> None:
+            self._told = max(self._told, (done + fraction * size) / self._total)
+            progress(self._told, stage)
+
+        return tell
+
+
+def _is_mapped(one: IslandOutcome) -> bool:
+    return one.error is None
+
+
+def _is_any(one: IslandOutcome) -> bool:
+    return True
+
+
+def _size(task: Task) -> int:
+    """The number of a surface's triangles that are to be mapped."""
+    return int(np.count_nonzero(task.surface.selected[task.surface.triangle_face]))
+
+
+def _cut(task: Task, whole: IslandOutcome | None = None) -> list[Island]:
+    """The islands of a surface, or none where the whole of it is one, mapped or not."""
+    if whole is not None and whole.error is None:
+        return []
     islands = cut_into_islands(task.surface)
-    if first is not None and len(islands) == 1 and len(islands[0].vertices) == len(first.island.vertices):
-        return [first]  # nothing to cut: the error is the island's own
-    return _map_each(koebe, islands, task, options, progress, cancel)
-
-
-def _map_each(
-    koebe: ModuleType, islands: list[Island], task: Task, options: Options, progress: Progress | None, cancel: Any
-) -> list[IslandOutcome]:
-    done, total = 0, sum(len(island.triangles) for island in islands)
-    outcomes = []
-    fixed = zip(islands, places.centers(islands, task.center), places.points(islands, task.point), strict=True)
-    for island, center, point in fixed:
-        share = _share_of(progress, done, len(island.triangles), total)
-        vertices = {"outer": _outer_loop(island, task.outer), "center": center, "point": point}
-        outcomes.append(_map_island(koebe, island, vertices, options, share, cancel))
-        done += len(island.triangles)
-    return outcomes
-
-
-def _share_of(progress: Progress | None, done: int, part: int, total: int) -> Progress | None:
-    if progress is None:
-        return None
-    return lambda fraction, stage: progress((done + fraction * part) / total, stage)
+    if whole is not None and len(islands) == 1 and len(islands[0].vertices) == len(whole.island.vertices):
+        return []  # nothing to cut: the error is the island's own
+    return islands
 
 
 def _map_island(
@@ -113,6 +166,8 @@ def _map_island(
             **vertices,
             **arguments,
         )
+        if not _is_unrolled(one, options):  # else it is done for all of the surface together
+            _shape(one, options)
     return one
 
 
@@ -152,14 +207,32 @@ def _foreseen(koebe: ModuleType, error: Exception) -> Exception:
     if isinstance(error, (koebe.KoebeError, MapError)):
         return error
     traceback.print_exception(type(error), error, error.__traceback__)
-    return MapError(f"{type(error).__name__}, which nobody foresaw: {error}")
+    unforeseen = MapError(f"{type(error).__name__}, which nobody foresaw: {error}")
+    unforeseen.__cause__ = error
+    return unforeseen
 
 
-def _shape(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> None:
-    """Give the mapped islands of a surface their shapes: disks as they are or unrolled, and upright if asked."""
-    for one in outcome.mapped:
-        one.sheet, one.shape = one.island, one.result.uv
-    tubes = [one for one in outcome.mapped if options.tube == "unroll" and len(one.result.loops) == 2]
+def _shape(one: IslandOutcome, options: Options) -> None:
+    """Give a mapped island its shape: the disk as it is."""
+    one.sheet, one.shape = one.island, one.result.uv
+    _turn(one, options)
+
+
+def _turn(one: IslandOutcome, options: Options) -> None:
+    """Turn a shape upright, if asked."""
+    if options.upright and one.result.point is None:
+        turn = upright_turn(one.sheet, one.shape)
+        # A rectangle stays level.
+        one.turn = (1.0 if turn.real >= 0.0 else -1.0 + 0.0j) if one.unrolled else turn
+
+
+def _is_unrolled(one: IslandOutcome, options: Options) -> bool:
+    return options.tube == "unroll" and len(one.result.loops) == 2
+
+
+def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> None:
+    """Give the mapped tubes of a surface their shapes, if they are to be rectangles."""
+    tubes = [one for one in outcome.mapped if _is_unrolled(one, options)]
     with _failing_alone(koebe, tubes):
         cases = [(one.island, one.result.uv, one.result.loops) for one in tubes]
         for one, unrolled in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
@@ -168,13 +241,8 @@ def _shape(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> None
                 continue
             one.sheet, one.shape = unrolled
             one.distortion = koebe.distortion(one.sheet.vertices, one.sheet.triangles, one.shape)
-    for one in outcome.mapped if options.upright else ():
-        if one.result.point is not None:
-            continue
-        with _failing_alone(koebe, [one]):
-            turn = upright_turn(one.sheet, one.shape)
-            # A rectangle stays level.
-            one.turn = (1.0 if turn.real >= 0.0 else -1.0 + 0.0j) if one.unrolled else turn
+            with _failing_alone(koebe, [one]):
+                _turn(one, options)
 
 
 def _outer_loop(island: Island, outer: str | int) -> str | int:

@@ -67,10 +67,10 @@ int run_command(int argc, char** argv)
     app.set_version_flag("--version", KOEBE_VERSION);
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done; 2 wrong usage; 3 the mesh cannot be mapped; 4 not converged (files are written);\n"
-               "130 interrupted (nothing is written).\n"
+               "130 interrupted (nothing is written; batch leaves what is done).\n"
                "A file is written as .koebe-PROCESS-NUMBER.tmp in its folder and then renamed: it is whole or absent.\n"
                "Where it is a symbolic link, the link stays and its target is replaced.");
-    const std::vector<Subcommand> commands{add_uniformize(app), add_fill(app),     add_module(app),
+    const std::vector<Subcommand> commands{add_uniformize(app), add_batch(app),    add_fill(app), add_module(app),
                                            add_compare(app),    add_transfer(app), add_ricci(app)};
     try {
         app.parse(argc, argv);

@@ -46,7 +46,8 @@ void write_files(const MapRequest& request, const MeshInput& input, UniformizeRe
     if (!request.json.empty()) {
         nlohmann::ordered_json report = to_json(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
-        for (const auto& [name, value] : request.names) report[name] = value;
+        if (!input.sha256.empty()) report["input_sha256"] = input.sha256;
+        report.update(request.entries);
         files.emplace_back(request.json).write(json_text(report));
     }
     context.checkpoint();
@@ -91,7 +92,7 @@ void add_mesh_arguments(CLI::App& app, MapRequest& request)
         ->required();
 }
 
-void add_map_options(CLI::App& app, MapRequest& request)
+void add_domain_options(CLI::App& app, MapRequest& request)
 {
     UniformizeOptions& options = request.options;
     app.add_option("--outer", request.outer, "loop for the unit circle: auto, longest, or that of a vertex (from 0)")
@@ -106,15 +107,17 @@ void add_map_options(CLI::App& app, MapRequest& request)
                    "vertex of a boundary loop that goes to 1, and its loop to the unit circle")
         ->check(whole_number(0))
         ->type_name("VERTEX");
+}
+
+void add_report_options(CLI::App& app, MapRequest& request)
+{
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
     app.add_option("--svg", request.svg, "write a picture of the circle domain there")->type_name("FILE");
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
 }
 
-void check_map_options(MapRequest& request)
+void set_outer_loop(MapRequest& request)
 {
-    request.format = required_format(request.output);
-    require_different_files(output_files(request), {request.input}, !request.quiet);
     UniformizeOptions& options = request.options;
     if (request.outer == "auto") {
         options.outer = OuterLoop::automatic;
@@ -124,6 +127,24 @@ void check_map_options(MapRequest& request)
         options.outer = OuterLoop::vertex;
         options.outer_vertex = std::stoi(request.outer);
     }
+}
+
+nlohmann::ordered_json domain_options_report(const MapRequest& request)
+{
+    using Json = nlohmann::ordered_json;
+    const UniformizeOptions& options = request.options;
+    const auto vertex = [](Index number) { return number < 0 ? Json() : Json(number); };
+    return {{"outer", options.outer == OuterLoop::vertex ? Json(options.outer_vertex) : Json(request.outer)},
+            {"center", vertex(options.center)},
+            {"point", vertex(options.point)},
+            {"tolerance", options.tolerance},
+            {"max_sweeps", options.max_sweeps}};
+}
+
+void check_map_files(MapRequest& request)
+{
+    request.format = required_format(request.output);
+    require_different_files(output_files(request), {request.input}, !request.quiet);
 }
 
 int run_map(const MapRequest& request, const MapFunction& compute)

@@ -10,8 +10,6 @@
 
 #include <functional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace koebe::cli {
 
@@ -20,16 +18,22 @@ struct MapRequest {
     WrittenFormat format = WrittenFormat::obj;  ///< of OUT
     UniformizeOptions options;
     bool quiet = false;
-    std::vector<std::pair<std::string, std::string>> names;  ///< entries of the report to set besides
+    nlohmann::ordered_json entries = nlohmann::ordered_json::object();  ///< of the report, to set besides
 };
 
 /// IN and OUT.
 void add_mesh_arguments(CLI::App& app, MapRequest& request);
-/// --outer, --center, --point, --tolerance, --max-sweeps, --json, --svg, --threads, --quiet.
-void add_map_options(CLI::App& app, MapRequest& request);
-/// Sets what the options' words mean.
+/// --outer, --center, --point, --tolerance, --max-sweeps, --threads: what the map depends on.
+void add_domain_options(CLI::App& app, MapRequest& request);
+/// --json, --svg, --quiet.
+void add_report_options(CLI::App& app, MapRequest& request);
+/// Sets what the word of --outer means.
+void set_outer_loop(MapRequest& request);
+/// What add_domain_options has set, for the report: words and numbers by the options' names. The number of threads is
+/// not among them, as a map does not depend on it.
+nlohmann::ordered_json domain_options_report(const MapRequest& request);
 /// @throws CLI::ValidationError OUT names no format; two of the files are one
-void check_map_options(MapRequest& request);
+void check_map_files(MapRequest& request);
 
 using MapFunction = std::function<UniformizeResult(const Vertices&, const Triangles&, ExecutionContext&)>;
 

@@ -1,11 +1,13 @@
 #include "cli/mesh_input.h"
 
+#include "batch/content_hash.h"
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "io/mesh_reader.h"
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 
 namespace koebe::cli {
 
@@ -15,6 +17,10 @@ MeshInput read_and_triangulate(const std::filesystem::path& path)
 {
     const auto begin = std::chrono::steady_clock::now();
     MeshInput input;
+    // Before it is read: if it changes in between, the hash is that of no mesh, and nobody takes the map for this
+    // one's.
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
     input.polygons = read_mesh(path);
     input.triangulation = triangulate(input.polygons);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;

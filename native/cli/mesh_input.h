@@ -17,6 +17,7 @@ struct MeshInput {
     PolygonMesh polygons;
     Triangulation triangulation;
     std::vector<Warning> warnings;
+    std::string sha256;    ///< of the file; empty where it is a pipe or a device
     double seconds = 0.0;  ///< to read and triangulate
 };
 

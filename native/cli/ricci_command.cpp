@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace koebe::cli {
 namespace {
@@ -27,7 +28,7 @@ RicciOptions ricci_options(const Request& request)
 Subcommand add_ricci(CLI::App& app)
 {
     auto request = std::make_shared<Request>();
-    request->names = {{"method", "ricci"}, {"engine", "circle_packing"}};
+    request->entries = {{"method", "ricci"}, {"engine", "circle_packing"}};
     CLI::App* options = app.add_subcommand("ricci", "the same by the discrete Ricci flow, to compare with");
     add_mesh_arguments(*options, *request);
     options
@@ -45,10 +46,18 @@ Subcommand add_ricci(CLI::App& app)
                      "delaunay: edges are flipped on the surface before, given: those of the file")
         ->check(CLI::IsMember({"delaunay", "given"}))
         ->capture_default_str();
-    add_map_options(*options, *request);
+    add_domain_options(*options, *request);
+    add_report_options(*options, *request);
     options->get_option("--tolerance")->description("on the circles' change in an update, a length in the unit disk");
     options->get_option("--max-sweeps")->description("updates of the boundary's curvature before giving up");
-    options->callback([request] { check_map_options(*request); });
+    options->callback([request] {
+        check_map_files(*request);
+        set_outer_loop(*request);
+        nlohmann::ordered_json words = domain_options_report(*request);
+        words.update(
+            {{"packing", request->packing}, {"target", request->target}, {"triangulation", request->triangulation}});
+        request->entries["options"] = std::move(words);
+    });
     return {options, [request] {
                 return run_map(*request, [&](const auto& vertices, const auto& triangles, ExecutionContext& context) {
                     return ricci_uniformize(vertices, triangles, ricci_options(*request), context);

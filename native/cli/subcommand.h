@@ -12,6 +12,7 @@ struct Subcommand {
     std::function<int()> run;  ///< returns an ExitCode; errors are thrown
 };
 
+Subcommand add_batch(CLI::App& app);
 Subcommand add_compare(CLI::App& app);
 Subcommand add_fill(CLI::App& app);
 Subcommand add_module(CLI::App& app);

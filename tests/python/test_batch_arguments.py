@@ -24,7 +24,7 @@ def batch():
 
 
 WRONG = [
-    [], ["--output"], ["--what"], ["in.blend", "more.blend", *OUT], [*OUT, "--out", "x"],
+    [], ["--output"], ["--what"], [*OUT, "--out", "x"],
     *([*OUT, "--outer", value] for value in
       ("", "sideways", "-1", "1.5", "2147483648", "99999999999999999999999", "²", "٣", "0x10", "active", " 1")),
     *([*OUT, name, value] for name in ("--center", "--point") for value in ("", "auto", "-1", "1.5", "cursor")),
@@ -76,7 +76,21 @@ def test_every_name_can_be_asked_for(batch):
 def test_the_defaults_are_those_of_the_options(batch):
     request = batch("headless.arguments").parse(OUT)
     assert request.options == batch("maps.options").Options() and request.names is None and request.report is None
-    assert (request.source, request.output) == (None, "out.blend")
+    assert (request.sources, request.output) == ([], "out.blend")
+    assert request.library.batch == request.library.each == []
+
+
+def test_the_options_of_a_library_are_words_for_each_of_its_files(batch):
+    words = ["a.blend", "folder", "--output", "out", "--workers", "2", "--time-limit=9.5", "--retry"]
+    each = ["--method", "ck", "--no-upright", "--checker", "--tube=unroll", "--layer", "a b"]
+    each += ["--objects", "A,B", "--objects=C"]
+    request = batch("headless.arguments").parse([*words, *each])
+    assert request.sources == ["a.blend", "folder"]
+    assert request.library.batch == ["--workers=2", "--time-limit=9.5", "--retry"]
+    expected = {"--method=ck", "--no-upright", "--tube=unroll", "--layer=a b", "--objects=A,B", "--objects=C"}
+    assert set(request.library.each) == expected
+    again = batch("headless.arguments").parse(["a.blend", "--output", "out", *request.library.each])
+    assert (again.options, again.names) == (request.options, request.names)
 
 
 def test_all_that_is_in_range_is_taken(batch):

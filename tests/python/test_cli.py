@@ -89,7 +89,7 @@ def test_the_report_has_the_keys_of_the_contract(mesh):
     assert list(report) == [
         *("version", "input", "vertices", "faces", "method", "engine", "outer_loop", "converged", "sweeps", "steps"),
         *("history", "loops", "mean_roundness", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy"),
-        *("flipped", "below_resolution", "seconds", "peak_memory_mb", "warnings"),
+        *("flipped", "below_resolution", "seconds", "peak_memory_mb", "warnings", "input_sha256", "options"),
     ]
     assert report["input"] == "in.obj"
     assert report["vertices"] == len(perforated()[0])

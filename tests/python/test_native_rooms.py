@@ -11,6 +11,7 @@ NATIVE = ROOT / "native"
 ROOMS = sorted(path.name for path in NATIVE.iterdir() if path.is_dir())
 FRONTS = {"cli", "python"}  # nothing includes them
 OTHERS = "bundle"  # what the library is built from, where that is built too
+WITH_THE_COMMAND = {"batch"}  # built with it, by a list of its own
 
 
 def included(source):
@@ -41,6 +42,7 @@ def test_includes_run_one_way():
 
 def test_nothing_includes_a_front():
     assert not [room for room, others in arrows().items() if others & FRONTS]
+    assert [room for room, others in arrows().items() if others & WITH_THE_COMMAND] == ["cli"]
 
 
 def test_circles_know_no_mesh():
@@ -55,5 +57,12 @@ def test_every_room_is_on_the_map():
 def test_every_source_is_built():
     built = (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8")
     listed = set(re.findall(r"^ +(\w+/\w+\.cpp)$", built, re.MULTILINE))
-    there = {path.relative_to(NATIVE).as_posix() for path in NATIVE.glob("*/*.cpp") if path.parent.name not in FRONTS}
+    others = FRONTS | WITH_THE_COMMAND | {OTHERS}
+    there = {path.relative_to(NATIVE).as_posix() for path in NATIVE.glob("*/*.cpp") if path.parent.name not in others}
     assert listed == there
+
+
+@pytest.mark.parametrize("room", sorted(FRONTS | WITH_THE_COMMAND))
+def test_every_source_of_a_room_with_a_list_of_its_own_is_built(room):
+    built = (NATIVE / room / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert {path.name for path in (NATIVE / room).glob("*.cpp")} == set(re.findall(r"\b\w+\.cpp\b", built))

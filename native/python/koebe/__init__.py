@@ -13,6 +13,7 @@ from ._api import (
     harmonic_map,
     uniformize,
 )
+from ._batch import batch
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
@@ -49,6 +50,7 @@ __all__ = [
     "__version__",
     "align_domains",
     "annulus_map",
+    "batch",
     "boundary_loops",
     "canonical_order",
     "conformal_module",

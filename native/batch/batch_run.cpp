@@ -1,0 +1,472 @@
+#include "batch/batch_run.h"
+
+#include "batch/child_process.h"
+#include "batch/claim.h"
+#include "batch/content_hash.h"
+#include "batch/path_text.h"
+#include "batch/summary.h"
+#include "batch/whole_file.h"
+#include "io/file_error.h"
+#include "report/json.h"
+
+#include <uv.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <deque>
+#include <fstream>
+#include <list>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace koebe::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t beat_ms = 10000;     // a claim is renewed so often
+constexpr std::uint64_t look_ms = 500;       // and looked at, where another run has it
+constexpr std::uint64_t patience_ms = 5000;  // for a process that was asked to end
+constexpr std::uint64_t grace_ms = 300;      // in which what ended a process may be seen to end this one too
+constexpr std::uint64_t turn_ns = 50000000;  // for files that need no process, until signals are looked at again
+constexpr std::streamoff shown_log = 65536;  // bytes, the last ones that a process has printed
+enum : int { mapped = 0, not_converged = 4, interrupted = 130 };
+
+/// Whether the caller has a signal ignored, as nohup does.
+bool is_ignored(int signal)
+{
+#ifdef _WIN32
+    if (signal == SIGHUP) return false;  // which the C library does not know there
+#endif
+    const auto before = std::signal(signal, SIG_IGN);
+    if (before != SIG_ERR) std::signal(signal, before);
+    return before == SIG_IGN;
+}
+
+std::string end_of_text(const fs::path& path)
+{
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) return {};
+    const std::streamoff size = file.tellg(), begin = std::max<std::streamoff>(size - shown_log, 0);
+    std::string text(static_cast<std::size_t>(size - begin), '\0');
+    file.seekg(begin);
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    return text;
+}
+
+std::string rounded(double seconds)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.1f s", seconds);
+    return text.data();
+}
+
+Json end_error(const ProcessEnd& end, const fs::path& log, double time_limit)
+{
+    if (end.timed_out) {
+        std::array<char, 64> reason{};
+        std::snprintf(reason.data(), reason.size(), "it was not done after %g seconds", time_limit);
+        return {{"name", "TimeLimit"}, {"reason", reason.data()}, {"seconds", time_limit}};
+    }
+    const auto by = [&](const char* name, const std::string& reason) {
+        return Json{{"name", name}, {"reason", reason}};
+    };
+    if (end.signal == SIGKILL) return by("Killed", "its process was killed, as the system does when memory runs out");
+    if (end.signal == SIGTERM || end.signal == SIGINT || end.signal == SIGHUP || end.exit_status == interrupted)
+        return by("Killed", "its process was told to end");
+    if (end.signal != 0) return by("Crash", "its process ended by signal " + std::to_string(end.signal));
+    if (end.exit_status < 0 || end.exit_status > interrupted)
+        return by("Crash", "its process ended with status " + std::to_string(end.exit_status));
+    return error_of_lines(end_of_text(log), "Crash");
+}
+
+class Run {
+public:
+    Run(const std::vector<BatchFile>& files, const BatchOptions& options)
+        : options_(options), claims_(options.output / work_folder, options.stale), total_(files.size())
+    {
+        for (const BatchFile& file : files) waiting_.push_back({&file, {}, false});
+    }
+
+    BatchCount run()
+    {
+        uv_loop_init(&loop_);
+        try {
+            watch();
+            start_some();
+            uv_run(&loop_, UV_RUN_DEFAULT);
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        close();
+        try {
+            if (!failure_ && options_.writes_summary) write_summary(options_.output, claims_);
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        claims_.remove_folder();
+        if (failure_) std::rethrow_exception(failure_);
+        return count_;
+    }
+
+private:
+    struct Waiting {
+        const BatchFile* file;
+        std::string hash;  ///< of its bytes, once they were read
+        bool elsewhere;    ///< another run has it
+    };
+
+    struct Task {
+        const BatchFile* file;
+        std::string hash;
+        Claims::Claim claim;
+        Scratch scratch;
+        fs::path log;
+        std::shared_ptr<ChildProcess> process;
+        ProcessEnd end;
+    };
+
+    // ------------------------------------------------------------------ the loop
+
+    template <typename Handle>
+    static Run& of(Handle* handle)
+    {
+        return *static_cast<Run*>(handle->data);
+    }
+
+    /// Calls a part of the run from C, through which no exception may pass.
+    template <typename Part>
+    void guarded(Part&& part) noexcept
+    {
+        try {
+            part();
+        } catch (...) {
+            if (!failure_) failure_ = std::current_exception();
+            stop();
+        }
+    }
+
+    void watch()
+    {
+        for (uv_timer_t* timer : timers_) {
+            uv_timer_init(&loop_, timer);
+            timer->data = this;
+        }
+        for (uv_timer_t* timer : {&beat_, &patience_}) uv_unref(reinterpret_cast<uv_handle_t*>(timer));
+        uv_timer_start(
+            &beat_, [](uv_timer_t* timer) { of(timer).beat(); }, beat_ms, beat_ms);
+        constexpr std::array numbers{SIGINT, SIGTERM, SIGHUP};
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            uv_signal_init(&loop_, &signals_[i]);
+            signals_[i].data = this;
+            uv_unref(reinterpret_cast<uv_handle_t*>(&signals_[i]));
+            if (!is_ignored(numbers[i]))
+                uv_signal_start(
+                    &signals_[i], [](uv_signal_t* signal, int) { of(signal).interrupt(); }, numbers[i]);
+        }
+    }
+
+    void beat() noexcept
+    {
+        for (const Task& task : tasks_) task.claim.beat();
+    }
+
+    /// Ends the processes; at a second signal, or when they do not end in time, at once.
+    void interrupt() noexcept
+    {
+        count_.interrupted = true;
+        const bool again = stopping_;
+        stop();
+        if (again) kill_all(SIGKILL);
+    }
+
+    void stop() noexcept
+    {
+        if (std::exchange(stopping_, true)) return;
+        waiting_.clear();
+        uv_timer_stop(&look_);
+        uv_timer_stop(&grace_);
+        kill_all(SIGTERM);
+        uv_timer_start(
+            &patience_, [](uv_timer_t* timer) { of(timer).kill_all(SIGKILL); }, patience_ms, patience_ms);
+    }
+
+    void kill_all(int signal) noexcept
+    {
+        for (const Task& task : tasks_)
+            if (task.process) task.process->kill(signal);
+    }
+
+    void close()
+    {
+        stop();
+        kill_all(SIGKILL);
+        uv_run(&loop_, UV_RUN_DEFAULT);  // the processes' ends
+        for (Task& task : killed_) remove_scratch(task);
+        for (uv_timer_t* timer : timers_)
+            if (timer->data != nullptr) uv_close(reinterpret_cast<uv_handle_t*>(timer), nullptr);
+        for (uv_signal_t& signal : signals_)
+            if (signal.data != nullptr) uv_close(reinterpret_cast<uv_handle_t*>(&signal), nullptr);
+        uv_run(&loop_, UV_RUN_DEFAULT);
+        uv_loop_close(&loop_);
+    }
+
+    // ------------------------------------------------------------------ files
+
+    const Recipe& recipe(const BatchFile& file) const { return file.is_blend ? options_.blend : options_.mesh; }
+
+    /// Settles what is done, and starts processes where places are free; what another run has goes back to the end.
+    void start_some()
+    {
+        const std::uint64_t begin = uv_hrtime();
+        bool any_elsewhere = false, is_turn_over = false;
+        for (std::size_t looks = waiting_.size(); looks > 0 && has_place() && !is_turn_over; --looks) {
+            Waiting next = std::move(waiting_.front());
+            waiting_.pop_front();
+            if (!settle_or_start(next)) {
+                any_elsewhere = true;
+                waiting_.push_back(std::move(next));
+            }
+            is_turn_over = uv_hrtime() - begin > turn_ns;
+        }
+        if (has_place() && !waiting_.empty() && (any_elsewhere || is_turn_over))
+            uv_timer_start(
+                &look_, [](uv_timer_t* look) { of(look).guarded([look] { of(look).start_some(); }); },
+                is_turn_over ? 0 : look_ms, 0);
+    }
+
+    bool has_place() const { return !stopping_ && tasks_.size() + killed_.size() < options_.workers; }
+
+    /// @return false if another run has the file
+    bool settle_or_start(Waiting& next)
+    {
+        const BatchFile& file = *next.file;
+        Json unreadable;
+        try {
+            if (next.hash.empty()) next.hash = sha256_of_file(file.source);
+        } catch (const FileError& error) {
+            unreadable = {{"name", "FileError"}, {"reason", error.what()}};
+        }
+        if (settle_known(next)) return true;
+        std::optional<Claims::Claim> claim = claims_.take(file.name);
+        if (!claim) {
+            next.elsewhere = true;
+            return false;
+        }
+        if (settle_known(next)) {  // done since we looked
+            claim->release();
+            return true;
+        }
+        if (!unreadable.is_null()) {
+            settle_failure({&file, {}, *claim, {}, {}, nullptr, {}}, unreadable);
+            claim->release();
+            return true;
+        }
+        start(file, next.hash, std::move(*claim));
+        return true;
+    }
+
+    bool settle_known(const Waiting& next)
+    {
+        const auto report = read_report(next.file->report);
+        if (!report || !is_current(*report, *next.file, next.hash, recipe(*next.file))) return false;
+        if (!next.elsewhere) ++count_.unchanged;
+        settle(*report, next.elsewhere ? "done by another run" : "unchanged");
+        return true;
+    }
+
+    void start(const BatchFile& file, const std::string& hash, Claims::Claim claim)
+    {
+        tasks_.push_back({&file, hash, std::move(claim), {}, {}, nullptr, {}});
+        const auto task = std::prev(tasks_.end());
+        const fs::path work = task->claim.work(), name = file.output.filename();
+        std::error_code error;
+        fs::create_directories(file.output.parent_path(), error);
+        // A .blend names other files from where it lies itself, so it is written in the folder that it will be in.
+        if (file.is_blend) remove_left_blends(file, task->claim);
+        task->scratch.output = file.is_blend ? file.output.parent_path() / (".koebe-" + task->claim.word() + ".blend")
+                                             : work / ("result" + utf8(name.extension()));
+        task->scratch.report = work / "report.json";
+        task->log = work / "log";
+        try {
+            task->process =
+                ChildProcess::start(loop_, options_.command(file, task->scratch), task->log, recipe(file).time_limit,
+                                    [this, task](const ProcessEnd& end) { guarded([&] { finish(task, end); }); });
+        } catch (...) {
+            task->claim.release();
+            tasks_.erase(task);
+            throw;
+        }
+    }
+
+    /// What runs that were killed have left in the folder of a .blend.
+    static void remove_left_blends(const BatchFile& file, const Claims::Claim& claim)
+    {
+        std::error_code error;
+        const std::string begin = ".koebe-" + claim.key() + ".";
+        for (fs::directory_iterator entry(file.output.parent_path(), error), end; !error && entry != end;) {
+            const fs::path path = entry->path();
+            entry.increment(error);
+            std::error_code ignored;
+            if (utf8(path.filename()).starts_with(begin)) fs::remove(path, ignored);
+        }
+    }
+
+    void finish(std::list<Task>::iterator ended, const ProcessEnd& end)
+    {
+        Task task = std::move(*ended);
+        tasks_.erase(ended);
+        task.process.reset();
+        task.end = end;
+        if (is_killed(end) && !stopping_) {  // perhaps by what is about to reach this process: Ctrl-C goes to all
+            killed_.push_back(std::move(task));
+            uv_timer_start(
+                &grace_, [](uv_timer_t* grace) { of(grace).guarded([grace] { of(grace).settle_killed(); }); }, grace_ms,
+                0);
+            return;
+        }
+        settle_end(task);
+        if (!stopping_) start_some();
+    }
+
+    static bool is_killed(const ProcessEnd& end)
+    {
+        return !end.timed_out && (end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP ||
+                                  end.signal == SIGKILL || (end.signal == 0 && end.exit_status == interrupted));
+    }
+
+    void settle_killed()
+    {
+        for (; !killed_.empty(); killed_.pop_front()) settle_end(killed_.front());
+        start_some();
+    }
+
+    void settle_end(Task& task)
+    {
+        const ProcessEnd& end = task.end;
+        const bool is_mapped =
+            end.signal == 0 && !end.timed_out && (end.exit_status == mapped || end.exit_status == not_converged);
+        try {
+            // While this run ends, a file counts only if it was done all the same.
+            if (!task.claim.is_held()) {
+                if (!stopping_) waiting_.push_back({task.file, task.hash, true});
+            } else if (is_mapped) {
+                keep_result(task);
+            } else if (!stopping_) {
+                settle_failure(task, failure_of(task));
+            }
+        } catch (...) {
+            remove_scratch(task);
+            throw;
+        }
+        remove_scratch(task);
+    }
+
+    static void remove_scratch(Task& task) noexcept
+    {
+        std::error_code error;
+        fs::remove(task.scratch.output, error);
+        if (task.file->is_blend) remove_left_blends(*task.file, task.claim);  // what Blender wrote beside it
+        task.claim.release();
+    }
+
+    /// What a process reports of itself, or an empty object.
+    static Json own_report(const Task& task)
+    {
+        std::ifstream file(task.scratch.report, std::ios::binary);
+        Json report = Json::parse(file, nullptr, false);
+        return report.is_object() ? report : Json::object();
+    }
+
+    Json failure_of(const Task& task) const
+    {
+        const ProcessEnd& end = task.end;
+        if (end.signal == 0 && !end.timed_out)
+            if (const Json report = own_report(task); report.contains("error") && report["error"].is_object())
+                return report["error"];
+        return end_error(end, task.log, recipe(*task.file).time_limit);
+    }
+
+    void keep_result(const Task& task)
+    {
+        const ProcessEnd& end = task.end;
+        const BatchFile& file = *task.file;
+        Json own = own_report(task);
+        std::error_code error;
+        if (own.empty() || !fs::is_regular_file(task.scratch.output, error))
+            return settle_failure(task, {{"name", "Crash"}, {"reason", "its process wrote no result"}});
+        Json report = report_head(file, task.hash, recipe(file));
+        for (const char* name : {"name", "input", "options"}) own.erase(name);
+        report.update(own);  // with a hash of its own, of the bytes that it read
+        if (!own.contains("seconds")) report["seconds"] = {{"total", end.seconds}};
+        report["exit_code"] = end.exit_status;
+        report["output"] = generic_utf8(file.output.lexically_relative(options_.output));
+        report["output_sha256"] = sha256_of_file(task.scratch.output);
+        move_whole(task.scratch.output, file.output);
+        write_whole(task.claim.work(), file.report, json_text(report));
+        settle(report, "done");
+    }
+
+    /// The report of a mesh that could not be mapped, in place of a result that was made of other bytes.
+    void settle_failure(const Task& task, const Json& error)
+    {
+        const BatchFile& file = *task.file;
+        Json report = report_head(file, task.hash, recipe(file));
+        report["error"] = error;
+        report["exit_code"] = 3;
+        report["seconds"] = {{"total", task.end.seconds}};
+        std::error_code ignored;
+        fs::create_directories(file.output.parent_path(), ignored);
+        fs::remove(file.output, ignored);
+        write_whole(task.claim.work(), file.report, json_text(report));
+        settle(report, "failed");
+    }
+
+    /// Counts a file and tells of it.
+    void settle(const Json& report, const std::string& how)
+    {
+        const Json error = report.contains("error") ? report["error"] : Json();
+        const int code = report["exit_code"].get<int>();
+        ++(error.is_object() ? count_.failed : code == not_converged ? count_.not_converged : count_.done);
+        std::ostringstream line;
+        line << '[' << count_.done + count_.not_converged + count_.failed << '/' << total_ << "] "
+             << report["name"].get<std::string>() << ": " << how;
+        if (error.is_object() && !is_lasting(error, {{}, 0.0, false}) && error_name(error) != "TimeLimit")
+            ++count_.lost;
+        if (code == not_converged) line << ", not converged";
+        if (error.is_object())
+            line << ", " << error_name(error) << ": " << error.value("reason", "");
+        else if (const Json seconds = summary_row(report)["seconds"]; seconds.is_number())
+            line << ", " << rounded(seconds.get<double>());
+        options_.tell(line.str());
+    }
+
+    const BatchOptions& options_;
+    Claims claims_;
+    std::size_t total_;
+    BatchCount count_;
+    std::deque<Waiting> waiting_;
+    std::list<Task> tasks_;
+    std::deque<Task> killed_;  ///< by somebody else
+    std::exception_ptr failure_;
+    bool stopping_ = false;
+    uv_loop_t loop_{};
+    uv_timer_t beat_{}, look_{}, grace_{}, patience_{};
+    const std::array<uv_timer_t*, 4> timers_{&beat_, &look_, &grace_, &patience_};
+    std::array<uv_signal_t, 3> signals_{};
+};
+
+}  // namespace
+
+BatchCount run_batch(const std::vector<BatchFile>& files, const BatchOptions& options)
+{
+    std::error_code error;
+    std::filesystem::create_directories(options.output, error);
+    if (error) throw FileError("cannot write " + utf8(options.output) + " (" + error.message() + ")");
+    return Run(files, options).run();
+}
+
+}  // namespace koebe::batch

@@ -1,0 +1,129 @@
+"""Many mesh files, each mapped by a process of its own: the command `koebe batch`, here or on the workers of Dask."""
+
+import json
+import os
+import subprocess
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from . import _command
+from .errors import Cancelled, KoebeError, OptionError
+
+PathLike = str | os.PathLike[str]
+Row = dict[str, Any]
+
+_WRONG_USAGE, _INTERRUPTED = 2, 130
+_PATIENCE = 20.0  # seconds for a command that was asked to end
+
+
+def batch(
+    files: PathLike | Sequence[PathLike],
+    output: PathLike,
+    *,
+    workers: int | None = None,
+    time_limit: float | None = None,
+    base: PathLike | None = None,
+    retry: bool = False,
+    scheduler: Any = None,
+    **options: Any,
+) -> list[Row]:
+    """Map many mesh files, each by a process of its own; files that are done and unchanged are skipped.
+
+    files       a mesh file, a folder (searched with its folders), or several of them
+    output      the folder for the results: each file's name below its input folder, a report (.json) beside each, and
+                the table, summary.json and summary.csv
+    workers     files at a time; None: one for each core. With a scheduler its workers' threads decide
+    time_limit  seconds for a file
+    base        names are relative to this folder instead of each input folder
+    retry       try meshes again that could not be mapped
+    scheduler   a `dask.distributed.Client`: one task a file. All workers have to see the files and the output folder
+                under the same paths
+    options     those of the command with _ for -: method="ck", max_sweeps=20, polish=True, format="ply",
+                blender="blender"
+
+    Returns one row for each file, by name: name, exit_code (0 done, 3 it cannot be mapped, 4 not converged), error and
+    error_text (None, or why), seconds, faces, flipped, below_resolution, angle_error_deg (the mean), warnings (how
+    many), output, input_sha256, options, version. Any number of calls may share one output folder, each file is done
+    once. Raises OptionError where the call is wrong, Cancelled where the
+    command was told to end by somebody else, and KoebeError where the output folder cannot be written.
+    """
+    if isinstance(files, str | os.PathLike):
+        files = [files]
+    inputs = [os.path.abspath(file) for file in files]
+    if not inputs:
+        return []
+    folder = os.path.abspath(output)
+    # The working folder of a worker of Dask is its own.
+    common = _words({"time_limit": time_limit, "retry": retry, **options})
+    named = [*inputs, *_words({"base": base and os.path.abspath(base)}), "--output", folder, *common]
+    listed = _run([*named, "--list"]).splitlines()
+    if scheduler is None:
+        _run([*named, *_words({"workers": workers})])
+    else:
+        pairs = [line.split("\t") for line in listed]
+        calls = [[os.path.join(home, name), "--base", home, "--output", folder, *common] for home, name in pairs]
+        names = [f"koebe-{name}" for _, name in pairs]
+        tasks = [
+            scheduler.submit(_run_one, call, pure=False, key=f"{name}-{os.urandom(8).hex()}")
+            for name, call in zip(names, calls, strict=True)
+        ]
+        scheduler.gather(tasks)
+        _run([*named, "--summary-only"])
+    rows = {row["name"]: row for row in json.loads((Path(folder) / "summary.json").read_text("utf-8"))["files"]}
+    return [rows[name] for name in (line.split("\t")[1] for line in listed)]
+
+
+def _run_one(words: list[str]) -> None:
+    """One file on a worker; the table is written once, in the end."""
+    _run([*words, "--workers=1", "--no-summary"])
+
+
+def _words(options: dict[str, Any]) -> list[str]:
+    """Options as the command takes them; None and False are left out."""
+    words = []
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        word = f"--{name.replace('_', '-')}"
+        if isinstance(value, list | tuple):
+            value = ",".join(map(str, value))
+        words.append(word if value is True else f"{word}={value}")
+    return words
+
+
+def _run(words: list[str]) -> str:
+    """What `koebe batch` with these words prints. It ends with this process, whatever that ends by."""
+    process = subprocess.Popen(
+        [str(_command.path()), "batch", "--end-with-input", *words],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", errors="replace",
+    )  # fmt: skip
+    with process:
+        try:
+            printed, complaints = _read(process)
+        except BaseException:  # Ctrl-C
+            process.terminate()
+            try:
+                process.wait(_PATIENCE)
+            except subprocess.TimeoutExpired:
+                process.kill()
+            raise
+    if process.returncode == _INTERRUPTED:
+        raise Cancelled("the run was interrupted: the same call goes on from there")
+    if not printed:  # a run that came to its end prints a line, whatever became of the meshes
+        last = (complaints.strip().splitlines() or [f"koebe batch ended with {process.returncode}"])[-1]
+        raise (OptionError if process.returncode == _WRONG_USAGE else KoebeError)(last)
+    return printed
+
+
+def _read(process: "subprocess.Popen[str]") -> tuple[str, str]:
+    """All that it prints, with its input left open: `communicate` would close it."""
+    complaints: list[str] = []
+    assert process.stdout and process.stderr
+    reader = threading.Thread(target=lambda stream: complaints.append(stream.read()), args=(process.stderr,))
+    reader.start()
+    printed = process.stdout.read()
+    process.wait()
+    reader.join()
+    return printed, "".join(complaints)

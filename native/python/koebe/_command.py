@@ -1,0 +1,45 @@
+"""The koebe command that belongs to this package."""
+
+import contextlib
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from .errors import KoebeError
+
+_NAME = "koebe.exe" if sys.platform == "win32" else "koebe"
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def path() -> Path:
+    """The command: in the package's own folder bin (on Windows beside its library, in the package's own folder), or in
+    the build folder that the package lies in.
+
+    Raises KoebeError if the package was installed without it.
+    """
+    for folder in (_PACKAGE / "bin", _PACKAGE, _PACKAGE.parents[1]):
+        place = folder / _NAME
+        if place.is_file():
+            if not os.access(place, os.X_OK):  # Blender unpacks wheels without the bits that say so
+                with contextlib.suppress(OSError):
+                    place.chmod(0o755)
+            return place
+    raise KoebeError(f"this package has no command: {_PACKAGE / 'bin' / _NAME} is missing; install the package again")
+
+
+def main() -> int:
+    """Entry point of `python -m koebe` and of the script `koebe`: the command with the same arguments."""
+    try:
+        command = str(path())
+    except KoebeError as error:
+        print(f"koebe: {error}", file=sys.stderr)
+        return 3
+    if sys.platform != "win32":
+        os.execv(command, [command, *sys.argv[1:]])
+    process = subprocess.Popen([command, *sys.argv[1:]])
+    while True:
+        try:
+            return process.wait()
+        except KeyboardInterrupt:  # which the command has had too, and ends by
+            continue

@@ -1,0 +1,101 @@
+"""koebe.batch and the command that comes with the package."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import koebe
+import pytest
+from cli_support import COMMAND, obj_text, perforated
+from koebe import _command
+
+
+@pytest.fixture
+def library(tmp_path):
+    folder = tmp_path / "library"
+    (folder / "masks").mkdir(parents=True)
+    (folder / "a.obj").write_text(obj_text(*perforated(10)))
+    (folder / "masks" / "b.obj").write_text(obj_text(*perforated(11)))
+    (folder / "bad.obj").write_text("v 1 2\n")
+    return folder
+
+
+def test_the_rows_are_those_of_the_table(library, tmp_path):
+    out = tmp_path / "out"
+    rows = koebe.batch(library, out, workers=2, time_limit=60, method="ck", max_sweeps=30, polish=True)
+    assert [row["name"] for row in rows] == ["a.obj", "bad.obj", "masks/b.obj"]
+    assert [row["exit_code"] for row in rows] == [0, 3, 0]
+    assert rows[1]["error"] == "InputError"
+    assert rows == json.loads((out / "summary.json").read_text())["files"]
+    assert {key: rows[0]["options"][key] for key in ("method", "max_sweeps", "polish")} == {
+        "method": "ck", "max_sweeps": 30, "polish": True}  # fmt: skip
+    again = koebe.batch([library / "a.obj"], out, method="ck", max_sweeps=30, polish=True)
+    assert again == rows[:1]
+    assert koebe.batch([], out) == []
+
+
+def test_a_wrong_call_is_an_option_error(library, tmp_path):
+    with pytest.raises(koebe.OptionError, match="--method"):
+        koebe.batch(library, tmp_path / "out", method="none")
+    with pytest.raises(koebe.OptionError, match="--colour"):
+        koebe.batch(library, tmp_path / "out", colour="red")
+    with pytest.raises(koebe.OptionError, match="does not exist"):
+        koebe.batch(tmp_path / "nowhere", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_that_cannot_be_written_is_an_error(library, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(koebe.KoebeError, match="cannot write"):
+        koebe.batch(library, tmp_path / "file")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_the_command_ends_with_python(tmp_path, number):
+    (tmp_path / "large.obj").write_text(obj_text(*perforated(500)))
+    call = f"import koebe; koebe.batch({str(tmp_path / 'large.obj')!r}, {str(tmp_path / 'out')!r})"
+    python = subprocess.Popen([sys.executable, "-c", call], stderr=subprocess.PIPE)
+
+    def processes():
+        found = subprocess.run(["pgrep", "-f", str(tmp_path / "large.obj")], capture_output=True, text=True)
+        return {int(line) for line in found.stdout.split()} - {python.pid}
+
+    end = time.monotonic() + 20
+    while len(processes()) < 2 and time.monotonic() < end:  # the batch, and the map
+        time.sleep(0.05)
+    assert len(processes()) == 2
+    python.send_signal(number)
+    python.wait(timeout=20)
+    python.stderr.close()
+    end = time.monotonic() + 10
+    while processes() and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not processes()
+
+
+def test_python_m_koebe_is_the_command(library, tmp_path):
+    words = ["uniformize", library / "a.obj", tmp_path / "o.obj"]
+    runs = [
+        subprocess.run([*front, *words], capture_output=True, text=True, timeout=60)
+        for front in ([COMMAND], [sys.executable, "-m", "koebe"])
+    ]
+    assert [run.returncode for run in runs] == [0, 0]
+    assert runs[1].stdout.split(",")[0] == runs[0].stdout.split(",")[0]
+    refused = subprocess.run([sys.executable, "-m", "koebe", "nonsense"], capture_output=True, text=True, timeout=60)
+    assert refused.returncode == 2 and refused.stderr.startswith("WrongUsage")
+
+
+def test_the_command_is_found_in_the_package_first(monkeypatch, tmp_path):
+    assert os.path.samefile(_command.path(), COMMAND)
+    package = tmp_path / "site" / "koebe"
+    (package / "bin").mkdir(parents=True)
+    monkeypatch.setattr(_command, "_PACKAGE", package)
+    with pytest.raises(koebe.KoebeError, match="install the package again"):
+        _command.path()
+    inside = package / "bin" / "koebe"
+    inside.write_text("")
+    inside.chmod(0o644)  # as an installer leaves it that knows no such bits
+    assert _command.path() == inside and os.access(inside, os.X_OK)
