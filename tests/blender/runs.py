@@ -53,7 +53,7 @@ def offending():
 def flipped():
     """A report on a tube so long that 32-bit UVs cannot tell its last faces apart."""
     states.new_file()
-    around, rings = 12, 60
+    around, rings = 12, 30
     turn = 2 * np.pi * np.arange(around) / around
     vertices = [(0.1 * np.cos(a), 0.1 * np.sin(a), 0.1 * j) for j in range(rings + 1) for a in turn]
     at = lambda i, j: j * around + i % around  # noqa: E731

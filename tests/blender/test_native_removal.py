@@ -51,5 +51,5 @@ def test_removal_leaves_no_library(addon_name, tmp_path):
                               **{f"BLENDER_USER_{name}": folder for name, folder in folders.items()})
     code, out, err = processes.finish(process)
     sizes = {line.split()[0]: float(line.split()[1]) for line in out.splitlines() if line[:6] in ("BEFORE", "AFTER ")}
-    assert code == 0 and sizes["BEFORE"] > 30, out + err
+    assert code == 0 and sizes["BEFORE"] > 5, out + err
     assert sizes["AFTER"] < 0.1, out + err
