@@ -20,6 +20,7 @@
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
 #include "transfer/correspondence.h"
+#include "transfer/surface_point.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -264,16 +265,34 @@ PYBIND11_MODULE(_koebe, m)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
             return planar(d.map(complex(points)));
         });
+    py::class_<SurfacePoint>(m, "SurfacePoint");
+    m.def("surface_points", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                               const std::vector<Index>& numbers, const Eigen::Ref<const Vertices>& positions) {
+        std::vector<NamedPoint> points;
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            points.push_back({numbers[i], positions.row(static_cast<Eigen::Index>(i))});
+        return detached([all = Vertices(vertices), faces = Triangles(triangles), points] {
+            return surface_points(all, faces, points);
+        });
+    });
     m.def("correspond",
-          [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes) {
-              Correspondence found = detached([source, target, match, fit_holes] {
-                  const SerialDenseKernels serial;
-                  return correspond(source, target, {.match = match, .fit_holes = fit_holes});
+          [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes,
+             const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target) {
+              std::vector<Landmark> landmarks;
+              for (std::size_t i = 0; i < on_source.size(); ++i) landmarks.push_back({on_target[i], on_source[i]});
+              const CorrespondenceOptions options{.match = match, .fit_holes = fit_holes, .landmarks = landmarks};
+              Correspondence found = without_gil(py::none(), {}, [&](ExecutionContext& context) {
+                  return run_detachable<Correspondence>(context, [source, target, options](ExecutionContext& own) {
+                      const SerialDenseKernels serial;
+                      return correspond(source, target, options, own);
+                  });
               });
               py::dict parts;
               parts["alignment"] = found.alignment;
               parts["fitted"] = found.fitted;
               parts["uv"] = found.uv;
+              parts["beltrami"] = py::dict(py::arg("mean") = found.beltrami.mean, py::arg("max") = found.beltrami.max);
+              parts["flipped"] = found.folded;
               parts["faces"] = found.places.face;
               parts["weights"] = found.places.weights;
               parts["distances"] = found.places.distance;
