@@ -17,6 +17,7 @@
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
+#include "shape/module_error.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
 #include "transfer/correspondence.h"
@@ -234,6 +235,19 @@ PYBIND11_MODULE(_koebe, m)
                         true);
     });
     m.def("module_names", &module_names);
+    m.def("module_error", &module_error);
+    m.def("refined_circles", [](const MappedSurface& surface, const UniformizeOptions& options) {
+        std::vector<Circle> circles = without_gil(py::none(), {}, [&](ExecutionContext& context) {
+            return refined_circles(surface.vertices, surface.triangles, surface.loops, options, context);
+        });
+        PlanarPoints centers(static_cast<Eigen::Index>(circles.size()), 2);
+        VectorXd radii(centers.rows());
+        for (Eigen::Index k = 0; k < radii.size(); ++k) {
+            centers.row(k) << circles[k].center.real(), circles[k].center.imag();
+            radii[k] = circles[k].radius;
+        }
+        return std::make_tuple(centers, radii);
+    });
     m.def("require_own_circles", [](const std::vector<bool>& own) {
         std::vector<LoopReport> loops(own.size());
         for (std::size_t k = 0; k < own.size(); ++k) loops[k].shrunk = !own[k];

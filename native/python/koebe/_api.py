@@ -9,7 +9,7 @@ from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
 from ._meshes import is_mesh, read_mesh
 from ._native import _koebe
 from ._options import callback, choice, flag, outer_loop, positive, sweep, token, vertex, whole
-from ._result import Source, UniformizeResult
+from ._result import Source, UniformizeResult, with_origin
 from .errors import InputError, OptionError, SolverError, TopologyError
 
 Progress = Callable[[float, str], Any]
@@ -122,7 +122,16 @@ def uniformize(
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = _source(vertices, triangles)
     native = _koebe.uniformize(source.vertices, source.triangles, options, progress, cancel)
-    return UniformizeResult(native.report(), native.uv, np.array(native.flipped_faces), native.step_maps, source)
+    chosen = {
+        "method": method, "engine": engine, "outer": outer if isinstance(outer, str) else int(outer),
+        "tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "balance": balance,
+        "threads": options.threads, "polish": options.polish,
+        "center": None if center is None else options.center, "point": None if point is None else options.point,
+        "partners": partners, "schedule": sweep(schedule, "schedule") or None, "metric": metric, "annulus": annulus,
+        "record_steps": options.mesh.record_steps,
+    }  # fmt: skip
+    report = with_origin(native.report(), source, chosen)
+    return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
 
 def _source(vertices: Any, triangles: Any) -> Source:

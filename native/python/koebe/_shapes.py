@@ -11,7 +11,7 @@ import numpy as np
 
 from ._arrays import as_circles, as_indices, as_numbers, as_points
 from ._native import _koebe
-from ._options import flag, whole
+from ._options import choice, flag, whole
 from ._result import UniformizeResult
 from .errors import InputError, OptionError
 
@@ -42,18 +42,50 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
     where circles are not those of the iteration, as the mesh is too coarse for them.
     """
     _require_own_circles(result)
-    centers, radii = as_circles(result)
+    return _koebe.conformal_module(*as_circles(result), _chosen_order(result, order))
+
+
+def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None = None) -> np.ndarray:
+    """Error bars of conformal_module(result, order=order), lengths in the unit disk: what the mesh's resolution makes.
+
+    The same surface is mapped on a mesh with four times as many faces, whose new vertices lie on the smooth surface
+    and the smooth rims that the mesh seems to be cut from; each bar is twice the change of its number, and the root
+    mean square of all changes. On exact domains 97 % of the errors lie within, and half of the bars are less than 5
+    times the error (docs/shapes.md). It takes about 5 times as long as the map, once for each result. Raises InputError
+    where circles are not the surface's, SolverError.
+    """
+    if not isinstance(result, UniformizeResult):
+        raise TypeError(f"module_error takes a result of uniformize, not {type(result).__name__}")
+    chosen = _chosen_order(result, order)
+    refined = _koebe.conformal_module(*_refined(result), chosen)
+    return _koebe.module_error(conformal_module(result, order=chosen.tolist()), refined)
+
+
+def _refined(result: UniformizeResult) -> tuple[np.ndarray, np.ndarray]:
+    """The circles of the result's loops on a finer mesh, kept with the result."""
+    kept = vars(result)
+    if "_refined" not in kept:
+        options = _koebe.UniformizeOptions()
+        options.method = choice(result.method, "method", _koebe.Method)
+        options.engine = choice(result.engine, "engine", _koebe.Engine)
+        _require_own_circles(result)
+        kept["_refined"] = _koebe.refined_circles(mapped_surface(result), options)
+    return kept["_refined"]
+
+
+def _chosen_order(result: Any, order: Sequence[int] | str | None) -> np.ndarray:
+    count = len(as_circles(result)[1])
     if isinstance(order, str):
         if order != "canonical":
             raise OptionError(f"order must be None, 'canonical' or a list of loops, not {order!r}")
         chosen = canonical_order(result)
     elif order is None:
-        chosen = np.arange(len(radii), dtype=np.int32)
+        chosen = np.arange(count, dtype=np.int32)
     else:
-        chosen = as_indices(order, "order", len(radii), "loops")
-    if len(chosen) != len(radii):
-        raise InputError(f"the order must name each of the {len(radii)} loops once")
-    return _koebe.conformal_module(centers, radii, chosen)
+        chosen = as_indices(order, "order", count, "loops")
+    if len(chosen) != count:
+        raise InputError(f"the order must name each of the {count} loops once")
+    return chosen
 
 
 def module_names(loop_count: int) -> list[str]:
@@ -82,6 +114,14 @@ def module_distance(a: Any, b: Any) -> float:
     if first.shape != second.shape:
         raise InputError(f"modules of shapes {first.shape} and {second.shape} cannot be compared")
     return math.dist(first, second)
+
+
+def mapped_surface(result: UniformizeResult) -> "_koebe.MappedSurface":
+    """The result as the native module takes it."""
+    off = [np.sort(vertices).tolist() for vertices in result.off_circle]
+    loops = [loop.tolist() for loop in result.loops]
+    circles = result.centers, result.radii, result.own_circle.tolist()
+    return _koebe.MappedSurface(*result.surface, result.uv, loops, off, *circles)
 
 
 class DomainAlignment:

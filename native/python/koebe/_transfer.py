@@ -11,7 +11,7 @@ from ._arrays import as_indices, as_numbers
 from ._native import _koebe
 from ._options import flag, vertex
 from ._result import Beltrami, UniformizeResult
-from ._shapes import DomainAlignment
+from ._shapes import DomainAlignment, mapped_surface
 from .errors import InputError
 
 
@@ -74,9 +74,9 @@ def transfer(
     field      (V_a,) or (V_a, k) at a's vertices: its values at b's vertices, (V_b,) or (V_b, k) float64, are returned
                None: the Correspondence itself
     match      a's loop for each of b's, 0 for 0; None: as match_loops finds them
-    landmarks  pairs (on a, on b) that shall correspond: each a vertex, or a point (x, y, z) in the surface's unit, which
-               is the nearest of the surface. Then the domain is bent further, circles to circles, by the map of
-               the least distortion among those that take landmarks to landmarks exactly and turn no face over: the
+    landmarks  pairs (on a, on b) that shall correspond: each a vertex, or a point (x, y, z), in the surface's unit,
+               which stands for the nearest of the surface. Then the domain is bent further, circles to circles, by the map
+               of the least distortion among those that take landmarks to landmarks exactly and turn no face over: the
                fourth power of |mu| over the surface. On a rim they are vertices of both
     Raises InputError, also where circles are not those of the surface and for landmarks that exclude each other, and
     SolverError where no such map was found: `elements` are the landmarks, by their places in the list.
@@ -89,7 +89,7 @@ def transfer(
         raise InputError("the match must name each of the loops of a once, the outer one first")
     pairs = _pairs(landmarks)
     on_a, on_b = (_places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
-    found = _koebe.correspond(_mapped(b), _mapped(a), chosen, flag(fit, "fit"), on_b, on_a)
+    found = _koebe.correspond(mapped_surface(b), mapped_surface(a), chosen, flag(fit, "fit"), on_b, on_a)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
     places = Correspondence(**found, triangles=a.surface[1])
     return places if field is None else places.carry(field)
@@ -117,10 +117,3 @@ def _places(result: UniformizeResult, points: list[Any]) -> "list[_koebe.Surface
             raise InputError(f"landmark {number} is neither a vertex nor a point (x, y, z)", [number], "landmarks")
         positions[number] = position
     return _koebe.surface_points(*result.surface, numbers.tolist(), positions)
-
-
-def _mapped(result: UniformizeResult) -> "_koebe.MappedSurface":
-    off = [np.sort(vertices).tolist() for vertices in result.off_circle]
-    loops = [loop.tolist() for loop in result.loops]
-    circles = result.centers, result.radii, result.own_circle.tolist()
-    return _koebe.MappedSurface(*result.surface, result.uv, loops, off, *circles)
