@@ -1,4 +1,4 @@
-"""docs/labs.md: every block runs, one after the other, and gives what the page says."""
+"""docs/labs.md and docs/tutorial.ipynb: every block runs, one after the other, and gives what the page says."""
 
 import re
 import shutil
@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 5
+    assert len(blocks) == 7
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -23,5 +23,24 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert (tmp_path / "face.vtu").stat().st_size > 0
     assert np.array_equal(names["again"].uv, names["neutral"].uv)
     assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertices,)
+    held, tip = names["held"], names["tip"]
+    assert held.flipped == 0 and np.allclose(held.points[tip], names["surprised"].surface[0][tip], atol=1e-9)
+    assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1,y_2,r_2,x_3,y_3,r_3\nneutral,0.")
     assert np.array_equal(names["results"][1].uv, names["surprised"].uv)
+
+
+def test_the_notebook_runs_and_keeps_no_output(tmp_path, monkeypatch):
+    import nbclient
+    import nbformat
+
+    notebook = nbformat.read(ROOT / "docs" / "tutorial.ipynb", as_version=4)
+    assert not any(cell.get("outputs") for cell in notebook.cells)
+    (tmp_path / "blend_samples").mkdir()
+    for name in ("face.obj", "surprised.obj"):
+        shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
+    monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")
+    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    assert sum("image/png" in output.get("data", {}) for output in shown) == 3
+    assert (tmp_path / "modules.csv").read_text().startswith("label,r_1")

@@ -138,7 +138,7 @@ def _source(vertices: Any, triangles: Any) -> Source:
     """The surface as arrays, of a mesh of another package too."""
     if not is_mesh(vertices):
         if triangles is None:
-            raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh or meshio")
+            raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh, meshio or nibabel")
         return Source(*as_surface(vertices, triangles))
     if triangles is not None:
         raise TypeError("a mesh has its own faces: give no triangles")
