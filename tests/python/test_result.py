@@ -1,5 +1,6 @@
 """What a result holds beside its report: fields, files, pickles, the picture in a notebook."""
 
+import inspect
 import io
 import pickle
 from xml.etree import ElementTree
@@ -113,3 +114,13 @@ def test_the_report_says_what_it_was_made_from():
     # The options make the same map again.
     again = koebe.uniformize(*other.surface, **other.options)
     assert np.array_equal(again.uv, other.uv)
+
+
+def test_an_editor_sees_all_of_a_result():
+    described = {line.split("   ")[0].strip() for line in inspect.getdoc(koebe.UniformizeResult).splitlines()[2:]}
+    names = {name.strip() for line in described for name in line.split(",") if name.strip().isidentifier()}
+    assert len(names) > 25 and names <= set(dir(RESULT))
+    assert set(RESULT.to_dict()) - {"input"} <= set(dir(RESULT))
+    places = koebe.transfer(RESULT, RESULT)
+    for thing in (RESULT, places, places.alignment, koebe.family([RESULT])):
+        assert repr(thing).startswith("<koebe.") and repr(thing).endswith(">")

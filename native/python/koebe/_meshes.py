@@ -1,4 +1,5 @@
-"""Meshes of other packages, and back: PyVista, trimesh, meshio, nibabel's GIfTI. Told by their classes, so that none is imported here.
+"""Meshes of other packages, and back: PyVista, trimesh, meshio, nibabel's GIfTI. Told by their classes, so that none is
+imported here.
 
 Each holds vertices, and cells of which some are faces: the others (points, lines) are kept and carry no values.
 """
@@ -135,7 +136,8 @@ def _from_meshio(mesh: Any) -> Polygons:
 def _from_gifti(image: Any) -> Polygons:
     points, triangles = ([a.data for a in image.darrays if a.intent == intent] for intent in (_POINTS, _TRIANGLES))
     if len(points) != 1 or len(triangles) != 1:
-        raise InputError(f"the image has {len(points)} arrays of points and {len(triangles)} of triangles, not one each")
+        counts = f"{len(points)} arrays of points and {len(triangles)} of triangles"
+        raise InputError(f"the image has {counts}, not one of each")
     return _polygons(points[0], [triangles[0]], [np.arange(len(triangles[0]))], len(triangles[0]))
 
 

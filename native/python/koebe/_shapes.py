@@ -107,7 +107,8 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray,
 
 
 def module_distance(a: Any, b: Any) -> float:
-    """L2 distance of two conformal modules; of two results, that in the orders that match_loops finds."""
+    """L2 distance of two conformal modules, a length in the unit disk; of two results, that in the orders that
+    match_loops finds."""
     if hasattr(a, "radii") and hasattr(b, "radii"):
         return match_loops(a, b)[2]
     first, second = as_numbers(a, "the module"), as_numbers(b, "the module")
@@ -128,7 +129,7 @@ class DomainAlignment:
     """An automorphism of the unit disk that lays one circle domain over another: z -> turn (z - a) / (1 - conj(a) z).
 
     match       the target's loop for each of the source's
-    residual    root of the mean over the holes of squared differences of centres and radii
+    residual    root of the mean over the holes of squared differences of centres and radii, lengths in the disk
     largest, worst    the largest of them and its hole
     misses      (L,) each loop's, in lengths of the disk: root of the squared differences of centre and radius
     misses_in_radii    the same in radii of the source's loop: what is small in the disk may be large for a small hole
@@ -147,6 +148,9 @@ class DomainAlignment:
         self.misses_in_radii = self.misses / radii
         self.converged: bool = native.converged
 
+    def __repr__(self) -> str:
+        return f"<koebe.DomainAlignment residual {self.residual:.3g}, holes miss by up to {self.largest:.3g}>"
+
     def __call__(self, points: Any) -> np.ndarray:
         """The images (n, 2) of points (n, 2) of the target's disk."""
         return self._native(as_points(points, "points", 2))
@@ -157,6 +161,7 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
 
     match    the target's loop for each of the source's, 0 for 0; None: as match_loops finds them
     With one hole the circles leave the rotation free, and without a hole everything: the free part is the identity's.
+    Lengths are in the unit disk.
     """
     a, b = as_circles(source), as_circles(target)
     chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(b[1]), "loops")

@@ -75,9 +75,9 @@ def transfer(
                None: the Correspondence itself
     match      a's loop for each of b's, 0 for 0; None: as match_loops finds them
     landmarks  pairs (on a, on b) that shall correspond: each a vertex, or a point (x, y, z), in the surface's unit,
-               which stands for the nearest of the surface. Then the domain is bent further, circles to circles, by the
-               map of the least distortion among those that take landmarks to landmarks exactly and turn no face over: the
-               fourth power of |mu| over the surface. On a rim they are vertices of both
+               which stands for the nearest of the surface. Then the domain is bent further, circles to circles. Of the
+               maps that take landmarks to landmarks exactly and turn no face over it is the one with the least fourth
+               power of |mu| over the surface. On a rim landmarks are vertices of both
     Raises InputError, also where circles are not those of the surface and for landmarks that exclude each other, and
     SolverError where no such map was found: `elements` are the landmarks, by their places in the list.
     """
