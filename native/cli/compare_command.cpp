@@ -1,8 +1,9 @@
-// koebe compare A B
+// koebe compare A B, koebe compare FOLDER --csv FILE
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/mapping_options.h"
 #include "cli/output_files.h"
+#include "cli/shape_family.h"
 #include "cli/shape_input.h"
 #include "cli/standard_streams.h"
 #include "cli/subcommand.h"
@@ -25,13 +26,13 @@ namespace {
 constexpr const char* standard_output = "-";
 
 struct Request {
-    std::string first, second, json;
+    std::string first, second, json, csv, reference;
     std::string loops = "match";
-    bool any_outer = false, with_json = false;
+    bool any_outer = false, with_json = false, with_error = false;
     UniformizeOptions options;
 
     bool to_file() const { return with_json && json != standard_output; }
-    std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}}; }
+    std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}, {"--csv", csv}}; }
 };
 
 /// The loops as they are: the longest one outside, the others by length.
@@ -48,9 +49,30 @@ LoopMatch by_length(const ShapeInput& a, const ShapeInput& b)
     return match;
 }
 
+int run_family(const Request& request, const CancelToken& token)
+{
+    require_writable_files(request.files(), false);
+    std::vector<std::string> paths{request.first};
+    if (!request.second.empty()) paths.push_back(request.second);
+    const ShapeFamily family = read_family(
+        {mesh_files(paths), request.reference, request.with_error, request.options},
+        [](const ShapeInput& shape) {
+            std::vector<int> order(shape.circles.size());
+            std::iota(order.begin(), order.end(), 0);
+            return order;
+        },
+        token);
+    AtomicFile file(request.csv);
+    file.write(distance_table(family));
+    ExecutionContext({}, token).checkpoint();
+    file.commit();
+    return exit_code_of(family);
+}
+
 int run(const Request& request)
 {
     const CancelToken token = cancel_on_signal();
+    if (!request.csv.empty()) return run_family(request, token);
     const bool to_file = request.to_file();
     require_writable_files(request.files(), true);
     const ShapeInput a = read_shape(request.first, request.options, token);
@@ -88,6 +110,15 @@ void settle_words(Request& request, const CLI::Option& json)
         request.first = std::exchange(request.json, standard_output);
     }
     if (request.json.empty()) request.json = standard_output;
+    if (!request.csv.empty()) {
+        if (request.with_json || request.any_outer || request.loops != "match")
+            throw CLI::ValidationError("--csv", "goes with none of --json, --loops and --any-outer");
+        if (request.first.empty()) throw CLI::RequiredError("FOLDER");
+        require_different_files(request.files(), {request.first, request.second}, false);
+        return;
+    }
+    if (request.with_error || !request.reference.empty())
+        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "goes with --csv");
     if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
     if (request.any_outer && request.loops != "match")
         throw CLI::ValidationError("--any-outer", "goes with --loops match");
@@ -100,7 +131,8 @@ Subcommand add_compare(CLI::App& app)
 {
     auto request = std::make_shared<Request>();
     CLI::App* options = app.add_subcommand("compare", "how far apart the conformal modules of two surfaces are");
-    options->add_option("A", request->first, "surface with holes: OBJ, OFF, PLY or STL");
+    options->add_option("A", request->first,
+                        "surface with holes: OBJ, OFF, PLY or STL; or a folder of them, with --csv");
     options->add_option("B", request->second, "surface with as many holes");
     options
         ->add_option("--loops", request->loops,
@@ -109,6 +141,17 @@ Subcommand add_compare(CLI::App& app)
         ->capture_default_str();
     options->add_flag("--any-outer", request->any_outer,
                       "with match: the outer loop of one may correspond to a hole of the other");
+    options
+        ->add_option(
+            "--csv", request->csv,
+            "a row each pair of the folder's shapes, in one order of the loops: so the triangle inequality holds")
+        ->type_name("FILE");
+    options
+        ->add_option("--reference", request->reference,
+                     "with --csv: the file in the folder whose loops the others' correspond to, by default the first")
+        ->type_name("NAME");
+    options->add_flag("--error", request->with_error,
+                      "with --csv: also bars of the error that the meshes make, from maps of finer meshes");
     const CLI::Option* json =
         options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")
             ->expected(0, 1)

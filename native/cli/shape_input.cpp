@@ -6,13 +6,15 @@
 #include "pipeline/uniformize.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
+#include "shape/module_error.h"
 
 #include <algorithm>
 #include <filesystem>
 
 namespace koebe::cli {
 
-ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token)
+ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token,
+                      bool with_refined)
 {
     const MeshInput input = read_mesh_input(path, token);
     ProgressLine progress(false);
@@ -22,7 +24,7 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
         with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
 
     require_own_circles(result.loops);
-    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, result.converged, {}};
+    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, {}, result.converged, {}};
     add_input_warnings(input, result.warnings);
     shape.warnings = std::move(result.warnings);
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
@@ -33,6 +35,8 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
         };
         shape.ranks.push_back(static_cast<Index>(std::ranges::find_if(loops, holds) - loops.begin()));
     }
+    if (with_refined)
+        shape.refined = refined_circles(input.polygons.vertices, triangles, result.loops, options, context);
     return shape;
 }
 

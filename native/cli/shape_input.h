@@ -15,13 +15,15 @@ namespace koebe::cli {
 struct ShapeInput {
     std::string name;             ///< of the file
     std::vector<Circle> circles;  ///< the outer one first, then by length
+    std::vector<Circle> refined;  ///< the same loops' on a finer mesh (refined_circles), if asked for
     std::vector<Index> ranks;     ///< of each circle's loop, by lowest vertex as in `koebe fill`
     bool converged = false;
     std::vector<Warning> warnings;
 };
 
 /// @throws FileError, InputError, TopologyError, SolverError, Cancelled
-ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token);
+ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token,
+                      bool with_refined = false);
 
 /// {"version", "input", "converged", "loops", "names", "module", "warnings"}: the module with the loops in this order.
 nlohmann::ordered_json module_json(const ShapeInput& shape, const std::vector<int>& order);

@@ -1,6 +1,7 @@
 // koebe transfer A B OUT
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/landmark_file.h"
 #include "cli/mapping_options.h"
 #include "cli/mesh_input.h"
 #include "cli/output_files.h"
@@ -25,7 +26,7 @@ namespace koebe::cli {
 namespace {
 
 struct Request {
-    std::string first, second, output, json;
+    std::string first, second, output, json, landmarks;
     WrittenFormat format = WrittenFormat::obj;
     bool aligned_only = false, quiet = false;
     UniformizeOptions options;
@@ -54,7 +55,7 @@ MappedInput read_and_map(const std::string& path, const Request& request, const 
 }
 
 nlohmann::ordered_json report(const Request& request, const MappedInput& a, const MappedInput& b,
-                              const Correspondence& found)
+                              const Correspondence& found, std::size_t landmark_count)
 {
     const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
     std::vector<double> in_radii = found.alignment.misses;
@@ -66,11 +67,19 @@ nlohmann::ordered_json report(const Request& request, const MappedInput& a, cons
         places.push_back(
             {{"triangle", {corners[0], corners[1], corners[2]}}, {"weights", {weights[0], weights[1], weights[2]}}});
     }
-    return {{"version", KOEBE_VERSION},         {"a", name(request.first)},
-            {"b", name(request.second)},        {"converged", a.converged && b.converged},
-            {"match", found.alignment.match},   {"residual", found.alignment.residual},
-            {"misses", found.alignment.misses}, {"misses_in_radii", in_radii},
-            {"fitted", found.fitted},           {"largest_distance", found.places.distance.maxCoeff()},
+    return {{"version", KOEBE_VERSION},
+            {"a", name(request.first)},
+            {"b", name(request.second)},
+            {"converged", a.converged && b.converged},
+            {"match", found.alignment.match},
+            {"residual", found.alignment.residual},
+            {"misses", found.alignment.misses},
+            {"misses_in_radii", in_radii},
+            {"fitted", found.fitted},
+            {"landmarks", landmark_count},
+            {"beltrami", {{"mean", found.beltrami.mean}, {"max", found.beltrami.max}}},
+            {"flipped", found.folded},
+            {"largest_distance", found.places.distance.maxCoeff()},
             {"places", std::move(places)}};
 }
 
@@ -79,9 +88,10 @@ std::string result_line(const Request& request, const MappedInput& a, const Mapp
     double worst = 0.0;
     for (std::size_t k = 1; k < found.alignment.misses.size(); ++k)
         worst = std::max(worst, found.alignment.misses[k] / a.surface.loops[k].circle.radius);
-    char text[96];
-    std::snprintf(text, sizeof text, ": %lld points, holes miss by up to %.2g radii%s",
-                  static_cast<long long>(found.points.rows()), worst, found.fitted ? ", fitted" : ", not fitted");
+    char text[128];
+    std::snprintf(text, sizeof text, ": %lld points, holes miss by up to %.2g radii%s, |mu| %.2g, at most %.2g",
+                  static_cast<long long>(found.points.rows()), worst, found.fitted ? ", fitted" : ", not fitted",
+                  found.beltrami.mean, found.beltrami.max);
     return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") + "\n";
 }
 
@@ -89,17 +99,24 @@ int run(const Request& request)
 {
     const CancelToken token = cancel_on_signal();
     require_writable_files(request.files(), !request.quiet);
+    const NamedLandmarks named = request.landmarks.empty() ? NamedLandmarks{} : read_landmarks(request.landmarks);
     const auto a = std::make_shared<const MappedInput>(read_and_map(request.first, request, token));
     const auto b = std::make_shared<const MappedInput>(read_and_map(request.second, request, token));
     ExecutionContext context({}, token);
-    const Correspondence found = run_detachable<Correspondence>(context, [request, a, b](ExecutionContext& own) {
-        return correspond(a->surface, b->surface, {.match = {}, .fit_holes = !request.aligned_only}, own);
-    });
+    CorrespondenceOptions options{.match = {}, .fit_holes = !request.aligned_only, .landmarks = {}};
+    if (!request.landmarks.empty()) {
+        const auto on_a = surface_points(a->surface.vertices, a->surface.triangles, named.on_a);
+        const auto on_b = surface_points(b->surface.vertices, b->surface.triangles, named.on_b);
+        for (std::size_t i = 0; i < on_a.size(); ++i) options.landmarks.push_back({on_b[i], on_a[i]});
+    }
+    const Correspondence found = run_detachable<Correspondence>(
+        context, [options, a, b](ExecutionContext& own) { return correspond(a->surface, b->surface, options, own); });
     std::vector<AtomicFile> files;
     PolygonMesh moved = a->mesh.polygons;
     moved.vertices = found.points;
     write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv);
-    if (!request.json.empty()) files.emplace_back(request.json).write(json_text(report(request, *a, *b, found)));
+    if (!request.json.empty())
+        files.emplace_back(request.json).write(json_text(report(request, *a, *b, found, options.landmarks.size())));
     context.checkpoint();
     for (AtomicFile& file : files) file.commit();
     if (!request.quiet) print(result_line(request, *a, *b, found), "; the files are written");
@@ -119,6 +136,12 @@ Subcommand add_transfer(CLI::App& app)
         ->required();
     options->add_flag("--no-fit", request->aligned_only,
                       "lay the domains over each other, but bend no hole onto the other's");
+    options
+        ->add_option(
+            "--landmarks", request->landmarks,
+            "points that correspond exactly, a line each: two vertices, counted from 0, or x y z on A and x y z "
+            "on B")
+        ->type_name("FILE");
     add_mapping_options(*options, request->options);
     options
         ->add_option("--json", request->json,
@@ -127,7 +150,8 @@ Subcommand add_transfer(CLI::App& app)
     options->add_flag("--quiet", request->quiet, "no progress and no result line");
     options->callback([request] {
         request->format = required_format(request->output);
-        require_different_files(request->files(), {request->first, request->second}, !request->quiet);
+        require_different_files(request->files(), {request->first, request->second, request->landmarks},
+                                !request->quiet);
     });
     return {options, [request] { return run(*request); }};
 }

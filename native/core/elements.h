@@ -7,9 +7,10 @@ enum class ElementKind {
     none,  ///< nothing is listed
     vertices,
     faces,
-    edges,   ///< by their ends: two vertices each
-    loops,   ///< or circles, by their place in the list
-    points,  ///< of planar polygons, by their place in all of them
+    edges,      ///< by their ends: two vertices each
+    loops,      ///< or circles, by their place in the list
+    points,     ///< of planar polygons, by their place in all of them
+    landmarks,  ///< of a correspondence, by their place in the list
 };
 
 constexpr const char* to_string(ElementKind kind) noexcept
@@ -21,6 +22,7 @@ constexpr const char* to_string(ElementKind kind) noexcept
     case ElementKind::edges: return "edges";
     case ElementKind::loops: return "loops";
     case ElementKind::points: return "points";
+    case ElementKind::landmarks: return "landmarks";
     }
     return "none";
 }

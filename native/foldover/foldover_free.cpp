@@ -100,14 +100,19 @@ private:
         return {chi, chi / root, 0.5 * epsilon_ * epsilon_ / (root * root * root)};
     }
 
+    double excess(double term) const { return std::max(0.5 * term - 1.0, 0.0) + options_.slack; }
+
+    /// What a face's term counts.
+    double raised(double term) const { return options_.power == 1.0 ? term : std::pow(excess(term), options_.power); }
+
     double energy(const PlanarPoints& points) const
     {
         double sum = 0.0;
         for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
             const Eigen::Vector4d j = jacobian(points, f);
             const double d = determinant(j);
-            sum += weight(f) * (j.squaredNorm() + options_.area_weight * (d * d + 1.0)) /
-                   regularized(d - problem_.floor[f])[0];
+            sum += weight(f) * raised((j.squaredNorm() + options_.area_weight * (d * d + 1.0)) /
+                                      regularized(d - problem_.floor[f])[0]);
         }
         for (Eigen::Index v = 0; v < problem_.pull.size(); ++v)
             if (pulled(v)) sum += problem_.pull[v] * std::pow(offset(points, v).second, 2);
@@ -145,11 +150,17 @@ private:
         const Eigen::Vector4d n_gradient = 2.0 * j + 2.0 * theta * d * d_gradient;
         const double inverse = 1.0 / chi[0], slope = -chi[1] * inverse * inverse;
         const double bend = 2.0 * chi[1] * chi[1] * inverse * inverse * inverse - chi[2] * inverse * inverse;
-        const Eigen::Vector4d g = inverse * n_gradient + n * slope * d_gradient;
+        Eigen::Vector4d g = inverse * n_gradient + n * slope * d_gradient;
         Eigen::Matrix4d h = 2.0 * inverse * Eigen::Matrix4d::Identity() +
                             (2.0 * theta * inverse + n * bend) * d_gradient * d_gradient.transpose() +
                             (2.0 * theta * d * inverse + n * slope) * d_hessian +
                             slope * (n_gradient * d_gradient.transpose() + d_gradient * n_gradient.transpose());
+        if (options_.power != 1.0) {
+            const double t = excess(n * inverse), s = options_.power;
+            const double first = 0.5 * s * std::pow(t, s - 1.0);
+            h = first * h + 0.25 * s * (s - 1.0) * std::pow(t, s - 2.0) * g * g.transpose();
+            g *= first;
+        }
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(h);
         h = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
         gradient = weight(f) * (maps_[f].transpose() * g);

@@ -17,9 +17,11 @@
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
+#include "shape/module_error.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
 #include "transfer/correspondence.h"
+#include "transfer/surface_point.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -233,6 +235,19 @@ PYBIND11_MODULE(_koebe, m)
                         true);
     });
     m.def("module_names", &module_names);
+    m.def("module_error", &module_error);
+    m.def("refined_circles", [](const MappedSurface& surface, const UniformizeOptions& options) {
+        std::vector<Circle> circles = without_gil(py::none(), {}, [&](ExecutionContext& context) {
+            return refined_circles(surface.vertices, surface.triangles, surface.loops, options, context);
+        });
+        PlanarPoints centers(static_cast<Eigen::Index>(circles.size()), 2);
+        VectorXd radii(centers.rows());
+        for (Eigen::Index k = 0; k < radii.size(); ++k) {
+            centers.row(k) << circles[k].center.real(), circles[k].center.imag();
+            radii[k] = circles[k].radius;
+        }
+        return std::make_tuple(centers, radii);
+    });
     m.def("require_own_circles", [](const std::vector<bool>& own) {
         std::vector<LoopReport> loops(own.size());
         for (std::size_t k = 0; k < own.size(); ++k) loops[k].shrunk = !own[k];
@@ -264,16 +279,34 @@ PYBIND11_MODULE(_koebe, m)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
             return planar(d.map(complex(points)));
         });
+    py::class_<SurfacePoint>(m, "SurfacePoint");
+    m.def("surface_points", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                               const std::vector<Index>& numbers, const Eigen::Ref<const Vertices>& positions) {
+        std::vector<NamedPoint> points;
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            points.push_back({numbers[i], positions.row(static_cast<Eigen::Index>(i))});
+        return detached([all = Vertices(vertices), faces = Triangles(triangles), points] {
+            return surface_points(all, faces, points);
+        });
+    });
     m.def("correspond",
-          [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes) {
-              Correspondence found = detached([source, target, match, fit_holes] {
-                  const SerialDenseKernels serial;
-                  return correspond(source, target, {.match = match, .fit_holes = fit_holes});
+          [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes,
+             const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target) {
+              std::vector<Landmark> landmarks;
+              for (std::size_t i = 0; i < on_source.size(); ++i) landmarks.push_back({on_target[i], on_source[i]});
+              const CorrespondenceOptions options{.match = match, .fit_holes = fit_holes, .landmarks = landmarks};
+              Correspondence found = without_gil(py::none(), {}, [&](ExecutionContext& context) {
+                  return run_detachable<Correspondence>(context, [source, target, options](ExecutionContext& own) {
+                      const SerialDenseKernels serial;
+                      return correspond(source, target, options, own);
+                  });
               });
               py::dict parts;
               parts["alignment"] = found.alignment;
               parts["fitted"] = found.fitted;
               parts["uv"] = found.uv;
+              parts["beltrami"] = py::dict(py::arg("mean") = found.beltrami.mean, py::arg("max") = found.beltrami.max);
+              parts["flipped"] = found.folded;
               parts["faces"] = found.places.face;
               parts["weights"] = found.places.weights;
               parts["distances"] = found.places.distance;

@@ -78,6 +78,60 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
     return planar(now);
 }
 
+namespace {
+
+LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& target, const Correspondence& found,
+                              const PlanarPoints& aligned, const std::vector<Landmark>& landmarks,
+                              const ExecutionContext& context)
+{
+    std::vector<Circle> circles(target.loops.size());
+    for (std::size_t k = 0; k < circles.size(); ++k) {
+        const std::size_t own = k == 0 ? 0 : found.alignment.match[k];
+        circles[own] = found.fitted ? source.loops[k].circle : found.alignment.map(target.loops[own].circle);
+    }
+    std::vector<SurfacePoint> points;
+    VectorXcd places(static_cast<Eigen::Index>(landmarks.size()));
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+        points.push_back(landmarks[i].target);
+        const Eigen::RowVector2d place = landmarks[i].source.of(source.uv, source.triangles);
+        places[static_cast<Eigen::Index>(i)] = Complex(place[0], place[1]);
+    }
+    return map_with_landmarks(target, circles, aligned, found.uv, points, places, context);
+}
+
+/// What the bending has done to the aligned domain.
+void judge(Correspondence& result, const MappedSurface& target, const CutMesh& mesh, const PlanarPoints& aligned,
+           const PlanarPoints& uv)
+{
+    Vertices flat = Vertices::Zero(uv.rows(), 3);
+    const PlanarPoints before = mesh.extended(aligned, target.triangles);
+    flat.leftCols<2>() = before;
+    result.beltrami = measure_distortion(flat, mesh.triangles, uv).beltrami;
+    const std::vector<Index> lost = folded_faces(mesh.triangles, before), now = folded_faces(mesh.triangles, uv);
+    result.folded = static_cast<std::size_t>(
+        std::ranges::count_if(now, [&](Index f) { return !std::ranges::binary_search(lost, f); }));
+}
+
+/// Where the source's vertices lie.
+void look_up(Correspondence& result, const MappedSurface& source, const MappedSurface& target, const CutMesh& mesh,
+             const PlanarPoints& uv)
+{
+    result.places = nearest_triangles(uv, mesh.triangles, source.uv);
+    result.points.resize(source.uv.rows(), 3);
+    for (Eigen::Index v = 0; v < source.uv.rows(); ++v) {
+        if (!mesh.face.empty()) {
+            const SurfacePoint whole = mesh.on_mesh(result.places.face[v], result.places.weights.row(v),
+                                                    target.triangles, static_cast<Index>(target.uv.rows()));
+            result.places.face[v] = whole.face;
+            result.places.weights.row(v) = whole.weights;
+        }
+        result.points.row(v) =
+            result.places.weights.row(v) * target.vertices(target.triangles.row(result.places.face[v]), Eigen::all);
+    }
+}
+
+}  // namespace
+
 Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
                           const CorrespondenceOptions& options, const ExecutionContext& context)
 {
@@ -86,7 +140,8 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     const std::vector<Circle> circles = circles_of(source.loops);
     Correspondence result;
     result.alignment = align_domains(circles, circles_of(target.loops), options.match, context);
-    result.uv = planar(result.alignment.map(complex(target.uv)));
+    const VectorXcd aligned = result.alignment.map(complex(target.uv));
+    result.uv = planar(aligned);
     if (options.fit_holes && circles.size() > 1) {
         try {
             std::optional<PlanarPoints> bent = with_fitted_holes(circles, target, result.alignment, result.uv, context);
@@ -97,12 +152,17 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
         } catch (const SolverError&) {  // aligned only, as `fitted` says
         }
     }
+    CutMesh mesh{target.triangles, {}, {}, {}};
+    PlanarPoints uv = result.uv;
+    if (!options.landmarks.empty()) {
+        LandmarkMap map = bent_to_landmarks(source, target, result, planar(aligned), options.landmarks, context);
+        mesh = std::move(map.mesh);
+        uv = std::move(map.uv);
+        result.uv = uv.topRows(target.uv.rows());
+    }
     context.checkpoint();
-    result.places = nearest_triangles(result.uv, target.triangles, source.uv);
-    result.points.resize(source.uv.rows(), 3);
-    for (Eigen::Index v = 0; v < source.uv.rows(); ++v)
-        result.points.row(v) =
-            result.places.weights.row(v) * target.vertices(target.triangles.row(result.places.face[v]), Eigen::all);
+    judge(result, target, mesh, planar(aligned), uv);
+    look_up(result, source, target, mesh, uv);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "core/execution.h"
 #include "pipeline/result.h"
 #include "shape/domain_alignment.h"
+#include "transfer/landmark_map.h"
 #include "transfer/nearest_triangle.h"
 
 #include <optional>
@@ -12,23 +13,18 @@
 
 namespace koebe {
 
-/// A surface and its map.
-struct MappedSurface {
-    Vertices vertices;
-    Triangles triangles;
-    PlanarPoints uv;                ///< points of the unit disk
-    std::vector<LoopReport> loops;  ///< of the map, the outer one first
-};
-
 struct CorrespondenceOptions {
-    std::vector<int> match;  ///< as of align_domains, or empty to look for it
-    bool fit_holes = true;   ///< bend the target's domain until its holes are the source's
+    std::vector<int> match;                ///< as of align_domains, or empty to look for it
+    bool fit_holes = true;                 ///< bend the target's domain until its holes are the source's
+    std::vector<Landmark> landmarks = {};  ///< then bend it until they correspond
 };
 
 struct Correspondence {
     DomainAlignment alignment;
-    bool fitted = false;  ///< whether the holes were then bent onto each other; not where that would turn faces over
-    PlanarPoints uv;      ///< (V_b, 2) the target's domain as it was laid over the source's
+    bool fitted = false;     ///< whether the holes were then bent onto each other; not where that would turn faces over
+    PlanarPoints uv;         ///< (V_b, 2) the target's domain as it was laid over the source's
+    Beltrami beltrami;       ///< of the bending, from the aligned domain: 0 without any; faces cut at landmarks count
+    std::size_t folded = 0;  ///< faces that it has turned over
     PlacesInTriangles places;  ///< (V_a) where the source's vertices lie in the target's triangles
     Vertices points;           ///< (V_a, 3) the same in space: a point of the target for each vertex of the source
 };
@@ -43,11 +39,11 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
                                               const DomainAlignment& alignment, const PlanarPoints& uv,
                                               const ExecutionContext& context = {});
 
-/// Lays the target's circle domain over the source's (align_domains), bends its holes onto the source's, and looks up
-/// where the source's vertices lie in it. A vertex that lies outside, by the height of an arc over its edge at a rim,
-/// takes the nearest point: none is lost.
-/// @throws InputError as align_domains; circles that are not the surfaces' (require_own_circles); SolverError,
-/// Cancelled
+/// Lays the target's circle domain over the source's (align_domains), bends its holes onto the source's, and then until
+/// its landmarks lie on the source's (map_with_landmarks), and looks up where the source's vertices lie in it. A vertex
+/// that lies outside, by the height of an arc over its edge at a rim, takes the nearest point: none is lost.
+/// @throws InputError as align_domains and map_with_landmarks; circles that are not the surfaces'
+/// (require_own_circles); SolverError, Cancelled
 KOEBE_API Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
                                     const CorrespondenceOptions& options, const ExecutionContext& context = {});
 

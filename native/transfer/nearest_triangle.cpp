@@ -2,6 +2,8 @@
 
 #include "core/silent_cgal.h"
 
+#include <Eigen/Geometry>
+
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
@@ -18,13 +20,13 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 
-/// A triangle of the mesh in the plane z = 0, by its number.
-struct PlanarTriangle {
+/// A triangle of the mesh by its number; planar ones lie in the plane z = 0.
+struct NumberedTriangle {
     using Id = Index;
     using Point = Kernel::Point_3;
     using Datum = Kernel::Triangle_3;
 
-    PlanarTriangle(std::vector<Index>::const_iterator number, const PlanarPoints& of_corners, const Triangles& of_faces)
+    NumberedTriangle(std::vector<Index>::const_iterator number, const Vertices& of_corners, const Triangles& of_faces)
         : face(*number), corners(&of_corners), triangles(&of_faces)
     {
     }
@@ -35,40 +37,66 @@ struct PlanarTriangle {
     Point corner(int k) const
     {
         const Index v = (*triangles)(face, k);
-        return {(*corners)(v, 0), (*corners)(v, 1), 0.0};
+        return {(*corners)(v, 0), (*corners)(v, 1), (*corners)(v, 2)};
     }
 
     Index face;
-    const PlanarPoints* corners;
+    const Vertices* corners;
     const Triangles* triangles;
 };
 
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, PlanarTriangle>>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, NumberedTriangle>>;
 
-Complex at(const PlanarPoints& points, Eigen::Index i) { return {points(i, 0), points(i, 1)}; }
-
-/// Twice the signed area of the triangle a, b, c.
-double doubled_area(Complex a, Complex b, Complex c) { return std::imag(std::conj(b - a) * (c - a)); }
-
-/// The weights of the two ends of a segment at its point nearest to p.
-double share_of_end(Complex p, Complex from, Complex to)
+Vertices in_space(const PlanarPoints& points)
 {
-    const double squared = std::norm(to - from);
-    return squared > 0.0 ? std::clamp(std::real(std::conj(to - from) * (p - from)) / squared, 0.0, 1.0) : 0.0;
+    Vertices result = Vertices::Zero(points.rows(), 3);
+    result.leftCols<2>() = points;
+    return result;
+}
+
+/// Twice the signed areas of p's triangles with the edges: exact signs where all lies in the plane.
+Eigen::RowVector3d planar_weights(const Eigen::RowVector3d& p, const Eigen::Matrix3d& corner)
+{
+    Eigen::RowVector3d weights;
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::RowVector3d a = corner.row((k + 1) % 3) - p, b = corner.row((k + 2) % 3) - p;
+        weights[k] = a[0] * b[1] - a[1] * b[0];
+    }
+    return weights;
+}
+
+/// The same of p's projection onto the triangle's plane, over its normal's length.
+Eigen::RowVector3d spatial_weights(const Eigen::RowVector3d& p, const Eigen::Matrix3d& corner)
+{
+    const Eigen::RowVector3d normal = (corner.row(1) - corner.row(0)).cross(corner.row(2) - corner.row(0));
+    Eigen::RowVector3d weights;
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::RowVector3d a = corner.row((k + 1) % 3) - p, b = corner.row((k + 2) % 3) - p;
+        weights[k] = normal.dot(a.cross(b));
+    }
+    return weights;
+}
+
+/// The weight of an edge's end at its point nearest to p.
+double share_of_end(const Eigen::RowVector3d& p, const Eigen::RowVector3d& from, const Eigen::RowVector3d& to)
+{
+    const double squared = (to - from).squaredNorm();
+    return squared > 0.0 ? std::clamp((to - from).dot(p - from) / squared, 0.0, 1.0) : 0.0;
 }
 
 /// Barycentric coordinates of the point of a triangle that is nearest to p.
-Eigen::RowVector3d nearest_weights(Complex p, const Complex (&corner)[3])
+/// @param inside weights of the foot of p on the triangle's plane, up to a factor
+Eigen::RowVector3d nearest_weights(const Eigen::RowVector3d& p, const Eigen::Matrix3d& corner,
+                                   const Eigen::RowVector3d& inside)
 {
-    Eigen::RowVector3d weights;
-    for (int k = 0; k < 3; ++k) weights[k] = doubled_area(p, corner[(k + 1) % 3], corner[(k + 2) % 3]);
-    const double whole = weights.sum();
-    if (whole != 0.0 && (weights / whole).minCoeff() >= 0.0) return weights / whole;
+    const double whole = inside.sum();
+    if (whole != 0.0 && (inside / whole).minCoeff() >= 0.0) return inside / whole;
+    Eigen::RowVector3d weights = Eigen::RowVector3d::Zero();
     double nearest = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
-        const Complex from = corner[k], to = corner[(k + 1) % 3];
+        const Eigen::RowVector3d from = corner.row(k), to = corner.row((k + 1) % 3);
         const double share = share_of_end(p, from, to);
-        const double distance = std::abs(from + share * (to - from) - p);
+        const double distance = (from + share * (to - from) - p).norm();
         if (!(distance < nearest)) continue;
         nearest = distance;
         weights.setZero();
@@ -78,9 +106,9 @@ Eigen::RowVector3d nearest_weights(Complex p, const Complex (&corner)[3])
     return weights;
 }
 
-}  // namespace
-
-PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles, const PlanarPoints& points)
+template <typename InnerWeights>
+PlacesInTriangles nearest(const Vertices& corners, const Triangles& triangles, const Vertices& points,
+                          InnerWeights&& inner_weights)
 {
     const SilentCgal silent;
     std::vector<Index> faces(triangles.rows());
@@ -91,16 +119,28 @@ PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles
     const Eigen::Index count = points.rows();
     PlacesInTriangles places{Eigen::VectorX<Index>(count), Vertices(count, 3), VectorXd(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
-        const Complex p = at(points, i);
-        const Index face = tree.closest_point_and_primitive(Point(p.real(), p.imag(), 0.0)).second;
-        const Complex corner[3] = {at(corners, triangles(face, 0)), at(corners, triangles(face, 1)),
-                                   at(corners, triangles(face, 2))};
-        const Eigen::RowVector3d weights = nearest_weights(p, corner);
+        const Eigen::RowVector3d p = points.row(i);
+        const Index face = tree.closest_point_and_primitive(Point(p[0], p[1], p[2])).second;
+        Eigen::Matrix3d corner;
+        for (int k = 0; k < 3; ++k) corner.row(k) = corners.row(triangles(face, k));
+        const Eigen::RowVector3d weights = nearest_weights(p, corner, inner_weights(p, corner));
         places.face[i] = face;
         places.weights.row(i) = weights;
-        places.distance[i] = std::abs(weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2] - p);
+        places.distance[i] = (weights * corner - p).norm();
     }
     return places;
+}
+
+}  // namespace
+
+PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles, const PlanarPoints& points)
+{
+    return nearest(in_space(corners), triangles, in_space(points), planar_weights);
+}
+
+PlacesInTriangles nearest_triangles(const Vertices& corners, const Triangles& triangles, const Vertices& points)
+{
+    return nearest(corners, triangles, points, spatial_weights);
 }
 
 }  // namespace koebe

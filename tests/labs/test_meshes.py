@@ -1,7 +1,8 @@
-"""Meshes of PyVista, trimesh and meshio in and back, in an environment that has them."""
+"""Meshes of PyVista, trimesh, meshio and nibabel in and back, in an environment that has them."""
 
 import koebe
 import meshio
+import nibabel
 import numpy as np
 import pytest
 import pyvista
@@ -25,6 +26,14 @@ def perforated(n=20, holes=((0.3, 0.3, 0.12), (0.7, 0.6, 0.16))):
 
 VERTICES, QUADS = perforated()
 TRIANGLES = QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+
+def gifti(vertices, triangles):
+    points = nibabel.gifti.GiftiDataArray(vertices.astype(np.float32), "NIFTI_INTENT_POINTSET")
+    faces = nibabel.gifti.GiftiDataArray(triangles.astype(np.int32), "NIFTI_INTENT_TRIANGLE")
+    return nibabel.gifti.GiftiImage(darrays=[points, faces])
+
+
 MESHES = {
     "trimesh": lambda: trimesh.Trimesh(VERTICES, TRIANGLES, process=False),
     "PolyData": lambda: pyvista.PolyData.from_regular_faces(VERTICES, TRIANGLES),
@@ -94,6 +103,22 @@ def test_formats_that_meshio_and_pyvista_read(tmp_path):
         assert (tmp_path / f"mapped_{name}").stat().st_size > 0
     MESHES["PolyData"]().save(tmp_path / "pyvista.vtp")
     assert koebe.uniformize(pyvista.read(tmp_path / "pyvista.vtp")).converged
+
+
+def test_a_gifti_surface_is_mapped_and_comes_back_with_its_fields(tmp_path):
+    single = VERTICES.astype(np.float32)
+    nibabel.save(gifti(single, TRIANGLES), tmp_path / "lh.surf.gii")
+    result = koebe.uniformize(nibabel.load(tmp_path / "lh.surf.gii"))
+    assert np.array_equal(result.uv, koebe.uniformize(single, TRIANGLES).uv)
+    nibabel.save(result.to_mesh(), tmp_path / "mapped.gii")
+    back = {array.meta["Name"]: array for array in nibabel.load(tmp_path / "mapped.gii").darrays[2:]}
+    assert set(back) == {*FIELDS, "koebe_angle_error"}
+    assert np.allclose(back["koebe_uv"].data, koebe.disk_to_uv(result.uv), atol=1e-6)
+    assert np.allclose(back["koebe_log_scale"].data, result.log_scale, atol=1e-5)
+    assert back["koebe_angle_error"].data.shape == (len(TRIANGLES),)
+    assert koebe.uniformize(result.to_mesh()).vertices == len(VERTICES)  # once more
+    with pytest.raises(koebe.InputError, match="0 arrays of points"):
+        koebe.uniformize(nibabel.gifti.GiftiImage())
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,10 @@
-"""docs/labs.md: every block runs, one after the other, and gives what the page says."""
+"""docs/labs.md and docs/tutorial.ipynb: every block runs, one after the other, and gives what the page says."""
 
 import re
 import shutil
 from pathlib import Path
 
+import koebe
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -12,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 5
+    assert len(blocks) == 7
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -23,5 +24,26 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert (tmp_path / "face.vtu").stat().st_size > 0
     assert np.array_equal(names["again"].uv, names["neutral"].uv)
     assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertices,)
+    held, tip = names["held"], names["tip"]
+    assert held.flipped == 0 and np.allclose(held.points[tip], names["surprised"].surface[0][tip], atol=1e-9)
+    assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1,y_2,r_2,x_3,y_3,r_3\nneutral,0.")
     assert np.array_equal(names["results"][1].uv, names["surprised"].uv)
+
+
+def test_the_notebook_runs_and_keeps_no_output(tmp_path, monkeypatch):
+    import nbclient
+    import nbformat
+
+    notebook = nbformat.read(ROOT / "docs" / "tutorial.ipynb", as_version=4)
+    assert not any(cell.get("outputs") for cell in notebook.cells)
+    (tmp_path / "blend_samples").mkdir()
+    for name in ("face.obj", "surprised.obj"):
+        shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
+    monkeypatch.setenv("PYTHONPATH", str(Path(koebe.__file__).resolve().parents[1]))  # it may be a relative one here
+    monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")
+    where = {"metadata": {"path": str(tmp_path)}}
+    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources=where).execute()
+    shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    assert sum("image/png" in output.get("data", {}) for output in shown) == 3
+    assert (tmp_path / "modules.csv").read_text().startswith("label,r_1")

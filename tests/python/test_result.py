@@ -1,5 +1,6 @@
 """What a result holds beside its report: fields, files, pickles, the picture in a notebook."""
 
+import inspect
 import io
 import pickle
 from xml.etree import ElementTree
@@ -97,3 +98,29 @@ def test_a_circle_that_is_not_the_surfaces_is_marked():
     assert RESULT.own_circle.tolist() == [True] * len(RESULT.loops)
     report = RESULT.to_dict()
     assert [loop["own_circle"] for loop in report["loops"]] == RESULT.own_circle.tolist()
+
+
+def test_the_report_says_what_it_was_made_from():
+    import hashlib
+
+    report = RESULT.to_dict()
+    data = VERTICES.astype("<f8").tobytes() + FACES.astype("<i4").tobytes()
+    assert report["input_sha256"] == RESULT.input_sha256 == hashlib.sha256(data).hexdigest()
+    assert report["version"] == RESULT.version == koebe.__version__
+    assert report["options"]["method"] == "gk" and report["options"]["tolerance"] == 1e-6
+    other = koebe.uniformize(VERTICES + 1.0, FACES, method="ck", center=None, outer=np.int64(RESULT.loops[0][0]))
+    assert other.input_sha256 != RESULT.input_sha256 and other.options["method"] == "ck"
+    assert type(other.options["outer"]) is int
+    # The options make the same map again.
+    again = koebe.uniformize(*other.surface, **other.options)
+    assert np.array_equal(again.uv, other.uv)
+
+
+def test_an_editor_sees_all_of_a_result():
+    described = {line.split("   ")[0].strip() for line in inspect.getdoc(koebe.UniformizeResult).splitlines()[2:]}
+    names = {name.strip() for line in described for name in line.split(",") if name.strip().isidentifier()}
+    assert len(names) > 25 and names <= set(dir(RESULT))
+    assert set(RESULT.to_dict()) - {"input"} <= set(dir(RESULT))
+    places = koebe.transfer(RESULT, RESULT)
+    for thing in (RESULT, places, places.alignment, koebe.family([RESULT])):
+        assert repr(thing).startswith("<koebe.") and repr(thing).endswith(">")

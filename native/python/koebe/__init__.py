@@ -26,6 +26,7 @@ from ._shapes import (
     conformal_module,
     match_loops,
     module_distance,
+    module_error,
     module_names,
 )
 from ._transfer import Correspondence, transfer
@@ -63,6 +64,7 @@ __all__ = [
     "load",
     "match_loops",
     "module_distance",
+    "module_error",
     "module_names",
     "plot",
     "transfer",

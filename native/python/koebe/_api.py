@@ -9,7 +9,7 @@ from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
 from ._meshes import is_mesh, read_mesh
 from ._native import _koebe
 from ._options import callback, choice, flag, outer_loop, positive, sweep, token, vertex, whole
-from ._result import Source, UniformizeResult
+from ._result import Source, UniformizeResult, with_origin
 from .errors import InputError, OptionError, SolverError, TopologyError
 
 Progress = Callable[[float, str], Any]
@@ -122,14 +122,23 @@ def uniformize(
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = _source(vertices, triangles)
     native = _koebe.uniformize(source.vertices, source.triangles, options, progress, cancel)
-    return UniformizeResult(native.report(), native.uv, np.array(native.flipped_faces), native.step_maps, source)
+    chosen = {
+        "method": method, "engine": engine, "outer": outer if isinstance(outer, str) else int(outer),
+        "tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "balance": balance,
+        "threads": options.threads, "polish": options.polish,
+        "center": None if center is None else options.center, "point": None if point is None else options.point,
+        "partners": partners, "schedule": sweep(schedule, "schedule") or None, "metric": metric, "annulus": annulus,
+        "record_steps": options.mesh.record_steps,
+    }  # fmt: skip
+    report = with_origin(native.report(), source, chosen)
+    return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
 
 def _source(vertices: Any, triangles: Any) -> Source:
     """The surface as arrays, of a mesh of another package too."""
     if not is_mesh(vertices):
         if triangles is None:
-            raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh or meshio")
+            raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh, meshio or nibabel")
         return Source(*as_surface(vertices, triangles))
     if triangles is not None:
         raise TypeError("a mesh has its own faces: give no triangles")
@@ -176,8 +185,8 @@ def annulus_map(vertices: Any, triangles: Any, *, backend: str = "harmonic") -> 
 
     backend   'harmonic': by a holomorphic 1-form. 'yamabe': by the discrete Yamabe flow to a flat cylinder, with
               edges flipped on the way; the two agree to the order of the discretization
-    Returns (V, 2) float64 points and r. The longer loop goes to the unit circle. Raises SolverError if the flow does
-    not converge.
+    Returns (V, 2) float64 points of the unit disk and r, a length in it. The longer loop goes to the unit circle.
+    Raises SolverError if the flow does not converge.
     """
     chosen = choice(backend, "backend", _koebe.AnnulusBackend)
     return _koebe.annulus_map(*as_surface(vertices, triangles), chosen)
@@ -192,6 +201,7 @@ def fill_holes(
     fair    False: fans around the means of the loops' vertices (paper, section 4.4). True: triangles as long as those
             around the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
     Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
+    Lengths are in the input's unit.
     """
     positions, faces = as_surface(vertices, triangles)
     ranks = None if loops is None else as_indices(loops, "loops", faces.size, "loops")
@@ -207,7 +217,7 @@ def harmonic_map(
     values   (B, 2) their values
     uniform  True: every triangle counts as equilateral, so that a disk whose boundary goes to a convex curve has no
              flips [Tutte 1963]. False: the lengths in space count
-    Returns (V, 2) float64.
+    Returns (V, 2) float64, in the values' unit.
     """
     positions, faces = as_surface(vertices, triangles)
     chosen = as_indices(fixed, "fixed", len(positions), "vertices")
@@ -221,6 +231,7 @@ def distortion(vertices: Any, triangles: Any, uv: Any) -> dict[str, Any]:
     """Angle error, Beltrami coefficient, area distortion, conformal energy and flips of any UV map.
 
     uv   (V, 2) points of the unit disk, x + iy
+    Angles are in degrees, the energy in areas of the disk, all else has no unit.
     """
     positions, faces = as_surface(vertices, triangles)
     report = _koebe.distortion(positions, faces, as_points(uv, "uv", 2, len(positions)))

@@ -11,8 +11,8 @@ import numpy as np
 
 from ._arrays import as_indices
 from ._files import whole_file
-from ._options import whole
-from ._shapes import conformal_module, match_loops, module_names
+from ._options import flag, whole
+from ._shapes import conformal_module, match_loops, module_error, module_names
 from .errors import InputError
 
 
@@ -24,12 +24,25 @@ class Family:
     columns    what the numbers are called: r_1, y_2, r_2, ...
     orders     (N, n + 1) int32: of each shape's loops, the outer one first, in the order that all share
     labels     of the shapes
+    errors     (N, 3n - 3) bars of the modules (module_error), or None where they were not asked for
     """
 
     modules: np.ndarray
     columns: list[str]
     orders: np.ndarray
     labels: list[str]
+    errors: np.ndarray | None = None
+
+    def __repr__(self) -> str:
+        return f"<koebe.Family {len(self.labels)} shapes, {self.orders.shape[1]} loops>"
+
+    @property
+    def distance_errors(self) -> np.ndarray | None:
+        """(N, N) bars of the distances: root of the sum of the squared bars of both modules; None without bars."""
+        if self.errors is None:
+            return None
+        size = np.linalg.norm(self.errors, axis=1)
+        return np.where(np.eye(len(size), dtype=bool), 0.0, np.hypot(size[:, None], size[None]))
 
     @property
     def distances(self) -> np.ndarray:
@@ -37,12 +50,15 @@ class Family:
         return np.linalg.norm(self.modules[:, None] - self.modules[None], axis=2)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """A row a shape: its label and its module, with a head line, as R's read.csv and pandas read it."""
+        """A row a shape: its label, its module and its bars if there are any (r_1_error, ...), with a head line, as R's
+        read.csv and pandas read it."""
         text = io.StringIO(newline="")
         writer = csv.writer(text)
-        writer.writerow(["label", *self.columns])
-        for label, row in zip(self.labels, self.modules, strict=True):
-            writer.writerow([label, *map(repr, row.tolist())])
+        bars = self.modules[:, :0] if self.errors is None else self.errors
+        names = [] if self.errors is None else [f"{column}_error" for column in self.columns]
+        writer.writerow(["label", *self.columns, *names])
+        for label, *rows in zip(self.labels, self.modules, bars, strict=True):
+            writer.writerow([label, *(repr(number) for row in rows for number in row.tolist())])
         with whole_file(path) as file:
             file.write(text.getvalue().encode())
 
@@ -54,6 +70,7 @@ def family(
     order: Sequence[int] | None = None,
     orders: Sequence[Sequence[int]] | None = None,
     labels: Sequence[str] | None = None,
+    error: bool = False,
 ) -> Family:
     """One order of the loops for all shapes, and their modules in it.
 
@@ -62,6 +79,7 @@ def family(
     order       of the reference's loops, the outer one first (mouth, eye, eye); None: as in its result
     orders      of every shape's loops, in your words; then nothing is matched
     labels      of the shapes, such as file names; None: 0, 1, 2, ...
+    error       also bars of the modules (module_error), which takes a map of a finer mesh for each
     module_distance of two shapes takes the best order for those two, so three such distances need not obey the triangle
     inequality; those of a family do. Raises InputError, also for circles that are not the surface's.
     """
@@ -86,7 +104,10 @@ def family(
         chosen = [as_indices(each, "orders", count, "loops") for each in orders]
     modules = [conformal_module(shape, order=each.tolist()) for shape, each in zip(shapes, chosen, strict=True)]
     names = [str(label) for label in (labels if labels is not None else range(len(shapes)))]
-    return Family(np.array(modules), module_names(count), np.array(chosen), names)
+    bars = None
+    if flag(error, "error"):
+        bars = np.array([module_error(shape, order=each.tolist()) for shape, each in zip(shapes, chosen, strict=True)])
+    return Family(np.array(modules), module_names(count), np.array(chosen), names, bars)
 
 
 def _like(reference: Any, shape: Any, wanted: np.ndarray) -> np.ndarray:

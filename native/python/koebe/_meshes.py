@@ -1,4 +1,5 @@
-"""Meshes of other packages, and back: PyVista, trimesh, meshio. Told by their classes, so that none is imported here.
+"""Meshes of other packages, and back: PyVista, trimesh, meshio, nibabel's GIfTI. Told by their classes, so that none is
+imported here.
 
 Each holds vertices, and cells of which some are faces: the others (points, lines) are kept and carry no values.
 """
@@ -14,6 +15,7 @@ from .errors import InputError
 
 UV, LOG_SCALE, ANGLE_ERROR = "koebe_uv", "koebe_log_scale", "koebe_angle_error"
 
+_POINTS, _TRIANGLES, _SHAPE, _VECTOR, _NONE = 1008, 1009, 2005, 1007, 0  # NIfTI's intent codes
 _VTK_FACES = {5: "triangle", 7: "polygon", 9: "quad"}  # numbers of VTK's cell types
 _VTK_PIXEL = 8  # a quadrilateral whose last two corners are the other way round
 _VTK_NO_FACES = {1, 2, 3, 4}  # points and lines
@@ -43,7 +45,7 @@ def is_mesh(thing: Any) -> bool:
 
 def read_mesh(mesh: Any) -> Polygons:
     """Raises InputError for a mesh with no faces, or with cells that are no faces of a surface."""
-    readers = {"trimesh": _from_trimesh, "pyvista": _from_pyvista, "meshio": _from_meshio}
+    readers = {"trimesh": _from_trimesh, "pyvista": _from_pyvista, "meshio": _from_meshio, "gifti": _from_gifti}
     polygons = readers[_kind(mesh) or "meshio"](mesh)
     if not len(polygons.cell):
         raise InputError("the mesh has no faces")
@@ -65,6 +67,12 @@ def mesh_with_fields(mesh: Any, polygons: Polygons, uv: np.ndarray, log_scale: n
         result.point_data[UV], result.point_data[LOG_SCALE] = uv, log_scale
         result.cell_data[ANGLE_ERROR] = of_cells
         result.active_texture_coordinates = uv
+    elif kind == "gifti":
+        result = copy.deepcopy(mesh)
+        gifti = importlib.import_module("nibabel.gifti")
+        for name, values, intent in ((UV, uv, _VECTOR), (LOG_SCALE, log_scale, _SHAPE), (ANGLE_ERROR, of_cells, _NONE)):
+            array = gifti.GiftiDataArray(np.float32(values), intent, "NIFTI_TYPE_FLOAT32", meta={"Name": name})
+            result.add_gifti_data_array(array)
     else:
         result = copy.deepcopy(mesh)
         result.point_data[UV], result.point_data[LOG_SCALE] = uv, log_scale
@@ -79,6 +87,8 @@ def _kind(thing: Any) -> str | None:
         return "trimesh"
     if names & {("pyvista", "PolyData"), ("pyvista", "UnstructuredGrid")}:
         return "pyvista"
+    if ("nibabel", "GiftiImage") in names:
+        return "gifti"
     return "meshio" if ("meshio", "Mesh") in names else None
 
 
@@ -121,6 +131,14 @@ def _from_meshio(mesh: Any) -> Polygons:
             raise InputError(f"the mesh has cells of the type {block.type!r}: only triangles, quads and polygons")
         begin += len(block.data)
     return _polygons(mesh.points, blocks, cells, begin)
+
+
+def _from_gifti(image: Any) -> Polygons:
+    points, triangles = ([a.data for a in image.darrays if a.intent == intent] for intent in (_POINTS, _TRIANGLES))
+    if len(points) != 1 or len(triangles) != 1:
+        counts = f"{len(points)} arrays of points and {len(triangles)} of triangles"
+        raise InputError(f"the image has {counts}, not one of each")
+    return _polygons(points[0], [triangles[0]], [np.arange(len(triangles[0]))], len(triangles[0]))
 
 
 def _polygons(vertices: Any, blocks: list[Any], cells: list[np.ndarray], cell_count: int) -> Polygons:

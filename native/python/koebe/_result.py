@@ -1,6 +1,7 @@
 """What a uniformization gives."""
 
 import copy
+import hashlib
 import json
 import os
 import zipfile
@@ -143,9 +144,21 @@ class Source:
     polygon: np.ndarray | None = None  # (F,) of each triangle
 
 
+def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any]) -> dict[str, Any]:
+    """The report with what it was made from: the arrays' hash and the options, after the version."""
+    digest = hashlib.sha256()
+    for array, kind in ((source.vertices, "<f8"), (source.triangles, "<i4")):
+        digest.update(np.ascontiguousarray(array, dtype=kind).tobytes())
+    origin = {"input_sha256": digest.hexdigest(), "options": options}
+    return {"version": report["version"], "input": report["input"], **origin, **report}
+
+
 class UniformizeResult:
     """A circle domain and its report.
 
+    version          of koebe that made it
+    input_sha256     of the vertices' bytes as float64 and the triangles' as int32, little-endian, row after row
+    options          of the call: method, engine, outer, tolerance, ...
     uv               (V, 2) float64, points of the closed unit disk in the input's vertex order; read-only
     loops            int32 arrays of vertices, the surface on the left, the outer loop first
     centers, radii   (L, 2) and (L,) circles in the unit disk
@@ -170,6 +183,9 @@ class UniformizeResult:
     warnings         list of Warning: kind, elements, text
     """
 
+    version: str
+    input_sha256: str = ""
+    options: dict[str, Any]
     uv: np.ndarray
     loops: list[np.ndarray]
     centers: np.ndarray
@@ -213,7 +229,8 @@ class UniformizeResult:
         self._report = report
         self._source = source
         loops = report["loops"]
-        vars(self).update({name: value for name, value in report.items() if name not in {"version", "input"}})
+        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        self.options = report.get("options", {})
         self.uv = uv
         self.uv.flags.writeable = False
         self.loops = as_loops([loop["vertices"] for loop in loops])
@@ -255,7 +272,7 @@ class UniformizeResult:
         return mesh_with_fields(source.mesh, source.polygons, disk_to_uv(self.uv), self.log_scale, angle)
 
     def to_dict(self) -> dict[str, Any]:
-        """The command's JSON report as a new dict."""
+        """The command's JSON report as a new dict, with input_sha256 and options."""
         return copy.deepcopy(self._report)
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ._arrays import as_circles, as_indices, as_numbers, as_points
 from ._native import _koebe
-from ._options import flag, whole
+from ._options import choice, flag, whole
 from ._result import UniformizeResult
 from .errors import InputError, OptionError
 
@@ -42,18 +42,50 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
     where circles are not those of the iteration, as the mesh is too coarse for them.
     """
     _require_own_circles(result)
-    centers, radii = as_circles(result)
+    return _koebe.conformal_module(*as_circles(result), _chosen_order(result, order))
+
+
+def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None = None) -> np.ndarray:
+    """Error bars of conformal_module(result, order=order), lengths in the unit disk: what the mesh's resolution makes.
+
+    The same surface is mapped on a mesh with four times as many faces, whose new vertices lie on the smooth surface
+    and the smooth rims that the mesh seems to be cut from; each bar is twice the change of its number, and the root
+    mean square of all changes. On exact domains 97 % of the errors lie within, and half of the bars are less than 5
+    times the error (docs/shapes.md). It takes about 5 times as long as the map, once for each result. Raises InputError
+    where circles are not the surface's, SolverError.
+    """
+    if not isinstance(result, UniformizeResult):
+        raise TypeError(f"module_error takes a result of uniformize, not {type(result).__name__}")
+    chosen = _chosen_order(result, order)
+    refined = _koebe.conformal_module(*_refined(result), chosen)
+    return _koebe.module_error(conformal_module(result, order=chosen.tolist()), refined)
+
+
+def _refined(result: UniformizeResult) -> tuple[np.ndarray, np.ndarray]:
+    """The circles of the result's loops on a finer mesh, kept with the result."""
+    kept = vars(result)
+    if "_refined" not in kept:
+        options = _koebe.UniformizeOptions()
+        options.method = choice(result.method, "method", _koebe.Method)
+        options.engine = choice(result.engine, "engine", _koebe.Engine)
+        _require_own_circles(result)
+        kept["_refined"] = _koebe.refined_circles(mapped_surface(result), options)
+    return kept["_refined"]
+
+
+def _chosen_order(result: Any, order: Sequence[int] | str | None) -> np.ndarray:
+    count = len(as_circles(result)[1])
     if isinstance(order, str):
         if order != "canonical":
             raise OptionError(f"order must be None, 'canonical' or a list of loops, not {order!r}")
         chosen = canonical_order(result)
     elif order is None:
-        chosen = np.arange(len(radii), dtype=np.int32)
+        chosen = np.arange(count, dtype=np.int32)
     else:
-        chosen = as_indices(order, "order", len(radii), "loops")
-    if len(chosen) != len(radii):
-        raise InputError(f"the order must name each of the {len(radii)} loops once")
-    return _koebe.conformal_module(centers, radii, chosen)
+        chosen = as_indices(order, "order", count, "loops")
+    if len(chosen) != count:
+        raise InputError(f"the order must name each of the {count} loops once")
+    return chosen
 
 
 def module_names(loop_count: int) -> list[str]:
@@ -75,7 +107,8 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray,
 
 
 def module_distance(a: Any, b: Any) -> float:
-    """L2 distance of two conformal modules; of two results, that in the orders that match_loops finds."""
+    """L2 distance of two conformal modules, a length in the unit disk; of two results, that in the orders that
+    match_loops finds."""
     if hasattr(a, "radii") and hasattr(b, "radii"):
         return match_loops(a, b)[2]
     first, second = as_numbers(a, "the module"), as_numbers(b, "the module")
@@ -84,11 +117,19 @@ def module_distance(a: Any, b: Any) -> float:
     return math.dist(first, second)
 
 
+def mapped_surface(result: UniformizeResult) -> "_koebe.MappedSurface":
+    """The result as the native module takes it."""
+    off = [np.sort(vertices).tolist() for vertices in result.off_circle]
+    loops = [loop.tolist() for loop in result.loops]
+    circles = result.centers, result.radii, result.own_circle.tolist()
+    return _koebe.MappedSurface(*result.surface, result.uv, loops, off, *circles)
+
+
 class DomainAlignment:
     """An automorphism of the unit disk that lays one circle domain over another: z -> turn (z - a) / (1 - conj(a) z).
 
     match       the target's loop for each of the source's
-    residual    root of the mean over the holes of squared differences of centres and radii
+    residual    root of the mean over the holes of squared differences of centres and radii, lengths in the disk
     largest, worst    the largest of them and its hole
     misses      (L,) each loop's, in lengths of the disk: root of the squared differences of centre and radius
     misses_in_radii    the same in radii of the source's loop: what is small in the disk may be large for a small hole
@@ -107,6 +148,9 @@ class DomainAlignment:
         self.misses_in_radii = self.misses / radii
         self.converged: bool = native.converged
 
+    def __repr__(self) -> str:
+        return f"<koebe.DomainAlignment residual {self.residual:.3g}, holes miss by up to {self.largest:.3g}>"
+
     def __call__(self, points: Any) -> np.ndarray:
         """The images (n, 2) of points (n, 2) of the target's disk."""
         return self._native(as_points(points, "points", 2))
@@ -117,6 +161,7 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
 
     match    the target's loop for each of the source's, 0 for 0; None: as match_loops finds them
     With one hole the circles leave the rotation free, and without a hole everything: the free part is the identity's.
+    Lengths are in the unit disk.
     """
     a, b = as_circles(source), as_circles(target)
     chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(b[1]), "loops")

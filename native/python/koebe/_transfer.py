@@ -2,15 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any
 
 import numpy as np
 
-from ._arrays import as_indices
+from ._arrays import as_indices, as_numbers
 from ._native import _koebe
-from ._options import flag
-from ._result import UniformizeResult
-from ._shapes import DomainAlignment
+from ._options import flag, vertex
+from ._result import Beltrami, UniformizeResult
+from ._shapes import DomainAlignment, mapped_surface
 from .errors import InputError
 
 
@@ -24,7 +25,10 @@ class Correspondence:
     distances   (V_b,) how far outside a's domain b's vertex was before it was put to the nearest point, disk lengths
     alignment   of a's domain over b's: which loops correspond, and by how much the holes miss
     fitted      whether the holes were then bent onto each other; False where that would have turned faces over
-    uv          (V_a, 2) a's domain as it was laid over b's
+    uv          (V_a, 2) a's domain as it was laid over b's; with landmarks inside faces, those are cut there, and the
+                map is linear in the pieces
+    beltrami    |mu| of the bending of a's aligned domain, mean and max over the faces, dimensionless: 0 without any
+    flipped     faces that the bending has turned over: 0
     """
 
     faces: np.ndarray
@@ -34,7 +38,16 @@ class Correspondence:
     alignment: DomainAlignment
     fitted: bool
     uv: np.ndarray
+    beltrami: Beltrami
+    flipped: int
     triangles: np.ndarray
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.Correspondence {len(self.points)} points, holes miss by up to "
+            f"{self.alignment.misses_in_radii.max():.3g} radii, {'fitted' if self.fitted else 'not fitted'}, "
+            f"|mu| {self.beltrami['mean']:.3g} in the mean, {self.beltrami['max']:.3g} at most>"
+        )
 
     def carry(self, field: Any) -> np.ndarray:
         """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's, linear in each face."""
@@ -45,17 +58,28 @@ class Correspondence:
 
 
 def transfer(
-    a: UniformizeResult, b: UniformizeResult, field: Any = None, *, match: Sequence[int] | None = None, fit: bool = True
+    a: UniformizeResult,
+    b: UniformizeResult,
+    field: Any = None,
+    *,
+    match: Sequence[int] | None = None,
+    fit: bool = True,
+    landmarks: Sequence[tuple[Any, Any]] | None = None,
 ) -> Any:
     """What surface a has at the points that correspond to the vertices of surface b, with as many loops.
 
     a's circle domain is laid over b's by the automorphism of the disk that brings the holes nearest (align_domains).
     fit=True then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, no
     face turns over, but it is quasi-conformal where the holes differ.
-    field    (V_a,) or (V_a, k) at a's vertices: its values at b's vertices, (V_b,) or (V_b, k) float64, are returned
-             None: the Correspondence itself
-    match    a's loop for each of b's, 0 for 0; None: as match_loops finds them
-    Raises InputError, also where circles are not those of the surface.
+    field      (V_a,) or (V_a, k) at a's vertices: its values at b's vertices, (V_b,) or (V_b, k) float64, are returned
+               None: the Correspondence itself
+    match      a's loop for each of b's, 0 for 0; None: as match_loops finds them
+    landmarks  pairs (on a, on b) that shall correspond: each a vertex, or a point (x, y, z), in the surface's unit,
+               which stands for the nearest of the surface. Then the domain is bent further, circles to circles. Of the
+               maps that take landmarks to landmarks exactly and turn no face over it is the one with the least fourth
+               power of |mu| over the surface. On a rim landmarks are vertices of both
+    Raises InputError, also where circles are not those of the surface and for landmarks that exclude each other, and
+    SolverError where no such map was found: `elements` are the landmarks, by their places in the list.
     """
     for result in (a, b):
         if not isinstance(result, UniformizeResult):
@@ -63,14 +87,33 @@ def transfer(
     chosen = [] if match is None else as_indices(match, "match", len(a.loops), "loops").tolist()
     if match is not None and not chosen:
         raise InputError("the match must name each of the loops of a once, the outer one first")
-    found = _koebe.correspond(_mapped(b), _mapped(a), chosen, flag(fit, "fit"))
+    pairs = _pairs(landmarks)
+    on_a, on_b = (_places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
+    found = _koebe.correspond(mapped_surface(b), mapped_surface(a), chosen, flag(fit, "fit"), on_b, on_a)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
     places = Correspondence(**found, triangles=a.surface[1])
     return places if field is None else places.carry(field)
 
 
-def _mapped(result: UniformizeResult) -> "_koebe.MappedSurface":
-    off = [np.sort(vertices).tolist() for vertices in result.off_circle]
-    loops = [loop.tolist() for loop in result.loops]
-    circles = result.centers, result.radii, result.own_circle.tolist()
-    return _koebe.MappedSurface(*result.surface, result.uv, loops, off, *circles)
+def _pairs(landmarks: Any) -> list[Any]:
+    pairs = [] if landmarks is None else list(landmarks)
+    for number, pair in enumerate(pairs):
+        if isinstance(pair, (str, bytes)) or not hasattr(pair, "__len__") or len(pair) != 2:
+            raise InputError(f"landmark {number} is no pair: a point on a and one on b", [number], "landmarks")
+    return pairs
+
+
+def _places(result: UniformizeResult, points: list[Any]) -> "list[_koebe.SurfacePoint]":
+    """Where vertices and points lie on the surface."""
+    if not points:
+        return []
+    numbers, positions = np.full(len(points), -1, np.int32), np.zeros((len(points), 3))
+    for number, point in enumerate(points):
+        if isinstance(point, Integral):
+            numbers[number] = vertex(point, "landmarks")
+            continue
+        position = as_numbers(point, "landmarks")
+        if len(position) != 3:
+            raise InputError(f"landmark {number} is neither a vertex nor a point (x, y, z)", [number], "landmarks")
+        positions[number] = position
+    return _koebe.surface_points(*result.surface, numbers.tolist(), positions)

@@ -7,7 +7,7 @@ class KoebeError(Exception):
     """Base of all errors.
 
     elements   what offends, by number; edges by the two vertices of each
-    of         what the elements are: "vertices", "faces", "edges", "loops" or "none"
+    of         what the elements are: "vertices", "faces", "edges", "loops", "landmarks" or "none"
     """
 
     def __init__(self, message: str = "", elements: Sequence[int] = (), of: str = "none") -> None:

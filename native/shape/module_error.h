@@ -1,0 +1,26 @@
+// How far a conformal module may be from that of the surface that the mesh stands for.
+#pragma once
+
+#include "core/api.h"
+#include "core/execution.h"
+#include "core/types.h"
+#include "pipeline/options.h"
+#include "pipeline/result.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// The circles of the same surface on a mesh with four times as many faces (refine_smoothly), in the order of `loops`.
+/// @param loops of the map of the given mesh @param options of that map: the outer loop is again the first
+/// @throws what uniformize throws; InputError circles that are not the surface's (require_own_circles)
+KOEBE_API std::vector<Circle> refined_circles(const Vertices& vertices, const Triangles& triangles,
+                                              const std::vector<LoopReport>& loops, UniformizeOptions options,
+                                              ExecutionContext& context);
+
+/// Bars that the error of a module lies within, as a rule: twice the change of each number to the finer mesh and the
+/// root mean square of all changes. For second order the error is 4/3 of the change (Richardson); the rest is for
+/// numbers that change little by chance. Measured on exact domains: docs/shapes.md.
+KOEBE_API VectorXd module_error(const VectorXd& module, const VectorXd& refined);
+
+}  // namespace koebe

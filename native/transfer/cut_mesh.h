@@ -1,0 +1,36 @@
+// A mesh with more vertices: faces are cut so that given points of them are vertices.
+#pragma once
+
+#include "transfer/surface_point.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct CutMesh {
+    Triangles triangles;              ///< (F') the pieces
+    std::vector<Index> face;          ///< (F') of the mesh, whose piece each is
+    std::vector<SurfacePoint> added;  ///< where the vertices V, V + 1, ... lie in the mesh
+    std::vector<Index> vertex;        ///< of each point: one of the mesh, or an added one
+
+    /// (V + added) rows of a field that is linear in each face of the mesh.
+    template <typename Rows>
+    Rows extended(const Rows& rows, const Triangles& of_mesh) const
+    {
+        Rows result(rows.rows() + static_cast<Eigen::Index>(added.size()), rows.cols());
+        result.topRows(rows.rows()) = rows;
+        for (std::size_t i = 0; i < added.size(); ++i)
+            result.row(rows.rows() + static_cast<Eigen::Index>(i)) = added[i].of(rows, of_mesh);
+        return result;
+    }
+
+    /// A point of a piece as one of the mesh.
+    SurfacePoint on_mesh(Index piece, const Eigen::RowVector3d& weights, const Triangles& of_mesh,
+                         Index vertex_count) const;
+};
+
+/// Cuts a face into three at a point of it, or the faces on both sides of an edge into two; a point nearer to an edge
+/// or a vertex than 1e-8 of the face counts as on it.
+CutMesh cut_at_points(const Triangles& triangles, Index vertex_count, const std::vector<SurfacePoint>& points);
+
+}  // namespace koebe

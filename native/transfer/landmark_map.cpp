@@ -1,0 +1,303 @@
+#include "transfer/landmark_map.h"
+
+#include "core/errors.h"
+#include "foldover/foldover_free.h"
+#include "linear/sparse_cholesky.h"
+#include "surface/laplacian.h"
+#include "transfer/landmark_pins.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace koebe {
+namespace {
+
+using Mobility = FoldoverProblem::Mobility;
+
+constexpr double power = 2.0, slack = 1e-4;  // of the energy, dimensionless: the fourth power of |mu|
+constexpr int most_trials = 60;              // steps of one way, those that fail too
+constexpr double shortest_step = 1.0 / 256;  // of the whole way
+constexpr int steps_between = 4;             // of Newton, after each step of the way
+constexpr int steps_at_the_end = 60;
+constexpr double settled = 1e-7;             // relative decrease of the energy
+constexpr double bows[] = {0.0, 0.5, -0.5};  // heights of the ways' arcs, over the distance
+constexpr double least_height = 1e-9;        // of a face that moves, over its longest edge
+constexpr double most_cotangent = 20.0;      // of an angle, for the displacement
+constexpr double least_area = 1e-3;          // of a face or around a vertex, over the mean
+
+Complex at(const PlanarPoints& points, Eigen::Index i) { return {points(i, 0), points(i, 1)}; }
+
+void put(PlanarPoints& points, Eigen::Index i, Complex z) { points.row(i) << z.real(), z.imag(); }
+
+double doubled_area(const Triangles& triangles, const PlanarPoints& uv, Eigen::Index f)
+{
+    const Complex a = at(uv, triangles(f, 0));
+    return std::imag(std::conj(at(uv, triangles(f, 1)) - a) * (at(uv, triangles(f, 2)) - a));
+}
+
+/// Where a vertex is with a share t of its way done: on a parabola of this height over the distance, or on its circle.
+Complex on_way(const Pin& pin, const std::vector<Circle>& circles, double t, double bow)
+{
+    if (t >= 1.0) return pin.end;
+    if (pin.loop < 0) return pin.begin + (pin.end - pin.begin) * Complex(t, 4.0 * bow * t * (1.0 - t));
+    const Complex center = circles[pin.loop].center;
+    return center + (pin.begin - center) * std::polar(1.0, t * std::arg((pin.end - center) / (pin.begin - center)));
+}
+
+class LandmarkBending {
+public:
+    LandmarkBending(const MappedSurface& target, const std::vector<Circle>& circles, const PlanarPoints& aligned,
+                    const PlanarPoints& bent, const std::vector<SurfacePoint>& landmarks, const VectorXcd& places)
+        : target_(target), circles_(circles)
+    {
+        map_.mesh = cut_at_points(target.triangles, static_cast<Index>(target.uv.rows()), landmarks);
+        aligned_ = map_.mesh.extended(aligned, target.triangles);
+        start_ = map_.mesh.extended(bent, target.triangles);
+        pins_ = landmark_pins(map_.mesh, target.triangles, target.loops, circles, start_, places);
+        set_problem();
+        folded_ = folded_faces(map_.mesh.triangles, start_).size();
+    }
+
+    LandmarkMap run(const ExecutionContext& context)
+    {
+        const DirichletSolver extension(bending_matrix(), fixed_);
+        for (const double bow : bows)
+            if (go(extension, bow, context)) return std::move(map_);
+        if (unfold(extension, context)) return std::move(map_);
+        throw SolverError("no map that is one to one was found: the landmarks stand in each other's way, or the mesh "
+                          "is too coarse for them, most of all at " +
+                              landmark_numbers(stuck_),
+                          ElementKind::landmarks, stuck_);
+    }
+
+private:
+    void set_problem()
+    {
+        const Triangles& triangles = map_.mesh.triangles;
+        const Eigen::Index count = aligned_.rows();
+        const Vertices vertices = map_.mesh.extended(target_.vertices, target_.triangles);
+        lengths_ = edge_lengths(vertices, triangles);
+        problem_.mobility.assign(count, Mobility::free);
+        problem_.circles.resize(count);
+        fixed_.assign(count, 1);
+        for (Eigen::Index i = 0; i < triangles.size(); ++i) fixed_[triangles.data()[i]] = 0;
+        for (std::size_t k = 0; k < circles_.size(); ++k)
+            for (const Index v : target_.loops[k].vertices) {
+                const bool off = std::ranges::binary_search(target_.loops[k].off_circle, v);
+                problem_.mobility[v] = off ? Mobility::held : Mobility::sliding;
+                problem_.circles[v] = circles_[k];
+                fixed_[v] = 1;
+            }
+        for (const Pin& pin : pins_) {
+            problem_.mobility[pin.vertex] = Mobility::held;
+            fixed_[pin.vertex] = 1;
+        }
+        // Faces that the map has lost already stay as they are, as far as their vertices are moved by no step.
+        std::vector<Index> whole;
+        std::vector<double> areas;
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+            const Complex a = at(aligned_, triangles(f, 0)), b = at(aligned_, triangles(f, 1)),
+                          c = at(aligned_, triangles(f, 2));
+            const double longest = std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
+            if (doubled_area(triangles, aligned_, f) > least_height * longest &&
+                doubled_area(triangles, start_, f) > 0.0) {
+                whole.push_back(static_cast<Index>(f));
+                Eigen::Matrix2d shape;
+                shape << (b - a).real(), (c - a).real(), (b - a).imag(), (c - a).imag();
+                problem_.reference.push_back(shape);
+                areas.push_back(triangle_area(lengths_(f, 0), lengths_(f, 1), lengths_(f, 2)));
+            } else {
+                for (const Index v : triangles.row(f)) problem_.mobility[v] = Mobility::held;
+            }
+        }
+        problem_.triangles = triangles(whole, Eigen::all);
+        problem_.weight = Eigen::Map<const VectorXd>(areas.data(), static_cast<Eigen::Index>(areas.size()));
+        const double mean = problem_.weight.size() > 0 ? problem_.weight.mean() : 1.0;
+        problem_.weight = (problem_.weight / mean).cwiseMax(least_area);
+        problem_.floor = VectorXd::Zero(problem_.triangles.rows());
+    }
+
+    /// u' B u is the integral of the squared Laplacian of u over the surface.
+    SparseMatrix bending_matrix() const
+    {
+        const Index count = static_cast<Index>(aligned_.rows());
+        const EdgeLengths cotangents =
+            half_cotangents(lengths_).cwiseMin(0.5 * most_cotangent).cwiseMax(-0.5 * most_cotangent);
+        const SparseMatrix laplacian = cotan_laplacian(map_.mesh.triangles, cotangents, count);
+        const VectorXd areas = vertex_areas(map_.mesh.triangles, lengths_, count);
+        VectorXd weights = areas.cwiseMax(least_area * areas.mean()).cwiseInverse() * areas.mean();
+        for (const LoopReport& loop : target_.loops)
+            for (const Index v : loop.vertices) weights[v] = 0.0;
+        return laplacian * weights.asDiagonal() * laplacian;
+    }
+
+    /// Angles by which a rim's vertices go on when its landmarks go to t: linear in the angle between two of them.
+    void turn_rim(PlanarPoints& points, std::size_t k, double t, double bow) const
+    {
+        const VertexLoop& loop = target_.loops[k].vertices;
+        const Circle& circle = circles_[k];
+        const auto arm = [&](std::size_t i) { return at(points, loop[i % loop.size()]) - circle.center; };
+        std::vector<std::pair<std::size_t, double>> held;  // places in the loop, and their turns
+        for (const Pin& pin : pins_) {
+            if (pin.loop != static_cast<int>(k)) continue;
+            const auto i = static_cast<std::size_t>(std::ranges::find(loop, pin.vertex) - loop.begin());
+            held.emplace_back(i, std::arg((on_way(pin, circles_, t, bow) - circle.center) / arm(i)));
+        }
+        if (held.empty()) return;
+        std::ranges::sort(held);
+        const PlanarPoints before = points;
+        for (std::size_t h = 0; h < held.size(); ++h) {
+            const auto [first, turn] = held[h];
+            const auto [next, next_turn] = held[(h + 1) % held.size()];
+            const std::size_t last = h + 1 < held.size() ? next : next + loop.size();
+            std::vector<double> angle{0.0};
+            for (std::size_t i = first; i < last; ++i) {
+                const Complex from = at(before, loop[i % loop.size()]) - circle.center;
+                const Complex to = at(before, loop[(i + 1) % loop.size()]) - circle.center;
+                angle.push_back(angle.back() + std::abs(std::arg(to / from)));
+            }
+            for (std::size_t i = first; i < last; ++i) {
+                const Index v = loop[i % loop.size()];
+                if (problem_.mobility[v] != Mobility::sliding && i != first) continue;
+                const double share = angle.back() > 0.0 ? angle[i - first] / angle.back() : 0.0;
+                const Complex from = at(before, v) - circle.center;
+                put(points, v, circle.center + from * std::polar(1.0, (1.0 - share) * turn + share * next_turn));
+            }
+        }
+    }
+
+    /// Positions of all vertices, those of rims and landmarks moved on to t.
+    PlanarPoints step_to(const DirichletSolver& extension, const PlanarPoints& now, double t, double bow) const
+    {
+        PlanarPoints wanted = now;
+        for (std::size_t k = 0; k < circles_.size(); ++k) turn_rim(wanted, k, t, bow);
+        for (const Pin& pin : pins_) put(wanted, pin.vertex, on_way(pin, circles_, t, bow));
+        const PlanarPoints there = now + PlanarPoints(extension.solve(wanted - now));
+        for (Eigen::Index v = 0; v < wanted.rows(); ++v)
+            if (!fixed_[v]) wanted.row(v) = there.row(v);
+        return wanted;
+    }
+
+    /// Newton steps that turn no face over.
+    void relax(PlanarPoints& now, int steps, const ExecutionContext& context)
+    {
+        problem_.points = now;
+        minimize_foldover_free(problem_, context,
+                               {.max_iterations = steps,
+                                .area_weight = 0.0,
+                                .settled = settled,
+                                .strict = true,
+                                .power = power,
+                                .slack = slack});
+        if (problem_.points.allFinite() && is_one_to_one(problem_.points)) now = problem_.points;
+    }
+
+    bool is_one_to_one(const PlanarPoints& uv) const
+    {
+        return uv.allFinite() && folded_faces(map_.mesh.triangles, uv).size() <= folded_ && rims_in_order(uv);
+    }
+
+    /// Whether each rim runs round its circle once, and never back.
+    bool rims_in_order(const PlanarPoints& uv) const
+    {
+        for (std::size_t k = 0; k < circles_.size(); ++k) {
+            std::vector<Complex> arms;
+            for (const Index v : target_.loops[k].vertices)
+                if (!std::ranges::binary_search(target_.loops[k].off_circle, v))
+                    arms.push_back(at(uv, v) - circles_[k].center);
+            double sum = 0.0;
+            for (std::size_t i = 0; i < arms.size(); ++i) {
+                const double turn = (k == 0 ? 1.0 : -1.0) * std::arg(arms[(i + 1) % arms.size()] / arms[i]);
+                sum += turn >= 0.0 ? turn : turn + 2.0 * std::numbers::pi;
+            }
+            if (sum > 3.0 * std::numbers::pi) return false;
+        }
+        return true;
+    }
+
+    /// The landmarks at whose vertices faces are folded; all of them if there is none.
+    void blame(const PlanarPoints& uv)
+    {
+        std::vector<char> folded(uv.rows(), 0);
+        for (const Index f : folded_faces(map_.mesh.triangles, uv))
+            for (const Index v : map_.mesh.triangles.row(f)) folded[v] = 1;
+        stuck_.clear();
+        for (const Pin& pin : pins_)
+            if (folded[pin.vertex]) stuck_.push_back(pin.landmark);
+        if (stuck_.empty())
+            for (const Pin& pin : pins_) stuck_.push_back(pin.landmark);
+    }
+
+    bool go(const DirichletSolver& extension, double bow, const ExecutionContext& context)
+    {
+        PlanarPoints now = start_;
+        double reached = 0.0, step = 1.0;
+        for (int trial = 0; trial < most_trials && reached < 1.0; ++trial) {
+            context.checkpoint();
+            const double share = std::min(step, 1.0 - reached);
+            PlanarPoints next = step_to(extension, now, reached + share, bow);
+            if (is_one_to_one(next)) {
+                now = std::move(next);
+                reached += share;
+                step = 2.0 * share;
+                relax(now, reached < 1.0 ? steps_between : steps_at_the_end, context);
+            } else if ((step = 0.5 * share) < shortest_step) {
+                blame(next);
+                return false;
+            }
+        }
+        if (reached < 1.0) {
+            blame(now);
+            return false;
+        }
+        map_.uv = std::move(now);
+        return true;
+    }
+
+    /// At once, and then the folded faces turned back.
+    bool unfold(const DirichletSolver& extension, const ExecutionContext& context)
+    {
+        problem_.points = step_to(extension, start_, 1.0, 0.0);
+        if (!problem_.points.allFinite()) return false;
+        minimize_foldover_free(problem_, context);
+        if (!is_one_to_one(problem_.points)) return false;
+        map_.uv = problem_.points;
+        relax(map_.uv, steps_at_the_end, context);
+        return true;
+    }
+
+    const MappedSurface& target_;
+    const std::vector<Circle>& circles_;
+    LandmarkMap map_;
+    PlanarPoints aligned_, start_;
+    std::vector<Pin> pins_;
+    EdgeLengths lengths_;
+    FoldoverProblem problem_;
+    std::vector<char> fixed_;
+    std::size_t folded_ = 0;
+    std::vector<Index> stuck_;
+};
+
+}  // namespace
+
+std::vector<Index> folded_faces(const Triangles& triangles, const PlanarPoints& uv)
+{
+    std::vector<Index> folded;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (!(doubled_area(triangles, uv, f) > 0.0)) folded.push_back(static_cast<Index>(f));
+    return folded;
+}
+
+LandmarkMap map_with_landmarks(const MappedSurface& target, const std::vector<Circle>& circles,
+                               const PlanarPoints& aligned, const PlanarPoints& bent,
+                               const std::vector<SurfacePoint>& landmarks, const VectorXcd& places,
+                               const ExecutionContext& context)
+{
+    return LandmarkBending(target, circles, aligned, bent, landmarks, places).run(context);
+}
+
+}  // namespace koebe
