@@ -28,7 +28,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SECONDARY:
-.PHONY: help build native wheel package dist check-dist lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-farms test-asan \
+.PHONY: help build native wheel package dist matrix lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-farms test-asan \
         test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
@@ -69,6 +69,10 @@ dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS
 	$(PYTHON) scripts/package_extension.py --release
 	$(PYTHON) scripts/check_dist.py dist
 	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist .
+
+# As root: other Debians in folders, wine and qemu. Two hours and 10 GB the first time; NAMES="debian12 windows" takes some.
+matrix: dist ## the zips of `make dist` tested in every Blender that can be had here: docs/compatibility.md
+	$(PYTHON) scripts/matrix.py $(NAMES)
 
 build/venv-dist/.done: native/bundle/requirements.txt | $(DONE)/install-build
 	$(PYTHON) -m venv $(@D)
