@@ -27,7 +27,10 @@ AtomicFile* first_in_list = nullptr;
     throw FileError("cannot write " + path.string() + " (" + reason + ")");
 }
 
-[[noreturn]] void fail_writing(const fs::path& path, int error_number) { fail_writing(path, std::strerror(error_number)); }
+[[noreturn]] void fail_writing(const fs::path& path, int error_number)
+{
+    fail_writing(path, std::strerror(error_number));
+}
 
 }  // namespace
 

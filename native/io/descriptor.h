@@ -28,8 +28,8 @@ void remove_now(const std::filesystem::path& path) noexcept;
 /// Whether this user may write to what is there. In a folder: may make files. @returns false and errno
 bool may_write(const std::filesystem::path& path);
 
-/// Whether two paths name one thing that is there, through symbolic and hard links. The null device, which keeps nothing,
-/// is never the same as anything.
+/// Whether two paths name one thing that is there, through symbolic and hard links. The null device, which keeps
+/// nothing, is never the same as anything.
 bool is_same(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// The same for an open file.

@@ -1,10 +1,12 @@
 #include "transfer/correspondence.h"
 
 #include "circle_domain.h"
+#include "core/connectivity.h"
 #include "core/errors.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 using namespace koebe;
@@ -38,6 +40,11 @@ double signed_area(const PlanarPoints& uv, const Triangles& triangles, Eigen::In
     return 0.5 * (a[0] * b[1] - a[1] * b[0]);
 }
 
+std::ptrdiff_t rim_edges(const Triangles& triangles, Eigen::Index vertex_count)
+{
+    return std::ranges::count(pair_halfedges(triangles, static_cast<Index>(vertex_count)), no_twin);
+}
+
 }  // namespace
 
 TEST(CutMesh, pieces_fill_their_faces_and_points_are_vertices)
@@ -68,7 +75,10 @@ TEST(CutMesh, pieces_fill_their_faces_and_points_are_vertices)
     }
     for (Eigen::Index f = 0; f < area.size(); ++f)
         EXPECT_NEAR(area[f], signed_area(surface.uv, surface.triangles, f), 1e-12);
-    EXPECT_EQ(mesh.triangles.rows() - surface.triangles.rows(), 2 * static_cast<Eigen::Index>(mesh.added.size()));
+    // Euler: two triangles for each point, and one for each on a rim.
+    EXPECT_EQ(mesh.triangles.rows() + rim_edges(mesh.triangles, uv.rows()),
+              surface.triangles.rows() + rim_edges(surface.triangles, surface.uv.rows()) +
+                  2 * static_cast<Eigen::Index>(mesh.added.size()));
 }
 
 TEST(LandmarkMap, landmarks_lie_exactly_and_rims_stay_on_their_circles)

@@ -29,12 +29,13 @@ def script(name):
 def bundle(folder, *names):
     (folder / "koebe").mkdir(parents=True)
     for name in names:
+        (folder / "koebe" / name).parent.mkdir(exist_ok=True)
         (folder / "koebe" / name).write_bytes(name.encode())
     return folder
 
 
 def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch):
-    build = bundle(tmp_path / "build", "libkoebe.so", "_koebe.cpython-311-x86_64-linux-gnu.so",
+    build = bundle(tmp_path / "build", "libkoebe.so", "bin/koebe", "_koebe.cpython-311-x86_64-linux-gnu.so",
                    "_koebe.cpython-313-x86_64-linux-gnu.so")  # fmt: skip
     packer = script("bundle_wheel")
     for out in ("one", "two"):
@@ -52,13 +53,15 @@ def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch)
             name = line.rsplit(",", 2)[0]
             assert packer.record_line(name, archive.read(name)).strip() == line
     assert {line.rsplit(",", 2)[0] for line in lines} == set(names)
-    assert {"koebe/__init__.py", "koebe/libkoebe.so", "koebe/py.typed"} < set(names)
+    assert {"koebe/__init__.py", "koebe/libkoebe.so", "koebe/bin/koebe", "koebe/py.typed"} < set(names)
     assert "Requires-Python: >=3.10\n" in metadata and "Requires-Dist: numpy" in metadata
 
 
 def test_what_is_no_bundle_makes_no_wheel(tmp_path, monkeypatch):
     packer = script("bundle_wheel")
-    for number, names in enumerate([("libkoebe.so",), ("_koebe.cpython-311-darwin.so",)]):
+    for number, names in enumerate([
+        ("libkoebe.so", "bin/koebe"), ("_koebe.cpython-311-darwin.so", "bin/koebe"),
+        ("libkoebe.so", "_koebe.cpython-311-x86_64-linux-gnu.so")]):
         build = bundle(tmp_path / str(number), *names)
         monkeypatch.setattr(sys, "argv", ["", str(build), "linux_x86_64", str(tmp_path / "out")])
         with pytest.raises(SystemExit, match="holds no bundle"):
