@@ -4,8 +4,8 @@
     blender -b --factory-startup --python-exit-code 1 -P bench/side_by_side.py -- [--islands N] [--faces N] [--runs N]
     python bench/side_by_side.py -- [options]                                    (with the bpy module)
 
-The islands are those of one object, and then objects of their own. Medians of the runs, and the load of the machine: other
-work takes cores away, so the ratio says something where nothing else runs. The coordinates have to be the same.
+The islands are those of one object, and then objects of their own. Medians of the runs, and the load of the machine:
+other work takes cores away, so the ratio says something where nothing else runs. The coordinates have to be the same.
 """
 
 import argparse
@@ -38,13 +38,13 @@ def parse():
 def made(islands, faces, in_one):
     """The objects."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    vertices, quads = scenes.panel_arrays(size=round((faces / 1.88) ** 0.5))[:2]
-    vertices, quads = np.asarray(vertices), np.asarray(quads)
+    vertices, polygons = scenes.panel_arrays(size=round((faces / 1.88) ** 0.5))[:2]
+    vertices = np.asarray(vertices)
     if not in_one:
-        return [scenes.add_object(f"Island {i}", vertices, quads.tolist()) for i in range(islands)]
-    every = np.concatenate([vertices + [3.0 * i, 0.0, 0.0] for i in range(islands)])
-    faces = np.concatenate([quads + i * len(vertices) for i in range(islands)])
-    return [scenes.add_object("Islands", every, faces.tolist())]
+        return [scenes.add_object(f"Island {i}", vertices, polygons) for i in range(islands)]
+    places = np.concatenate([vertices + [3.0 * i, 0.0, 0.0] for i in range(islands)])
+    every = [[vertex + i * len(vertices) for vertex in face] for i in range(islands) for face in polygons]
+    return [scenes.add_object("Islands", places, every)]
 
 
 def seconds(objects, threads):
