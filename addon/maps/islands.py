@@ -11,7 +11,8 @@ FEW = 16
 
 
 def whole_island(surface: Surface) -> Island | None:
-    """The surface as its own island, array for array, or None if a part of it is not selected or it has a seam.
+    """The surface as its own island, array for array, or None if a part of it is not selected or it has a seam, or if
+    it is seen at once that it is several.
 
     It is what `cut_into_islands` gives if the surface is connected and no two parts of it touch in a vertex only. The
     solver finds out, so that nobody need look twice.
@@ -20,15 +21,30 @@ def whole_island(surface: Surface) -> Island | None:
     used[surface.corner_vertex] = True
     if not (surface.selected.all() and used.all()) or surface.seam.any():
         return None
+    triangles = surface.corner_vertex[surface.triangle_corners].astype(np.int32, copy=False)
+    if _falls_apart(triangles, len(surface.positions)):
+        return None
     return Island(
         vertices=surface.positions,
-        triangles=surface.corner_vertex[surface.triangle_corners].astype(np.int32, copy=False),
+        triangles=triangles,
         triangle_face=surface.triangle_face,
         source_vertex=np.arange(len(surface.positions), dtype=np.int32),
         corners=np.arange(len(surface.corner_vertex), dtype=np.int32),
         corner_vertex=surface.corner_vertex,
         faces=np.arange(len(surface.face_size)),
     )
+
+
+def _falls_apart(triangles: np.ndarray, count: int) -> bool:
+    """Whether the vertices up to some number share no triangle with those after it, as in joined objects.
+
+    That is found in a few passes; where parts are numbered in turn the solver finds out.
+    """
+    a, b, c = triangles.T
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    # Triangles across the gap after each vertex: those that begin up to it, less those that have ended.
+    across = np.cumsum(np.bincount(low, minlength=count) - np.bincount(high, minlength=count))
+    return bool((across[:-1] == 0).any())
 
 
 def cut_into_islands(surface: Surface) -> list[Island]:

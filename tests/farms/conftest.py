@@ -39,7 +39,7 @@ def library(tmp_path_factory):
     (folder / "more").mkdir()
     for i in range(FILES - 1):
         place = folder / ("more" if i % 2 else "") / f"m{i:02}.obj"
-        place.write_text(obj_text(*perforated(180 + i % 10, HOLES)))
+        place.write_text(obj_text(*perforated(240 + i % 10, HOLES)))
     (folder / "closed.off").write_text(
         "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
     )

@@ -1,4 +1,7 @@
-"""The add-on's computations side by side: order, errors, cancel, progress, memory. Without Blender."""
+"""The add-on's computations side by side: order, errors, cancel, progress, memory; what is several surfaces at once.
+
+Without Blender.
+"""
 
 import importlib.util
 import sys
@@ -6,6 +9,7 @@ import threading
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 MAPS = Path(__file__).resolve().parents[2] / "addon" / "maps"
@@ -137,3 +141,20 @@ def test_an_exception_of_the_progress_ends_everything(side):
     with pytest.raises(KeyboardInterrupt):
         run(side, work, 2, progress)
     assert time.monotonic() - begin < 4 and work.running == 0 and len(work.started) <= 4
+
+
+def test_surfaces_that_are_numbered_one_after_the_other_are_seen_to_be_several(side):
+    falls_apart = importlib.import_module("koebe_maps.islands")._falls_apart
+    chance = np.random.default_rng(1)
+    found = set()
+    for _ in range(500):
+        count = chance.integers(3, 12)
+        triangles = [chance.choice(count, 3, replace=False) for _ in range(chance.integers(1, 6))]
+        used, triangles = np.unique(triangles, return_inverse=True)
+        triangles = triangles.reshape(-1, 3).astype(np.int32)
+        expected = any(
+            not ((triangles.min(axis=1) <= k) & (triangles.max(axis=1) > k)).any() for k in range(len(used) - 1)
+        )
+        assert falls_apart(triangles, len(used)) == expected
+        found.add(expected)
+    assert found == {True, False}
