@@ -9,7 +9,7 @@
 namespace koebe {
 namespace {
 
-constexpr double farthest = 0.01;  // of a point from the surface, over the diagonal of the bounding box
+constexpr double farthest_beside = 0.01;  // of a point from the surface, over the diagonal of the bounding box
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::vector<SurfacePoint> surface_points(const Vertices& vertices, const Triangl
         places = nearest_triangles(vertices, triangles, positions);
         const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
         for (Index i = 0; i < count; ++i)
-            if (!(places.distance[i] <= farthest * diagonal)) far.push_back(i);
+            if (!(places.distance[i] <= farthest_beside * diagonal)) far.push_back(i);
     }
     if (!far.empty())
         throw InputError("landmark " + std::to_string(far[0]) +
