@@ -47,7 +47,7 @@ def fit_placement(points: np.ndarray, targets: np.ndarray) -> Placement | None:
     if not SMALLEST_PLACE <= size < np.inf:  # nor where the targets are not finite
         return None
     rotation = float(np.angle(np.vdot(source, target)))
-    offset = target_center - size * np.exp(1j * rotation) * source_center
+    offset = target_center - cmath.rect(size, rotation) * source_center
     return Placement((float(offset.real), float(offset.imag)), float(size), rotation)
 
 

@@ -30,7 +30,8 @@ def unroll(surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.nda
     vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
     seam, selected, opened = surface.seam.copy(), np.zeros_like(surface.selected), []
     for island, uv, loops in tubes:
-        log = np.log(concentric(as_complex(uv), loops[1]))
+        annulus = concentric(as_complex(uv), loops[1])
+        log = np.log(np.abs(annulus)) + 1j * np.angle(annulus)
         vertex[island.corners] = island.corner_vertex
         edges, first, uses = np.unique(surface.corner_edge[island.corners], return_index=True, return_counts=True)
         inside = (uses == 2) & ~surface.seam[edges]  # to cut along a boundary cuts nothing

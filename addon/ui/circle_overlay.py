@@ -33,8 +33,8 @@ def visible_islands(context: bpy.types.Context) -> Iterator[KoebeIslandReport]:
 
 def unit_circle(segments: int) -> np.ndarray:
     """(segments + 1, 2): once round, the first point again at the end."""
-    turn = np.exp(2j * np.pi * np.arange(segments + 1) / segments)
-    return np.stack([turn.real, turn.imag], axis=1)
+    angles = 2.0 * np.pi * np.arange(segments + 1) / segments
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 def draw() -> None:
