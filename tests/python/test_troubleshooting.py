@@ -21,6 +21,7 @@ NOT_FROM_BLENDER = (
     "the order must name", "center and balance exclude", "a circle domain has one circle", "the first circle must be",
     "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "partners change",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
+    "landmark",
 )  # fmt: skip
 OPTION_ERRORS = "maps/options.py", "batch.py"  # the panel's fields cannot take such values
 
@@ -65,7 +66,7 @@ def native_messages():
                     continue
                 argument = re.sub(r'"\s*\+?\s*"', "", match[1])  # a literal over several lines
                 text = "{}".join(re.findall(r'"((?:[^"\\]|\\.)*)"', argument))
-                if not any(words in text for words in NOT_FROM_BLENDER):
+                if text and not any(words in text for words in NOT_FROM_BLENDER):
                     yield path.name, text
 
 
