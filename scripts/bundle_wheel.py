@@ -3,18 +3,18 @@
 
 Usage: bundle_wheel.py BUILD_FOLDER PLATFORM_TAG OUT_FOLDER     PLATFORM_TAG: manylinux_2_28_x86_64, win_amd64, ...
 
-The wheel holds the package `koebe`, in it the shared library, and beside that a module `_koebe` for each Python, which
-finds its own by the suffix; the command is there too. So its tag is py3-none-PLATFORM, and Blender's extensions take it for every Python. Name,
-dependencies and the like come from pyproject.toml, the version from CMakeLists.txt. Equal input gives an equal wheel.
+The wheel holds the package `koebe`, in it the shared library, the command, and a module `_koebe` for each Python, which
+finds its own by the suffix. So its tag is py3-none-PLATFORM, and Blender's extensions take it for every Python. What it
+says of itself comes from pyproject.toml, the version from CMakeLists.txt. Equal input gives an equal wheel.
 """
 
 import base64
 import hashlib
 import sys
-import tomllib
 import zipfile
 from pathlib import Path
 
+import tomllib
 from package_extension import DATE, ROOT, project_version
 
 PACKAGE = ROOT / "native" / "python" / "koebe"

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from binary_facts import Facts, facts_of
 
+BINARIES = (".so", ".dylib", ".dll", ".pyd", ".exe", "bin/koebe")
 PYTHONS = ("310", "311", "312", "313", "314")
 MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 # Of the system alone: what every machine of it has. manylinux's list [PEP 600], and Windows 10's.
@@ -55,7 +56,7 @@ def main() -> None:
         tag = wheel.stem.rsplit("-", 1)[1]
         system = re.match(r"[a-z]+", tag)[0]
         with zipfile.ZipFile(wheel) as archive:
-            binaries = [name for name in archive.namelist() if name.endswith((".so", ".dylib", ".dll", ".pyd", ".exe", "bin/koebe"))]
+            binaries = [name for name in archive.namelist() if name.endswith(BINARIES)]
             missing = [python for python in PYTHONS if not any(f"_koebe.cp{python}-" in name or f"-{python}-" in name
                                                                for name in binaries)]
             said = [f"has no module for Python {python}" for python in missing]

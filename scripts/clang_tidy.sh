@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-tidy on every source of native/, after a configured build in BUILD. Ends with 1 if it finds anything.
+# clang-tidy on every source of native/ that is built on this system, after a configured build in BUILD. Ends with 1 if it finds anything.
 # The analyzer's checks take five times as long as all others: ANALYZER=1 adds them.
 # Usage: scripts/clang_tidy.sh BUILD [FILE ...]
 set -euo pipefail
@@ -8,7 +8,13 @@ cd "$(dirname "$0")/.."
 build=$1
 shift
 files=("$@")
-[ ${#files[@]} -gt 0 ] || mapfile -t files < <(find native -name '*.cpp' | sort)
+[ ${#files[@]} -gt 0 ] || mapfile -t files < <(python3 - "$build" <<'PYTHON'
+import json, pathlib, sys
+here = pathlib.Path.cwd()
+names = {entry["file"] for entry in json.loads(pathlib.Path(sys.argv[1], "compile_commands.json").read_text())}
+print(*sorted(name for name in names if name.startswith(f"{here}/native/")), sep="\n")
+PYTHON
+)
 checks=-clang-analyzer-*
 [ -z "${ANALYZER:-}" ] || checks=clang-analyzer-*
 # The compile commands are gcc's; clang finds omp.h elsewhere.

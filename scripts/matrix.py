@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Test the zips of `make dist` in every Blender that can be had here, and write the table of docs/compatibility.md.
+"""Test the zips of `make dist` in every Blender to be had here, and write the table of docs/compatibility.md.
 
 Usage: matrix.py [NAME...]     as root on Debian 12. Without names: all of PLACES, one after another.
 
-Each place is made ready once, in build/matrix, and then runs tests/blender on the installed zip as scripts/blender_tests.sh
-does, or for arm64 Linux the tests of the Python package. Logs: out/matrix/NAME.log. A place that cannot be made ready
-is in the table with the reason. Standard library only.
+Each place is made ready once, in build/matrix, and then runs tests/blender on the installed zip as does
+scripts/blender_tests.sh, or for arm64 Linux the tests of the Python package. Logs: out/matrix/NAME.log. A place that
+cannot be made ready is in the table with the reason. Standard library only.
 """
 
 import datetime
@@ -198,7 +198,7 @@ def tested(name: str) -> dict[str, object]:
 
 def write_page(results: dict[str, dict[str, object]]) -> None:
     FACTS.write_text(json.dumps(results, indent=1, sort_keys=True) + "\n", encoding="utf-8")
-    rows = ["| where | Blender | Python | passed | failed | skipped | on |", "| --- | --- | --- | --- | --- | --- | --- |"]
+    rows = ["| where | Blender | Python | passed | failed | skipped | on |", "| ---" * 7 + " |"]
     for name in PLACES:
         if name in results:
             facts = results[name]

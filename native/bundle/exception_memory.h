@@ -1,6 +1,6 @@
-// Where exceptions live when no memory is left. The library and the modules that call it have each a C++ runtime inside,
-// and each runtime a small reserve of its own for that; but an exception of the library may end in a module, whose
-// runtime would give its memory back to a reserve it never came from. So the modules use the library's.
+// Where exceptions live when no memory is left. The library and the modules that call it have each a C++ runtime
+// inside, and each runtime a small reserve of its own for that; but an exception of the library may end in a module,
+// whose runtime would give its memory back to a reserve it never came from. So the modules use the library's.
 #pragma once
 
 #include "core/api.h"

@@ -57,8 +57,7 @@ SurfacePatch fill_on_surface(const Vertices& loop)
 PlanarMesh planar_patch(const VectorXcd& polygon)
 {
     double length = 0.0;
-    for (Eigen::Index i = 0; i < polygon.size(); ++i)
-        length += distance(polygon[(i + 1) % polygon.size()], polygon[i]);
+    for (Eigen::Index i = 0; i < polygon.size(); ++i) length += distance(polygon[(i + 1) % polygon.size()], polygon[i]);
     return planar_patch(polygon, {.longest = length / static_cast<double>(polygon.size())});
 }
 

@@ -43,8 +43,7 @@ VectorXcd rounded(const VectorXcd& points)
 double mean_edge(const VectorXcd& polygon)
 {
     double length = 0.0;
-    for (Eigen::Index i = 0; i < polygon.size(); ++i)
-        length += distance(polygon[(i + 1) % polygon.size()], polygon[i]);
+    for (Eigen::Index i = 0; i < polygon.size(); ++i) length += distance(polygon[(i + 1) % polygon.size()], polygon[i]);
     return length / static_cast<double>(polygon.size());
 }
 

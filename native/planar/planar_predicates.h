@@ -11,7 +11,8 @@ namespace koebe {
 /// a x b: twice the signed area of the triangle 0, a, b.
 inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
-/// |a - b|, rounded alike everywhere. Of std::abs the last bit is another in every C library, and a mesh may hang on it.
+/// |a - b|, rounded alike everywhere. Of std::abs the last bit is another in every C library, and a mesh may hang on
+/// it.
 inline double distance(Complex a, Complex b) { return std::sqrt(std::norm(a - b)); }
 
 /// Whether the closed segments a-b and c-d have a point in common, up to round-off.

@@ -197,7 +197,8 @@ def _edited(mesh):
         "edges": [(tuple(v.index for v in edge.verts), edge.seam, edge.smooth) for edge in edited.edges],
         "faces": [([v.index for v in face.verts], face.material_index, face.smooth) for face in edited.faces],
         "select mode": sorted(edited.select_mode),
-        "history": [(type(one).__name__, one.index) for one in edited.select_history],
+        "history": [(type(one).__name__, one.index) for one in map(edited.select_history.__getitem__,
+                                                                   range(len(edited.select_history)))],
         "active face": edited.faces.active and edited.faces.active.index,
     }
     for name, elements in (("verts", edited.verts), ("edges", edited.edges), ("faces", edited.faces)):
