@@ -11,7 +11,7 @@ namespace koebe::batch {
 std::shared_ptr<ChildProcess> ChildProcess::start(uv_loop_t& loop, const std::vector<std::string>& words,
                                                   const std::filesystem::path& log, double time_limit, Ended ended)
 {
-    const std::shared_ptr<ChildProcess> child(new ChildProcess);
+    std::shared_ptr<ChildProcess> child(new ChildProcess);
     child->self_ = child;
     child->ended_ = std::move(ended);
     child->spawn(loop, words, log);

@@ -59,7 +59,7 @@ std::map<fs::path, fs::file_time_type> reports_in(const fs::path& folder)
 std::string csv_field(const Json& value)
 {
     if (value.is_null()) return {};
-    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);

@@ -45,6 +45,7 @@
 namespace koebe::kernels {
 
 struct DenseKernels {
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a declaration allows none
 #define KOEBE_MEMBER(name, parameters, arguments) void(*name) parameters;
     KOEBE_DENSE_KERNELS(KOEBE_MEMBER)
 #undef KOEBE_MEMBER
