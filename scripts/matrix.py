@@ -67,15 +67,24 @@ def other_debian(suite: str, host: str, *prepare: str) -> tuple[Command, dict[st
         names = "ca-certificates,python3,python3-venv,python3-numpy,python3-pytest,blender"
         run("debootstrap", "--variant=minbase", f"--include={names}", suite, folder)
         shutil.copytree("/etc/ssl/certs", folder / "etc" / "ssl" / "certs", symlinks=False, dirs_exist_ok=True)
+        (folder / "etc" / "mtab").symlink_to("../proc/self/mounts")  # Blender asks for it, and complains on every start
         (folder / "complete").touch()
     (folder / INSIDE[1:]).mkdir(exist_ok=True)
-    if not os.path.ismount(folder / INSIDE[1:]):
-        run("mount", "--bind", ROOT, folder / INSIDE[1:])
     if prepare:
-        run("chroot", folder, "bash", "-c", *prepare)
-    inside = f"cd {INSIDE} && scripts/blender_tests.sh {host} \"$@\""
+        run(*inside(folder, *prepare))
     zip_there = f"{INSIDE}/dist/{package('linux-x64').name}"
-    return ["chroot", folder, "env", f"PACKAGE={zip_there}", "HOME=/root", "bash", "-c", inside, "tests"], {}
+    return inside(folder, f'cd {INSIDE} && PACKAGE={zip_there} scripts/blender_tests.sh {host} "$@"'), {}
+
+
+def inside(folder: Path, line: str) -> Command:
+    """A shell's line in a folder with another Debian.
+
+    What is mounted there is gone with the process and seen by no other: what tidies build/ away cannot reach through.
+    """
+    mounts = (f"mount --bind '{ROOT}' '{folder}{INSIDE}' && mount --rbind /dev '{folder}/dev' && "
+              f"mount -t proc proc '{folder}/proc'")
+    start = f"{mounts} && exec chroot '{folder}' env HOME=/root bash -c \"$0\" tests \"$@\""
+    return ["unshare", "--mount", "--propagation", "private", "bash", "-c", start, line]
 
 
 def python_wheels(folder: Path, platform: str, *names: str) -> None:
