@@ -17,6 +17,7 @@ struct Scratch {
     std::filesystem::path output, report;
 };
 
+// NOLINTNEXTLINE(bugprone-exception-escape): JSON is moved without exceptions, by functions that could throw some
 struct BatchOptions {
     std::filesystem::path output;  ///< the folder
     unsigned workers = 1;

@@ -12,6 +12,7 @@
 namespace koebe::batch {
 
 /// What a result depends on beside the mesh's bytes.
+// NOLINTNEXTLINE(bugprone-exception-escape): JSON is moved without exceptions, by functions that could throw some
 struct Recipe {
     nlohmann::ordered_json options;
     double time_limit = 0.0;  ///< seconds; 0: none
