@@ -279,7 +279,7 @@ PYBIND11_MODULE(_koebe, m)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
             return planar(d.map(complex(points)));
         });
-    py::class_<SurfacePoint>(m, "SurfacePoint");
+    [[maybe_unused]] const auto point = py::class_<SurfacePoint>(m, "SurfacePoint");
     m.def("surface_points", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                                const std::vector<Index>& numbers, const Eigen::Ref<const Vertices>& positions) {
         std::vector<NamedPoint> points;

@@ -31,7 +31,7 @@ std::vector<Circle> refined_circles(const Vertices& vertices, const Triangles& t
 
 VectorXd module_error(const VectorXd& module, const VectorXd& refined)
 {
-    const VectorXd change = (refined - module).cwiseAbs();
+    VectorXd change = (refined - module).cwiseAbs();
     if (change.size() == 0) return change;
     const double typical = change.norm() / std::sqrt(static_cast<double>(change.size()));
     return 2.0 * change + VectorXd::Constant(change.size(), typical);
