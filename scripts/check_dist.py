@@ -17,8 +17,8 @@ MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64"
 # Of the system alone: what every machine of it has. manylinux's list [PEP 600], and Windows 10's.
 SYSTEM_LIBRARIES = {
     "manylinux": r"lib(c|m|pthread|dl|rt)\.so\.\d+|ld-linux-(x86-64|aarch64)\.so\.\d|libkoebe\.so",
-    "win": r"(kernel32|advapi32|ntdll|psapi|user32|ws2_32|bcrypt(primitives)?|ucrtbase|msvcrt|python3\d+|koebe|"
-           r"api-ms-win-[a-z0-9-]+)\.dll",
+    "win": r"(kernel32|advapi32|ntdll|psapi|user32|userenv|iphlpapi|ws2_32|bcrypt(primitives)?|"
+           r"ucrtbase|msvcrt|python3\d+|koebe|api-ms-win-[a-z0-9-]+)\.dll",
     "macosx": r"/usr/lib/libSystem\.B\.dylib|@rpath/libkoebe\.dylib",
 }  # fmt: skip
 

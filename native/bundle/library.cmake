@@ -5,7 +5,7 @@ target_compile_definitions(koebe_core PUBLIC KOEBE_SHARED PRIVATE KOEBE_OWN_KERN
 set_target_properties(koebe_core PROPERTIES
   OUTPUT_NAME koebe
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe
-  RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe INSTALL_NAME_DIR "@rpath" BUILD_WITH_INSTALL_RPATH ON
+  RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe
   UNITY_BUILD ON UNITY_BUILD_MODE GROUP DISABLE_PRECOMPILE_HEADERS ON)
 
 # The sources in fourteen heaps, which takes a quarter of the time: most of it goes into headers. Which heap, a file's name
@@ -19,6 +19,10 @@ foreach(source IN LISTS all)
   set_source_files_properties(${source} PROPERTIES UNITY_GROUP heap${heap})
 endforeach()
 
+if(APPLE)  # by hand: CMake knows no such options of zig's
+  set_target_properties(koebe_core PROPERTIES NO_SONAME ON)
+  target_link_options(koebe_core PRIVATE -Wl,-install_name,@rpath/libkoebe.dylib)
+endif()
 if(WIN32)
   set_target_properties(koebe_core PROPERTIES PREFIX "")
   target_link_libraries(koebe_core PRIVATE psapi)
