@@ -57,6 +57,7 @@ from koebe_uv_batch.headless.exit_and_signals import (  # noqa: E402
     USAGE,
     Signals,
     Stop,
+    drop_what_cannot_be_printed,
     refusal,
     say,
     tell,
@@ -90,6 +91,8 @@ def main() -> int:
     except Exception:
         traceback.print_exc()
         return BROKEN
+    finally:
+        drop_what_cannot_be_printed()
 
 
 def run() -> int:

@@ -195,7 +195,7 @@ def tested(name: str) -> dict[str, object]:
         except subprocess.TimeoutExpired:
             return {**facts, "not run": f"it was not done after {HOURS} hours"}
     text = log.read_text(errors="replace")
-    version = re.search(r"^Blender (\S+).*?Python ([\d.]+): (\S+)", text, re.MULTILINE)
+    version = re.search(r"^Blender ([\d.]+).*?Python ([\d.]+): (\S+)", text, re.MULTILINE)
     if version:
         facts |= {"blender": version[1], "python": version[2], "zip": version[3]}
     lines = [match for match in LINE.finditer(text) if match[2] or match[1]]

@@ -68,7 +68,8 @@ def _selection(mesh: bmesh.types.BMesh) -> tuple[list[list[bool]], list[tuple[st
     for elements in sequences:
         elements.index_update()
     flags = [[element.select for element in elements] for elements in sequences]
-    last = [mesh.select_history[i] for i in range(len(mesh.select_history))]  # Python 3.13 does not iterate over it
+    order: Any = mesh.select_history  # by number: Python 3.13 does not iterate over it
+    last = [order[i] for i in range(len(order))]
     history = [(VERTICES if isinstance(one, bmesh.types.BMVert) else EDGES if isinstance(one, bmesh.types.BMEdge)
                 else FACES, one.index) for one in last]  # fmt: skip
     active = mesh.faces.active

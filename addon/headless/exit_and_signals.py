@@ -73,6 +73,16 @@ def say(text: str, stream: TextIO) -> None:
         print(line.encode(encoding, "backslashreplace").decode(encoding), file=stream, flush=True)
 
 
+def drop_what_cannot_be_printed() -> None:
+    """Give up what a closed or full stream still holds: Python tries it again at its end, and 3.13 ends by 120 then."""
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except (OSError, ValueError):
+            with contextlib.suppress(OSError, ValueError):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
 def tell(text: object) -> None:
     """Say why on stderr."""
     say(f"koebe: {text}", sys.stderr)

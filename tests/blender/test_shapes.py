@@ -1,5 +1,6 @@
 """Shapes: the module of the active object, distances, and one texture carried to another surface."""
 
+import cmath
 from pathlib import Path
 
 import bpy
@@ -131,7 +132,7 @@ def test_aligned_holes_are_circles_and_no_turn_would_fit_better():
     mine, given = circles(target) - [0.5, 0.5, 0.0], circles(source) - [0.5, 0.5, 0.0]
 
     def squares(turn):
-        z = (mine[1:, 0] + 1j * mine[1:, 1]) * np.exp(1j * turn)
+        z = (mine[1:, 0] + 1j * mine[1:, 1]) * cmath.exp(1j * turn)
         return (np.abs(z - given[1:, 0] - 1j * given[1:, 1]) ** 2).sum()
 
     assert squares(0.0) <= min(squares(0.01), squares(-0.01))
@@ -141,7 +142,7 @@ def test_the_source_may_lie_anywhere_in_its_layer_with_any_loop_outside():
     source, target = pair(52)
     x, y, radius = circles(source)[1]
     z = scenes.corner_uv(source.data, "Koebe").astype(float) @ [1.0, 1j]
-    w = 0.3 + 0.4j + 0.2 * np.exp(0.5j) * radius / (z - x - 1j * y)  # the first hole is the rim
+    w = 0.3 + 0.4j + 0.2 * cmath.exp(0.5j) * radius / (z - x - 1j * y)  # the first hole is the rim
     set_uv(source, np.column_stack([w.real, w.imag]))
     assert bpy.ops.uv.koebe_carry_texture() == {"FINISHED"}
     given, uv = scenes.corner_uv(source.data, "Koebe"), scenes.corner_uv(target.data, "Koebe")
