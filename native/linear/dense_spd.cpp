@@ -91,15 +91,17 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& a)
 MatrixXd lower_times_transpose(const MatrixXd& lower)
 {
     const int m = static_cast<int>(lower.rows());
-    MatrixXd product = MatrixXd::Zero(m, m);
-    // A block of columns of L touches only the rows from its own down, so the zeros above cost nothing.
+    MatrixXd product(m, m);
+    // A block of columns of L touches only the rows from its own down, so the zeros above cost nothing. The first one
+    // reaches all rows and begins with beta = 0: zeros written beforehand would be pages that are read before they are
+    // written, and each costs an interrupt of all cores that run this program.
     const int block = 256;
-    const double one = 1.0;
+    const double zero = 0.0, one = 1.0;
     for (int k = 0; k < m; k += block) {
         const int height = m - k, width = std::min(block, m - k);
         MatrixXd panel = lower.block(k, k, height, width);
         panel.topRows(width).triangularView<Eigen::StrictlyUpper>().setZero();
-        dsyrk_("L", "N", &height, &width, &one, panel.data(), &height, &one, &product(k, k), &m);
+        dsyrk_("L", "N", &height, &width, &one, panel.data(), &height, k == 0 ? &zero : &one, &product(k, k), &m);
     }
     product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
     return product;
