@@ -68,6 +68,7 @@ dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS
 	scripts/dist.sh build/venv-dist $(PLATFORMS)
 	$(PYTHON) scripts/package_extension.py --release
 	$(PYTHON) scripts/check_dist.py dist
+	scripts/audit_wheels.sh build/venv-dist dist
 	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist .
 
 # As root: other Debians in folders, wine and qemu. Two hours and 10 GB the first time; NAMES="debian12 windows" takes some.
@@ -77,7 +78,7 @@ matrix: dist ## the zips of `make dist` tested in every Blender that can be had 
 build/venv-dist/.done: native/bundle/requirements.txt | $(DONE)/install-build
 	$(PYTHON) -m venv $(@D)
 	$(@D)/bin/pip install --quiet --no-deps --require-hashes -r native/bundle/requirements.txt
-	$(@D)/bin/pip install --quiet build 'scikit-build-core>=0.10'
+	$(@D)/bin/pip install --quiet build 'scikit-build-core>=0.10' 'auditwheel>=6.1' 'delvewheel>=1.10'
 	@touch $@
 
 # ---------------------------------------------------------------- tests
