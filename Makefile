@@ -67,9 +67,9 @@ PLATFORMS ?= linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
 dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS, and the source package: dist/
 	scripts/dist.sh build/venv-dist $(PLATFORMS)
 	$(PYTHON) scripts/package_extension.py --release
+	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist .
 	$(PYTHON) scripts/check_dist.py dist
 	scripts/audit_wheels.sh build/venv-dist dist
-	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist .
 
 # As root: other Debians in folders, wine and qemu. Two hours and 10 GB the first time; NAMES="debian12 windows" takes some.
 matrix: dist ## the zips of `make dist` tested in every Blender that can be had here: docs/compatibility.md

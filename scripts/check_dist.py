@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Check the wheels of `make dist` by what their binaries ask of a system. Standard library only.
+"""Check the wheels of `make dist` by what their binaries ask of a system, and what is in the source package.
 
-Usage: check_dist.py FOLDER_OF_WHEELS
+Usage: check_dist.py FOLDER     Standard library only.
 """
 
 import re
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -47,8 +48,22 @@ def problems_of(facts: Facts, system: str, tag: str) -> list[str]:
     return found
 
 
-def main() -> None:
+def sources_told(folder: Path) -> int:
+    """Say of each source package what is wrong with it; how much that is."""
     bad = 0
+    for package in sorted(folder.glob("koebe-*.tar.gz")):
+        with tarfile.open(package) as archive:
+            names = {name.split("/", 1)[1] for name in archive.getnames() if "/" in name}
+        said = [f"has {name}" for name in sorted(names) if name.split("/")[0].startswith("build") or ".so" in name][:3]
+        said += [f"has no {name}" for name in ("CMakeLists.txt", "pyproject.toml", "LICENSE", "native/CMakeLists.txt")
+                 if name not in names]
+        bad += len(said)
+        print(f"{package.name}: {'; '.join(said) or 'good'}  [{len(names)} files]")
+    return bad
+
+
+def main() -> None:
+    bad = sources_told(Path(sys.argv[1]))
     wheels = sorted(Path(sys.argv[1]).glob("koebe-*-py3-none-*.whl"))
     if not wheels:
         raise SystemExit(f"no wheels in {sys.argv[1]}")

@@ -2,6 +2,7 @@
 
 import importlib
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -38,12 +39,19 @@ def environment(**changes):
     return {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **{name: str(value) for name, value in changes.items()}}
 
 
-def start(script, folder, opened=(), arguments=(), before=None, **changes):
+def as_from_a_terminal():
+    """Where this run itself is in the background, or under nohup, it ignores signals, and its children would too."""
+    for name in ("SIGINT", "SIGHUP", "SIGQUIT"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_DFL)
+
+
+def start(script, folder, opened=(), arguments=(), before=as_from_a_terminal, **changes):
     """A started process with its output in pipes, as text; `before` is called in it first."""
     words = [*command(script, opened), *(["--", *map(str, arguments)] if arguments else [])]
     return subprocess.Popen(
-        words, cwd=folder, env=environment(**changes), text=True, errors="surrogateescape", preexec_fn=before,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        words, cwd=folder, env=environment(**changes), text=True, errors="surrogateescape",
+        preexec_fn=before if os.name == "posix" else None, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
 
 
