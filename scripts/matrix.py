@@ -4,8 +4,9 @@
 Usage: matrix.py [NAME...]     as root on Debian 12. Without names: all of PLACES, one after another.
 
 Each place is made ready once, in build/matrix, and then runs tests/blender on the installed zip as does
-scripts/blender_tests.sh, or for arm64 Linux the tests of the Python package. Logs: out/matrix/NAME.log. A place that
-cannot be made ready is in the table with the reason. Standard library only.
+scripts/blender_tests.sh, or tests/gui in Blender's window, or for arm64 Linux the tests of the Python package. Logs:
+out/matrix/NAME.log; pictures: out/gui*. A place that cannot be made ready is in the table with the reason. Standard
+library only.
 """
 
 import datetime
@@ -91,6 +92,24 @@ def inside(folder: Path, line: str) -> Command:
               f"mount -t proc proc '{folder}/proc'")
     start = f"{mounts} && exec chroot '{folder}' env HOME=/root bash -c \"$0\" tests \"$@\""
     return ["unshare", "--mount", "--propagation", "private", "bash", "-c", start, line]
+
+
+GUI = ("blender --version | head -n 1; PATH=/usr/bin:$PATH xvfb-run -a -s '-screen 0 1280x800x24' "
+       "python3 -m pytest -p no:cacheprovider tests/gui \"$@\"")
+GUI_NEEDS = "xvfb xauth xdotool imagemagick libgl1-mesa-dri libegl1"
+
+
+def debian_window() -> tuple[Command, dict[str, str]]:
+    """The tests that click, in Blender's window: pictures in out/gui."""
+    run(ROOT / "scripts" / "install.sh", "build", "blender", "gui")
+    return ["bash", "-c", GUI, "tests"], {"PACKAGE": str(package("linux-x64"))}
+
+
+def other_window(suite: str) -> tuple[Command, dict[str, str]]:
+    """The same in a folder with another Debian: pictures in out/gui-SUITE."""
+    command, _ = other_debian(suite, "blender", f"command -v xdotool || {APT} install {GUI_NEEDS}")
+    zip_there = f"{INSIDE}/dist/{package('linux-x64').name}"
+    return [*command[:-1], f"cd {INSIDE} && export PACKAGE={zip_there} PICTURES=gui-{suite} && {GUI}"], {}
 
 
 def python_wheels(folder: Path, platform: str, *names: str) -> None:
@@ -181,6 +200,9 @@ PLACES: dict[str, tuple[str, Callable[[], tuple[Command, dict[str, str]]]]] = {
     "debian13": ("Debian 13's Blender", lambda: other_debian("trixie", "blender")),
     "bpy-5.2": ("bpy 5.2 LTS on Debian 13", lambda: other_debian("trixie", "/opt/bpy/bin/python", BPY_52)),
     "sid": ("Debian sid's Blender", lambda: other_debian("sid", "blender")),
+    "window-12": ("the window of Debian 12's Blender", debian_window),
+    "window-13": ("the window of Debian 13's Blender", lambda: other_window("trixie")),
+    "window-sid": ("the window of Debian sid's Blender", lambda: other_window("sid")),
     "windows": ("bpy 4.5 LTS for Windows, under wine", windows),
     "arm64": ("the Python package on arm64 Linux, under qemu", arm64),
 }
@@ -201,9 +223,9 @@ def tested(name: str) -> dict[str, object]:
         except subprocess.TimeoutExpired:
             return {**facts, "not run": f"it was not done after {HOURS} hours"}
     text = log.read_text(errors="replace")
-    version = re.search(r"^Blender ([\d.]+).*?Python ([\d.]+): (\S+)", text, re.MULTILINE)
+    version = re.search(r"^Blender ([\d.]+)(?:.*?Python ([\d.]+): (\S+))?", text, re.MULTILINE)
     if version:
-        facts |= {"blender": version[1], "python": version[2], "zip": version[3]}
+        facts |= {key: value for key, value in zip(("blender", "python", "zip"), version.groups()) if value}
     lines = [match for match in LINE.finditer(text) if match[2] or match[1]]
     if not lines:
         return {**facts, "not run": "no test was run: " + text.strip().rsplit("\n", 1)[-1]}

@@ -1,5 +1,6 @@
 """One Blender window for each file of tests, with the zip installed as a user does."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -10,8 +11,10 @@ SAMPLES = ROOT / "blend_samples"
 
 @pytest.fixture(scope="module")
 def window(tmp_path_factory):
-    """The window, on factory settings."""
-    (package,) = (path for path in (ROOT / "dist").glob("koebe_uv-*.zip") if path.stem.count("-") == 1)
+    """The window, on factory settings, with the zip that PACKAGE names, or else that of `make package`."""
+    package = os.environ.get("PACKAGE")
+    if not package:
+        (package,) = (path for path in (ROOT / "dist").glob("koebe_uv-*.zip") if path.stem.count("-") == 1)
     home = tmp_path_factory.mktemp("blender")
     found = Window(str(package), home)
     yield found

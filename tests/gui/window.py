@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-PICTURES = ROOT / "out" / "gui"
+PICTURES = ROOT / "out" / os.environ.get("PICTURES", "gui")
 WIDTH, HEIGHT = 1280, 800
 START_SECONDS = 90
 TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
