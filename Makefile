@@ -12,6 +12,8 @@ LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
 # notebook.
 LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
         distributed==2026.8.0 nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0
+# What ours is compared with, and what draws it.
+COMPARED := bpy==5.0.1 xatlas==0.0.11 matplotlib==3.11.2
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
 VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYTHON)))
 DONE  := build/.done
@@ -29,7 +31,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .NOTPARALLEL:
 .SECONDARY:
 .PHONY: help build native wheel package dist matrix lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-farms test-asan \
-        test-tsan test-fuzz fuzz build-fuzz demo bench reproduce bench-addon figures reliability samples clean distclean
+        test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -159,6 +161,9 @@ demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.
 bench: build $(DONE)/install-blender ## time and accuracy: out/bench/
 	$(PYTHON) bench/run.py
 
+compare: native build/venv-compare/.done ## Blender's unwraps, xatlas and ours side by side: docs/comparison.md
+	build/venv-compare/bin/python bench/compare.py --write
+
 reproduce: native ## the paper's tables, rates and figures: out/reproduce/
 	$(PYTHON) bench/reproduce.py
 
@@ -193,6 +198,11 @@ build/venv-lint/.done: Makefile | $(DONE)/install-build
 build/venv-labs/.done: Makefile | $(DONE)/install-build
 	/usr/bin/python3 -m venv $(@D)
 	$(@D)/bin/pip install --quiet $(LABS)
+	@touch $@
+
+build/venv-compare/.done: Makefile | $(DONE)/install-build $(DONE)/install-blender
+	/usr/bin/python3 -m venv $(@D)
+	$(@D)/bin/pip install --quiet $(COMPARED)
 	@touch $@
 
 build/venv-bpy-%/.done: | $(DONE)/install-build $(DONE)/install-blender

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Our maps beside Blender's unwraps and xatlas, on models that nobody placed a seam on: docs/comparison.md.
+
+    python bench/compare.py [--models NAME,…] [--write]     with the modules bpy and xatlas: `make compare`
+
+Each map is made by a process of its own, ended after LIMIT seconds. Leaves out/compare/*.json, one a model, and a
+picture of each; --write puts the table and the pictures into docs/.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+ROOT = Path(__file__).resolve().parent.parent
+OUT, PAGE, IMAGES = ROOT / "out" / "compare", ROOT / "docs" / "comparison.md", ROOT / "docs" / "images"
+LIMIT = 240  # seconds of one map
+BEGIN, END = "<!-- the table of `make compare` -->", "<!-- its end -->"
+HEAD = ["unwrap", "islands", "seams / √area", "density, 5 to 95 %", "area within a factor 3", "angle error", "flips",
+        "faces lost", "overlap", "seconds"]  # fmt: skip
+PICTURED = ("cat_8k_2", "makehuman_body_13k_8", "bear_14k_10", "face_five_holes", "genus1_kitten_closed", "torus")
+
+
+def parse():
+    parser = argparse.ArgumentParser(prog="compare.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--models", type=lambda text: text.split(","))
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--one", nargs=3, metavar=("MODEL", "UNWRAP", "FILE"), help=argparse.SUPPRESS)
+    return parser.parse_args()
+
+
+def map_one(model, unwrap, path):
+    """Make one map in this process and leave its figures in a file, its UVs beside it."""
+    import compare_models
+    import numpy as np
+    import uv_measures
+    from compare_unwraps import UNWRAPS
+
+    vertices, triangles = compare_models.arrays(model)
+    try:
+        uv, seconds = UNWRAPS[unwrap](vertices, triangles)
+        facts = {**uv_measures.measure(vertices, triangles, uv), "seconds": seconds}
+        np.savez_compressed(path.with_suffix(".npz"), vertices=vertices, triangles=triangles, uv=uv.astype("f4"))
+    except Exception as error:
+        facts = {"error": f"{type(error).__name__}: {error}"}
+    path.write_text(json.dumps({**facts, "faces": len(triangles)}), encoding="utf-8")
+
+
+def mapped_beside(model, unwrap, folder):
+    """The figures of one map, made in a process of its own."""
+    path = folder / f"{model}, {unwrap}.json"
+    words = [sys.executable, __file__, "--one", model, unwrap, str(path)]
+    with (OUT / "log.txt").open("ab") as log:
+        try:
+            subprocess.run(words, timeout=LIMIT, stdout=log, stderr=log, check=False)
+        except subprocess.TimeoutExpired:
+            return {"error": f"not done after {LIMIT} s"}
+    if not path.exists():
+        return {"error": "the process ended without a word"}
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def cells(facts):
+    """A row as it is printed."""
+    if "error" in facts:
+        return [facts["error"][:110], *[""] * (len(HEAD) - 2)]
+    spread = f"{facts['spread']:.1f}" if facts["spread"] < 1000.0 else f"{facts['spread']:.0e}"
+    return [f"{facts['islands']:,}", f"{facts['seams']:.1f}", spread, f"{100.0 * facts['even']:.0f} %",
+            f"{facts['angle']:.1f}°", f"{facts['flips']:,}", f"{facts['lost']:,}",
+            f"{100.0 * facts['overlap']:.1f} %", f"{facts['seconds']:.2f}"]  # fmt: skip
+
+
+def table(model, rows):
+    """One model's table as Markdown."""
+    faces = next((row["faces"] for row in rows.values() if "faces" in row), 0)
+    lines = [f"### {model}, {faces:,} triangles", "", "| " + " | ".join(HEAD) + " |", "|" + " --- |" * len(HEAD)]
+    lines += ["| " + " | ".join([unwrap, *cells(facts)]) + " |" for unwrap, facts in rows.items()]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    options = parse()
+    if options.one:
+        map_one(options.one[0], options.one[1], Path(options.one[2]))
+        sys.stdout.flush()
+        os._exit(0)  # the bpy module may wait for ever in its own clean-up
+    import compare_models
+    import compare_picture
+    from compare_unwraps import UNWRAPS
+
+    OUT.mkdir(parents=True, exist_ok=True)
+    tables = []
+    with tempfile.TemporaryDirectory() as folder:
+        for model in options.models or compare_models.names():
+            rows = {unwrap: mapped_beside(model, unwrap, Path(folder)) for unwrap in UNWRAPS}
+            (OUT / f"{model}.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+            tables.append(table(model, rows))
+            print(tables[-1], flush=True)
+            picture = OUT / f"{model}.png"
+            compare_picture.draw({unwrap: Path(folder) / f"{model}, {unwrap}.npz" for unwrap in UNWRAPS}, picture)
+            if options.write and model in PICTURED:
+                (IMAGES / f"compare_{model}.png").write_bytes(picture.read_bytes())
+    if options.write:
+        page = PAGE.read_text(encoding="utf-8")
+        before, rest = page.split(BEGIN)
+        PAGE.write_text(f"{before}{BEGIN}\n\n" + "\n".join(tables) + f"\n{END}{rest.split(END)[1]}", encoding="utf-8")
+    sys.stdout.flush()
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""UV layouts side by side, coloured by texel density: grey as the median, blue denser, red sparser, by factors of 3."""
+
+import matplotlib
+import numpy as np
+import uv_measures
+
+matplotlib.use("agg")
+from matplotlib import pyplot  # noqa: E402
+from matplotlib.collections import PolyCollection  # noqa: E402
+
+
+def draw(files, path):
+    """A picture of the maps in {title: .npz}; those that are not there stay empty."""
+    figure, axes = pyplot.subplots(1, len(files), figsize=(2.2 * len(files), 2.5), dpi=100)
+    for axis, (title, file) in zip(axes, files.items()):
+        axis.set_title(title, fontsize=7)
+        axis.set_axis_off()
+        axis.set_aspect("equal")
+        if file.exists():
+            draw_one(axis, np.load(file))
+    figure.tight_layout(pad=0.3)
+    figure.savefig(path)
+    pyplot.close(figure)
+
+
+def draw_one(axis, data):
+    uv, points = data["uv"].astype(float), data["vertices"][data["triangles"]]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        logs = np.log(np.abs(uv_measures.signed_areas(uv)) / uv_measures.triangle_areas(points))
+    area = uv_measures.triangle_areas(points)
+    order = np.argsort(logs)
+    middle = logs[order][np.searchsorted(np.cumsum(area[order]), area.sum() / 2.0)]
+    shade = np.clip(np.nan_to_num((logs - middle) / np.log(9.0), nan=-1.0, neginf=-1.0, posinf=1.0), -1.0, 1.0)
+    axis.add_collection(PolyCollection(uv, array=shade, cmap="coolwarm_r", clim=(-1.0, 1.0), edgecolors="face",
+                                       linewidths=0.15))  # fmt: skip
+    axis.autoscale()
