@@ -44,7 +44,7 @@ class CircleDomain:
 
     old_uv          (n, 2) UVs of the island's vertices, in 32 bits as they were stored
     points          (n,) complex, the vertices in the unit disk
-    loops           the rim first, then the holes by the first vertex of the mesh on each
+    loops           the rim first, then the holes; as they are read, by the first vertex of the mesh on each
     offset, scale   the disk's centre and radius in the UVs
     """
 
@@ -55,17 +55,30 @@ class CircleDomain:
     offset: complex
     scale: float
 
-    def placed(self, z: np.ndarray, out: np.ndarray | None = None) -> np.ndarray:
+    def placed(self, z: np.ndarray) -> np.ndarray:
         """UVs (n, 2) of points (n,) of the unit disk."""
         return as_points(self.offset + self.scale * z)
+
+    def key(self, loop: Loop) -> int:
+        """The first vertex of the mesh on a loop, by which it is known again."""
+        return int(self.island.source_vertex[loop.vertices].min())
+
+    def numbered(self, keys: list[int]) -> "CircleDomain":
+        """The domain with its holes in the order of these keys, those of all loops."""
+        known = {self.key(loop): loop for loop in self.loops[1:]}
+        return dataclasses.replace(self, loops=[self.loops[0], *(known.pop(key) for key in keys if key in known),
+                                                *known.values()])  # fmt: skip
 
     def in_disk(self, u: float, v: float) -> complex:
         """The point of the plane in which the disk is the unit disk."""
         return (complex(u, v) - self.offset) / self.scale
 
-    def hole_at(self, z: complex) -> int:
-        """Number of the hole whose circle has that point inside, or 0."""
-        return next((k for k, loop in enumerate(self.loops) if k and abs(z - loop.center) < loop.radius), 0)
+    def hole_at(self, z: complex, near: float = 0.0) -> int:
+        """Number of the hole whose circle has that point inside, or else the nearest one not farther than `near`; or 0.
+        """
+        away = {k: abs(z - loop.center) - loop.radius for k, loop in enumerate(self.loops) if k}
+        nearest = min(away, key=lambda k: away[k], default=0)
+        return nearest if nearest and away[nearest] <= near else 0
 
     def rim_change(self, number: int) -> Moebius:
         """The map of the domain that makes a hole the rim: its circle turned inside out; then the point goes to 0 at
@@ -82,17 +95,28 @@ class CircleDomain:
         turn = upright_turn(self.island, as_points(self.moved_points(moved)[0]))
         return rotation(float(np.angle(turn))).after(moved)
 
-    def moved(self, number: int, center: complex, angle: float) -> Moebius:
+    def moved(self, number: int, center: complex, angle: float, hole: int = 0) -> Moebius:
         """The map that makes a loop the rim, then brings a point of the disk to 0, then turns by an angle in radians.
 
-        Raises DomainError if there is no such loop, or if the point is not inside the disk.
+        With `hole`, the number of a loop, its circle comes into the middle in the place of the point. Raises
+        DomainError if there is no such loop, or if the point is not inside the disk.
         """
         if not abs(center) < 1.0:
-            raise DomainError("the centre has to be a point inside the disk: its coordinates a circle of radius 1")
+            raise DomainError("the centre has to be inside the disk: less than 1 from (0, 0)")
         changed = self.rim_change(number)
+        if hole:
+            center = self._middle_of(hole, changed, number)
         if center:
             changed = to_middle(center).after(changed)
         return rotation(angle).after(changed) if angle else changed
+
+    def _middle_of(self, hole: int, changed: Moebius, rim: int) -> complex:
+        """The point that has to come to 0, after `changed`, for a hole's circle to be in the middle."""
+        if not 0 < hole < len(self.loops):
+            raise DomainError(f"there is no hole {hole}: the island has {len(self.loops) - 1}")
+        if hole == rim:
+            raise DomainError(f"loop {hole} is to be the rim, so it cannot be a hole in the middle")
+        return own_center(*changed.circle(self.loops[hole].center, self.loops[hole].radius))
 
     def _weights(self) -> np.ndarray:
         """The surface's area (n,) at each vertex."""
@@ -132,10 +156,10 @@ class CircleDomain:
             return CircleImage(self, self.loops, self.old_uv, rounded(self.old_uv, self.island.triangles)[1])
         z, off = self.moved_points(moved)
         loops = [self._moved_loop(loop, moved, z, off) for loop in self.loops]
-        loops.sort(key=lambda loop: -loop.radius)
-        rest = sorted(loops[1:], key=lambda loop: int(self.island.source_vertex[loop.vertices].min()))
+        rim = int(np.argmax([loop.radius for loop in loops]))
+        loops[0], loops[rim] = loops[rim], loops[0]  # the others keep their numbers
         uv, flipped = rounded(self.placed(z), self.island.triangles)
-        return CircleImage(self, [loops[0], *rest], uv, flipped)
+        return CircleImage(self, loops, uv, flipped)
 
     @staticmethod
     def _moved_loop(loop: Loop, moved: Moebius, z: np.ndarray, off: np.ndarray) -> Loop:
@@ -233,10 +257,3 @@ def _in_disk(z: np.ndarray) -> np.ndarray:
     """Points that rounding had put beyond the unit circle, on it."""
     return z / np.maximum(np.abs(z), 1.0)
 
-
-def middle_of(domain: CircleDomain, number: int) -> complex:
-    """The point of the disk that has to come to 0 for a hole's circle to be in the middle. Raises DomainError."""
-    if not 0 < number < len(domain.loops):
-        raise DomainError(f"there is no hole {number}: the island has {len(domain.loops) - 1}")
-    loop = domain.loops[number]
-    return own_center(loop.center, loop.radius)

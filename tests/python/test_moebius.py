@@ -151,6 +151,16 @@ def test_the_identity_leaves_every_bit(mapped):
     assert np.array_equal(image.uv.view(np.int32), domain.old_uv.view(np.int32))
 
 
+def test_holes_keep_their_numbers(mapped):
+    domain, _ = mapped
+    keys = [domain.key(loop) for loop in domain.loops]
+    order = [keys[0], *reversed(keys[1:])]
+    domain = domain.numbered(order)
+    assert [domain.key(loop) for loop in domain.loops] == order
+    image = domain.image(domain.moved(5, 0.0, 0.0))
+    assert [domain.key(loop) for loop in image.loops] == [order[5], *order[1:5], order[0], order[6]]
+
+
 @pytest.mark.parametrize("rim", range(7))
 @pytest.mark.parametrize("center, angle", [(0.0, 0.0), (0.3 - 0.4j, 1.0), (-0.6j, -2.0)])
 def test_circles_stay_circles_and_nothing_is_turned_over(mapped, rim, center, angle):
@@ -182,9 +192,10 @@ def test_a_new_rim_is_balanced_and_upright(mapped):
 
 def test_a_hole_is_brought_to_the_middle(mapped):
     domain, _ = mapped
-    image = domain.image(domain.moved(0, domains.middle_of(domain, 4), 0.0))
-    (hole,) = [loop for loop in image.loops if set(loop.vertices) == set(domain.loops[4].vertices)]
-    assert abs(hole.center) < 1e-12
+    for rim in (0, 2):
+        image = domain.image(domain.moved(rim, 0.0, 0.5, hole=4))
+        assert set(image.loops[4].vertices) == set(domain.loops[4].vertices)
+        assert abs(image.loops[4].center) < 1e-12
 
 
 def test_flips_are_counted_as_they_are_in_the_uvs(mapped):
@@ -207,8 +218,10 @@ def test_errors_are_typed_and_say_what_is_wrong(mapped):
         domain.moved(9, 0.0, 0.0)
     with pytest.raises(domains.DomainError, match="inside the disk"):
         domain.moved(0, 1.0, 0.0)
-    with pytest.raises(domains.DomainError, match="there is no hole 0"):
-        domains.middle_of(domain, 0)
+    with pytest.raises(domains.DomainError, match="there is no hole 7: the island has 6"):
+        domain.moved(0, 0.0, 0.0, hole=7)
+    with pytest.raises(domains.DomainError, match="is to be the rim"):
+        domain.moved(3, 0.0, 0.0, hole=3)
     assert issubclass(domains.DomainError, maps_module("errors").KnownError)
 
 
