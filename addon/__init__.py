@@ -22,6 +22,7 @@ def _parts() -> tuple[ModuleType, ...]:
         compare_shapes,
         distortion,
         fill_holes,
+        flat_copy,
         moebius,
         option_presets,
         select_from_report,
@@ -33,7 +34,7 @@ def _parts() -> tuple[ModuleType, ...]:
     return (
         option_properties, run_report, moved_circles, shape_report,
         uniformize, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture, option_presets,
-        moebius, distortion_legend, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
+        moebius, flat_copy, distortion_legend, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 
 

@@ -12,7 +12,10 @@ from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
 from ..maps.circle_domain import CircleDomain, CircleImage, read_domains
 from ..maps.moebius import Moebius
+from ..maps.surface import next_corners
 from ..maps.wording import few
+
+MOST_EDGES = 60_000  # that are drawn while something is dragged
 
 
 class MoebiusJob:
@@ -49,12 +52,24 @@ class MoebiusJob:
         nearest = int(np.argmin(away))
         return nearest if away[nearest] <= reach else None
 
-    def show(self, domain: CircleDomain, moved: Moebius) -> None:
-        """Write a domain's image into the layer, in Object Mode, as fast as can be: a frame of many."""
+    def image_of(self, domain: CircleDomain, moved: Moebius) -> np.ndarray:
+        """UVs (n,) of a domain's vertices after a map, as complex numbers in 32 bits, for `show`."""
         z, _ = domain.moved_points(moved)
         z *= domain.scale
         z += domain.offset
-        points, island = z.astype(np.complex64), domain.island
+        return z.astype(np.complex64)
+
+    def edges(self, domain: CircleDomain) -> np.ndarray:
+        """Vertices (e, 2) of a domain's edges, each once; of more than MOST_EDGES so many, spread evenly."""
+        island, vertex = domain.island, np.zeros(len(self.surface.corner_vertex), dtype=np.int32)
+        vertex[island.corners] = island.corner_vertex
+        first = np.unique(self.surface.corner_edge[island.corners], return_index=True)[1]
+        corners = island.corners[first[:: -(-len(first) // MOST_EDGES)]]
+        return np.stack([vertex[corners], vertex[next_corners(self.surface)[corners]]], axis=1)
+
+    def show(self, domain: CircleDomain, points: np.ndarray) -> None:
+        """Write a domain's image into the layer, in Object Mode, as fast as can be: a frame of many."""
+        island = domain.island
         values = self._values.view(np.complex64)[:, 0]
         if len(island.corners) == len(values):  # then they are all, in their order
             np.take(points, island.corner_vertex, out=values, mode="clip")

@@ -3,8 +3,10 @@
 
 import math
 from collections.abc import Callable
+from typing import ClassVar
 
 import bpy
+import numpy as np
 from bpy.props import FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from ..blender import edit_mode
@@ -35,6 +37,8 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
     """Move the circles of a map: drag the disk or a hole, click a hole to make it the rim, drag outside the disk to
     turn it. Angles are kept and circles stay circles; nothing is computed anew"""
 
+    shown: ClassVar[np.ndarray | None] = None  # edges (e, 2) of what is dragged, complex, in the UVs
+
     bl_idname = "uv.koebe_moebius"
     bl_label = "Koebe Move Circles"
     bl_options = {"REGISTER", "UNDO"}
@@ -44,7 +48,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
     )
     layer: StringProperty(name="UV Layer", description="UV layer with the circles; without a name the active one")
     island: IntProperty(
-        name="Island", min=0, description="Number of the island among those whose UVs are circles, the first one being 0"
+        name="Island", min=0, description="Number of the island among those whose UVs are circles; the first one is 0"
     )
     rim: IntProperty(
         name="Rim",
@@ -133,7 +137,8 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         if bpy.app.background or not by_hand or region is None or region.type != "WINDOW":
             return self.execute(context)
         context.evaluated_depsgraph_get()
-        place = region.view2d.region_to_view(event.mouse_region_x, event.mouse_region_y)
+        self._region = region
+        place = self._place(event.mouse_region_x, event.mouse_region_y)
         try:
             jobs, problems = _jobs(context, "", self.layer, lambda job: job.domain_at(*place, REACH) is not None)
         except NativeError as error:
@@ -153,7 +158,6 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self.rim, self.hole, self.center, self.rotation = 0, 0, (0.0, 0.0), 0.0
         self._job, self._run = job, Transaction()
         domain = _numbered(context, job, job.domains[self.island])
-        self._region, self._pixel = context.region, 0.0
         self._pixel = self._place(event.mouse_region_x + 1, event.mouse_region_y)[0] - place[0]
         self._grip = Grip.at(domain, *place, NEAR * self._pixel)
         self._pressed, self._dragging, self._live = (event.mouse_x, event.mouse_y), False, False
@@ -161,7 +165,8 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
 
     def _place(self, x: float, y: float) -> tuple[float, float]:
         """The place of the UVs under a pixel of the region."""
-        return self._region.view2d.region_to_view(x, y)
+        u, v = self._region.view2d.region_to_view(x, y)
+        return u, v
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         try:
@@ -188,6 +193,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self._tidy(context)
 
     def _tidy(self, context: bpy.types.Context) -> None:
+        UV_OT_koebe_moebius.shown = None
         context.workspace.status_text_set(None)
         redraw(context)
 
@@ -208,14 +214,19 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self._dragging, domain = True, self._grip.domain
         note_group(self._run, report_of(context))
         self._entry = moved_circles.entry_of(context, self._job.name, self._job.layer, domain)
+        if self._entry is not None:
+            moved_circles.begin(self._entry, domain)
+        self._edges = self._job.edges(domain)
         self._back = edit_mode.leave(self._run, context)
         self._live = context.mode == "OBJECT"  # else only the circles move until the end
         if self._live:
             self._run.before_write(self._job.put_back)
 
     def _show(self, context: bpy.types.Context, moved: Moebius) -> None:
+        points = self._job.image_of(self._grip.domain, moved)
+        UV_OT_koebe_moebius.shown = points[self._edges]
         if self._live:
-            self._job.show(self._grip.domain, moved)
+            self._job.show(self._grip.domain, points)
         if self._entry is not None:
             moved_circles.show(self._entry, self._grip.domain, moved)
         hint = HINTS[self._grip.kind].format(math.degrees(self.rotation), self._grip.hole)

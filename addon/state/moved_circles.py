@@ -31,6 +31,13 @@ def loop_keys(entry: KoebeIslandReport) -> list[int]:
     return [min(json.loads(loop.vertices)) for loop in entry.loops]
 
 
+def begin(entry: KoebeIslandReport, domain: CircleDomain) -> None:
+    """Note the entry as it is before its circles are moved for the first time."""
+    if not entry.history:
+        entry.corners = json.dumps(domain.island.some_corner()[_on_loops(domain)].tolist())
+        _remember(entry, _hash(domain.old_uv, domain))
+
+
 def show(entry: KoebeIslandReport, domain: CircleDomain, moved: Moebius) -> None:
     """Move the circles with a map that leaves the rim where it is; the domain's loops are numbered as the entry's."""
     for place, loop in zip(entry.loops, domain.loops, strict=True):
@@ -41,11 +48,8 @@ def show(entry: KoebeIslandReport, domain: CircleDomain, moved: Moebius) -> None
 def record(entry: KoebeIslandReport, image: CircleImage, angle_error: float) -> None:
     """Bring the entry up to date with an image that was written. Its loops become those of the image, in its order."""
     domain = image.domain
-    corners = domain.island.some_corner()
+    begin(entry, domain)
     before = {key: (loop.vertices, loop.roundness) for key, loop in zip(loop_keys(entry), entry.loops, strict=True)}
-    entry.corners = json.dumps(corners[_on_loops(domain)].tolist())
-    if not entry.history:  # as it was before the first one
-        _remember(entry, _hash(domain.old_uv, domain))
     entry.angle_error, entry.flipped = angle_error, len(image.flipped)
     entry.flipped_faces = json.dumps(np.unique(domain.island.triangle_face[image.flipped]).tolist())
     entry.moved = describe(image)

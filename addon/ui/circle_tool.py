@@ -5,13 +5,15 @@ import bpy
 
 from ..operators.moebius import UV_OT_koebe_moebius
 
+CIRCLES_TOOL = "koebe_uv.circles"
+
 
 class CirclesTool(bpy.types.WorkSpaceTool):
     """What the toolbar shows."""
 
     bl_space_type = "IMAGE_EDITOR"
     bl_context_mode = "UV"
-    bl_idname = "koebe_uv.circles"
+    bl_idname = CIRCLES_TOOL
     bl_label = "Koebe Circles"
     bl_description = (
         "Move the circles of a map: drag the disk or a hole, click a hole to make it the rim,\n"

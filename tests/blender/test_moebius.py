@@ -105,7 +105,7 @@ def test_in_edit_mode_with_another_island_left_alone():
 
 
 def test_undo_and_redo_take_the_circles_along():
-    obj = mapped()
+    mapped()
     bpy.ops.ed.undo_push(message="mapped")
     told = [[tuple(loop.uv_center), loop.uv_radius, loop.vertices] for loop in report().loops]
     bpy.ops.uv.koebe_moebius("EXEC_DEFAULT", True, rim=2, center=(0.1, 0.0))
@@ -170,7 +170,11 @@ def test_frames_while_dragging_and_esc_restore_every_bit(addon, koebe):
     before = fingerprint.fingerprint()
     for angle in RING:
         moved = moebius.dragged(0.2j, 0.5 * np.exp(1j * angle))
-        job.show(domain, moved)
+        job.show(domain, job.image_of(domain, moved))
         assert np.abs(uv_of(obj) - domain.image(moved).uv[domain.island.corner_vertex]).max() < 2e-6
+    edges = job.edges(domain)
+    assert {frozenset(edge) for edge in domain.island.source_vertex[edges].tolist()} == {
+        frozenset(edge.vertices) for edge in obj.data.edges
+    }
     job.put_back()
     assert fingerprint.differences(before, fingerprint.fingerprint()) == []
