@@ -22,17 +22,19 @@ def _parts() -> tuple[ModuleType, ...]:
         compare_shapes,
         distortion,
         fill_holes,
+        flat_copy,
+        moebius,
         option_presets,
         select_from_report,
         uniformize,
     )
-    from .state import option_properties, run_report, shape_report
-    from .ui import circle_overlay, distortion_legend, menus, panels, preferences, preset_menu
+    from .state import moved_circles, option_properties, run_report, shape_report
+    from .ui import circle_overlay, circle_tool, distortion_legend, menus, panels, preferences, preset_menu
 
     return (
-        option_properties, run_report, shape_report,
+        option_properties, run_report, moved_circles, shape_report,
         uniformize, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture, option_presets,
-        distortion_legend, circle_overlay, preset_menu, panels, menus, preferences,
+        moebius, flat_copy, distortion_legend, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 
 

@@ -17,8 +17,15 @@ def corner_uv(layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:
 
 
 def set_corner_uv(layer: bpy.types.MeshUVLoopLayer, uv: np.ndarray) -> None:
-    """Write UV coordinates (C, 2) into a UV layer. The mesh must not be in Edit Mode."""
+    """Write UV coordinates (C, 2) into a UV layer. The mesh must not be in Edit Mode.
+
+    Where UV layers are attributes too it goes that way: by `layer.uv` Blender 4.2 to 5.0 writes into the arrays that
+    its undo steps hold, and undo brings nothing back.
+    """
     collection, name = _uv_collection(layer)
+    attribute = layer.id_data.attributes.get(layer.name)
+    if name == "vector" and attribute is not None and attribute.data_type == "FLOAT2":
+        collection = attribute.data
     collection.foreach_set(name, np.ascontiguousarray(uv, dtype=np.float32).ravel())
 
 

@@ -2,7 +2,8 @@
 """Enters and leaves Edit Mode, and finds back to the modes and the selection of objects that were."""
 
 import contextlib
-from collections.abc import Iterator
+import functools
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import bpy
@@ -69,15 +70,21 @@ def undo_all(context: bpy.types.Context) -> None:
 @contextlib.contextmanager
 def left_if_faster(run: Transaction, context: bpy.types.Context) -> Iterator[None]:
     """Object Mode inside, where Blender writes faster there, and where it is sure to find back."""
-    layer = context.view_layer
-    if context.mode != "EDIT_MESH" or compat.slow_mode_change() or not _all_come_back(context):
-        yield
-        return
-    state = _state(layer)
-    run.before_write(_restore, layer, *state)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    back = None if compat.slow_mode_change() else leave(run, context)
     yield
-    _restore(layer, *state)
+    if back is not None:
+        back()
+
+
+def leave(run: Transaction, context: bpy.types.Context) -> Callable[[], None] | None:
+    """Leave Edit Mode, where Blender is sure to find back: the way back, or None where nothing was done."""
+    layer = context.view_layer
+    if context.mode != "EDIT_MESH" or not _all_come_back(context):
+        return None
+    back = functools.partial(_restore, layer, *_state(layer))
+    run.before_write(back)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return back
 
 
 def _all_come_back(context: bpy.types.Context) -> bool:

@@ -51,6 +51,9 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     flipped: IntProperty(description="Triangles that are turned over in the UVs")
     flipped_faces: StringProperty(description="Their faces, as JSON")
     seconds: FloatProperty(description="Time of the computation")
+    moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
+    corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
+    history: StringProperty(description="What the report was for each state of such an island, as JSON")
     loops: CollectionProperty(type=KoebeLoopReport, description="Boundary loops, the outer one first")
 
 

@@ -8,10 +8,12 @@ import bpy
 import numpy as np
 
 from ..blender.targets import target_objects
+from ..operators.moebius import UV_OT_koebe_moebius
 from ..state.run_report import KoebeIslandReport, report_of
 from . import drawing
 
 RIM, HOLE = (1.0, 1.0, 1.0, 0.55), (1.0, 0.62, 0.12, 0.95)
+EDGES = (0.75, 0.75, 0.75, 0.3)
 SEGMENTS = (12, 24, 48, 96)  # of circles of up to so many pixels of radius, and of larger ones
 PIXELS = (8.0, 30.0, 120.0)
 WIDTH = 2.0
@@ -37,11 +39,26 @@ def unit_circle(segments: int) -> np.ndarray:
     return np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
+def draw_dragged(context: bpy.types.Context) -> None:
+    """The edges of what is dragged: Blender shows none in Object Mode, in which that is done."""
+    shown = UV_OT_koebe_moebius.shown
+    if shown is None:
+        return
+    to_region = context.region.view2d.view_to_region
+    start, end = (complex(*to_region(x, x, clip=False)) for x in (0.0, 1.0))
+    pixels = start + ((end - start).real * shown.real + 1j * (end - start).imag * shown.imag)
+    points = np.ascontiguousarray(pixels.ravel(), dtype=np.complex64).view(np.float32).reshape(-1, 2)
+    drawing.segments(points, None, EDGES, 1.0)
+
+
 def draw() -> None:
     """Draw them, if asked."""
     context = bpy.context
     space, report = context.space_data, report_of(context)
-    if space.mode != "UV" or not report.show_circles or context.mode not in {"OBJECT", "EDIT_MESH"}:
+    if space.mode != "UV" or context.mode not in {"OBJECT", "EDIT_MESH"}:
+        return
+    draw_dragged(context)
+    if not report.show_circles:
         return
     to_region = context.region.view2d.view_to_region
     units = [unit_circle(count) for count in SEGMENTS]

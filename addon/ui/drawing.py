@@ -29,18 +29,23 @@ def remove(space: str, name: str) -> None:
 
 def lines(strips: list[np.ndarray], color: Color, width: float) -> None:
     """Draw each of the strips of points (x, y), as one batch."""
-    import gpu
-    from gpu_extras.batch import batch_for_shader
-
-    from ..blender import compat
-
     if not strips:
         return
     points = np.concatenate(strips).astype(np.float32)
     first = np.arange(len(points), dtype=np.int32)
     ends = np.cumsum([len(strip) for strip in strips]) - 1
     first = np.delete(first, ends)  # from the last point of a strip no line starts
-    pairs = np.stack([first, first + 1], axis=1)
+    segments(points, np.stack([first, first + 1], axis=1), color, width)
+
+
+def segments(points: np.ndarray, pairs: np.ndarray | None, color: Color, width: float) -> None:
+    """Draw lines between pairs (k, 2) of points (n, 2) in 32 bits; without pairs between the first two, the next two…
+    """
+    import gpu
+    from gpu_extras.batch import batch_for_shader
+
+    from ..blender import compat
+
     shader = compat.flat_shader("UNIFORM_COLOR")
     shader.bind()
     shader.uniform_float("color", color)

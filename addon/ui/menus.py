@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The entries in Blender's menus: U, UV, and Clean Up."""
+"""The entries in Blender's menus: U, UV, Clean Up, Object, and Export."""
 
 import bpy
 
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
+from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import copy_options, settings_of
 
@@ -21,10 +22,23 @@ def draw_clean_up_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None
     self.layout.operator(MESH_OT_koebe_fill_holes.bl_idname)
 
 
+def draw_object_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    """The entry in the Object menu of the 3D View."""
+    self.layout.separator()
+    self.layout.operator(OBJECT_OT_koebe_flat_copy.bl_idname)
+
+
+def draw_export_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    """The entry in File ▸ Export."""
+    self.layout.operator(UV_OT_koebe_flat_svg.bl_idname, text="Koebe Flat Pieces (.svg)")
+
+
 MENUS = {
     "VIEW3D_MT_uv_map": draw_menu,
     "IMAGE_MT_uvs": draw_menu,
     "VIEW3D_MT_edit_mesh_clean": draw_clean_up_menu,
+    "VIEW3D_MT_object": draw_object_menu,
+    "TOPBAR_MT_file_export": draw_export_menu,
 }
 
 

@@ -12,6 +12,7 @@ from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import KoebeSettings, copy_options, settings_of
 from ..state.run_report import report_of
+from .circle_tool import CIRCLES_TOOL
 from .panel_parts import KoebePanel
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import KOEBE_UL_islands, ReportPanel
@@ -75,7 +76,9 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
         button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
         button.kind, button.layer = value, settings.layer
     if context.space_data.type == "IMAGE_EDITOR":
-        column.prop(report_of(context), "show_circles")
+        row = column.row()
+        row.prop(report_of(context), "show_circles")
+        row.operator("wm.tool_set_by_id", text="Move Circles", icon="MESH_CIRCLE").name = CIRCLES_TOOL
 
 
 class AccuracyPanel(KoebePanel):

@@ -64,6 +64,8 @@ class ReportPanel(KoebePanel):
             return
         layout.label(text=f"{entry.object_name}, island {entry.island + 1}", icon=island_icon(entry))
         draw_message(layout, entry.message)
+        if entry.moved:
+            draw_message(layout, entry.moved.capitalize())
         if entry.mapped:
             draw_unroll(layout, context, entry)
             draw_result(layout.column(), entry)

@@ -166,12 +166,18 @@ class RandomRun:
             return {"which": one(["holes", "selected", "all"])}
         if name == "uv.koebe_carry_texture":
             return {"layer": layer, "fit_holes": one([True, False]), "material": one([True, False])}
+        if name == "uv.koebe_moebius":
+            return {"layer": layer, "rim": int(self._random.integers(4)), "island": int(self._random.integers(2)),
+                    "center": tuple(self._random.uniform(-0.6, 0.6, 2)), "rotation": one([0.0, 1.0])}  # fmt: skip
+        if name == "object.koebe_flat_copy":
+            return {"layer": layer}
         return {"loop": int(self._random.integers(4))} if name == "uv.koebe_select_loop" else {}
 
     def _call(self):
         name = self._one([
             "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_checker",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
+            "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_loop", "uv.koebe_select_flipped", "uv.koebe_select_offenders",
             "uv.koebe_reset",
         ])  # fmt: skip

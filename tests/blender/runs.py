@@ -85,6 +85,17 @@ def edited_to_fill():
     bpy.ops.uv.koebe_uniformize(checker=False)
 
 
+def mapped():
+    """Objects in several states, mapped, with a report and the colours of the distortion."""
+    states.worn()
+
+
+def mapped_in_edit_mode():
+    """The same in Edit Mode."""
+    states.edited_in_sight()
+    bpy.ops.uv.koebe_uniformize(checker=False)
+
+
 RUNS = {
     "uniformize": (states.many, "uv.koebe_uniformize", {}),
     "uniformize what is worn": (states.worn, "uv.koebe_uniformize", {"checker_size": 5.0, "checker_even": False}),
@@ -108,6 +119,9 @@ RUNS = {
     "reset in Edit Mode": (chosen_in_edit_mode, "uv.koebe_reset", {}),
     "reset": (chosen, "uv.koebe_reset", {}),
     "carry": (carried, "uv.koebe_carry_texture", {"fit_holes": True}),
+    "move circles": (mapped, "uv.koebe_moebius", {"rim": 1, "center": (0.1, 0.2)}),
+    "move circles in Edit Mode": (mapped_in_edit_mode, "uv.koebe_moebius", {"hole": 2, "rotation": 1.0}),
+    "flat copy": (mapped, "object.koebe_flat_copy", {}),
     "compare": (carried, "uv.koebe_compare_shapes", {}),
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
     "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),

@@ -63,6 +63,24 @@ def test_undo_and_redo(run):
     assert fingerprint.differences(after, seen()) == []
 
 
+@pytest.mark.parametrize("name, options", [
+    ("uv.koebe_uniformize", {"checker": False, "upright": False}), ("uv.koebe_moebius", {"rim": 1}),
+])  # fmt: skip
+def test_a_layer_that_is_written_again_comes_back_unseen(name, options):
+    """Nothing reads the UVs between the undo step and the operator: that would part what they share."""
+    states.new_file()
+    obj = scenes.add_panel()
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    before = scenes.corner_uv(obj.data, "Koebe").copy()
+    bpy.ops.ed.undo_push(message="mapped")
+    with_step(name, options)
+    bpy.ops.ed.undo()
+    after = scenes.corner_uv(bpy.data.objects["Panel"].data, "Koebe").copy()
+    assert (after == before).all()
+    bpy.ops.ed.redo()
+    assert (scenes.corner_uv(bpy.data.objects["Panel"].data, "Koebe") != before).any()
+
+
 def test_what_an_error_has_selected_can_be_undone():
     states.new_file()
     bad = states.broken()

@@ -87,6 +87,18 @@ class Touched:
             self._options.get("material", True) and self._dresses(owner, what)
         )
 
+    def _moebius(self, owner, what):
+        return (owner, what) == ("file", "report") or self._writes_uv(owner, what)
+
+    def _flat_copy(self, owner, what):
+        """New data, selected; the copy shares the materials."""
+        return " Flat" in owner or owner.startswith("names of ") or what.startswith("selected in ") or (
+            owner.startswith("material ") and what == "users" or owner == "file" and what.endswith(" active")
+        )
+
+    def _flat_svg(self, owner, what):
+        return False
+
     def _compare_shapes(self, owner, what):
         return (owner, what) == ("file", "shapes")
 

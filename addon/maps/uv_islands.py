@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The islands of a UV layer: where the UVs are continuous, whatever is marked as a seam."""
+
+import dataclasses
+
+import numpy as np
+
+from .islands import cut_into_islands
+from .surface import Island, Surface, next_corners
+
+# UV units: what the UVs of one vertex may differ by in two faces that are not cut apart there.
+SAME = 1e-5
+
+
+def uv_islands(surface: Surface, uv: np.ndarray) -> list[Island]:
+    """Islands of the selected faces, cut where the UVs (C, 2) of the corners at an edge differ on its two sides."""
+    return cut_into_islands(dataclasses.replace(surface, seam=uv_cuts(surface, uv)))
+
+
+def uv_cuts(surface: Surface, uv: np.ndarray) -> np.ndarray:
+    """Which edges (E,) have other UVs (C, 2) on one side than on the other; those with more than two faces are cut."""
+    edge, following, count = surface.corner_edge, next_corners(surface), len(surface.seam)
+    corners = np.arange(len(edge), dtype=np.int32)
+    first, last = np.full((2, count), -1, dtype=np.int32)
+    last[edge] = corners  # of several writes to one place the last stays
+    first[edge[::-1]] = corners[::-1]
+    shared = np.flatnonzero(first != last)
+    here, there = first[shared], last[shared]
+    opposed = surface.corner_vertex[here] != surface.corner_vertex[there]
+    start = np.where(opposed, following[there], there)
+    end = np.where(opposed, there, following[there])
+    differ = _differ(uv, here, start) | _differ(uv, following[here], end)
+    cuts = np.zeros(count, dtype=bool)
+    cuts[shared[differ]] = True
+    if np.count_nonzero(last >= 0) + len(shared) < len(edge):
+        cuts |= np.bincount(edge, minlength=count) > 2
+    return cuts
+
+
+def _differ(uv: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Which pairs of corners have other UVs; those that are no numbers differ from all."""
+    return ~(np.abs(uv[one] - uv[other]).max(axis=1, initial=0.0) <= SAME)
+
+
+def vertex_uv(island: Island, uv: np.ndarray) -> np.ndarray:
+    """UVs (n, 2), as they are stored, of an island's vertices, from those (C, 2) of the surface's corners."""
+    return uv[island.some_corner()]

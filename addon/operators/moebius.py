@@ -1,0 +1,277 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that moves the circles of a map by hand, or by its properties: Möbius maps, nothing is solved."""
+
+import math
+from collections.abc import Callable
+from typing import ClassVar
+
+import bpy
+import numpy as np
+from bpy.props import FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+
+from ..blender import edit_mode
+from ..blender.errors import TransferError
+from ..blender.noted_properties import note_group
+from ..blender.targets import reason, target_objects
+from ..blender.transaction import Transaction, transaction
+from ..jobs import native_package
+from ..jobs.moebius_job import MoebiusJob
+from ..maps.circle_domain import CircleDomain, CircleImage, DomainError
+from ..maps.circle_drag import HOLE, REACH, TURN, Grip
+from ..maps.moebius import Moebius
+from ..maps.wording import few, lines
+from ..solver.errors import NativeError
+from ..state import moved_circles
+from ..state.run_report import report_of
+from .modal_run import redraw
+
+NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to take hold of a hole, to be no drag, to come to rest in the middle
+HINTS = {
+    TURN: "Turn: {0:.1f}°      Ctrl: Steps of 5°",
+    HOLE: "Hole {1}: drag it to the middle, where it stays",
+    "point": "Drag the disk under the pointer",
+}
+
+
+class UV_OT_koebe_moebius(bpy.types.Operator):
+    """Move the circles of a map: drag the disk or a hole, click a hole to make it the rim, drag outside the disk to
+    turn it. Angles are kept and circles stay circles; nothing is computed anew"""
+
+    shown: ClassVar[np.ndarray | None] = None  # edges (e, 2) of what is dragged, complex, in the UVs
+
+    bl_idname = "uv.koebe_moebius"
+    bl_label = "Koebe Move Circles"
+    bl_options = {"REGISTER", "UNDO"}
+
+    object_name: StringProperty(
+        name="Object", description="Name of the object to work on, among those selected or in Edit Mode; else all such"
+    )
+    layer: StringProperty(name="UV Layer", description="UV layer with the circles; without a name the active one")
+    island: IntProperty(
+        name="Island", min=0, description="Number of the island among those whose UVs are circles; the first one is 0"
+    )
+    rim: IntProperty(
+        name="Rim",
+        min=0,
+        description="Loop that becomes the rim, by its number in the report; 0 leaves the rim. The disk is then "
+        "balanced and upright",
+    )
+    hole: IntProperty(
+        name="Hole in the Middle",
+        min=0,
+        description="Hole whose circle comes into the middle of the disk, by its number in the report; 0 for none",
+    )
+    center: FloatVectorProperty(
+        name="Centre",
+        size=2,
+        precision=4,
+        step=1,
+        soft_min=-1.0,
+        soft_max=1.0,
+        description="Point of the disk that comes into its middle: the rim is the circle of radius 1 around (0, 0)",
+    )
+    rotation: FloatProperty(
+        name="Turn", subtype="ANGLE", unit="ROTATION", description="Turn of the disk after that, counter-clockwise"
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
+            cls.poll_message_set("Select a mapped mesh object, in Object Mode or in Edit Mode")
+            return False
+        return True
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        for name in ("rim", "hole", "center", "rotation", "island", "layer"):
+            row = layout.row()
+            row.active = name != "center" or not self.hole
+            row.prop(self, name)
+
+    # ---------------------------------------------------------------- by properties
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
+        try:
+            job = self._chosen_job(context)
+            if not self.island < len(job.domains):
+                raise TransferError(f"{job.name}: it has no island {self.island} whose UVs are circles")
+            with transaction() as run:
+                with edit_mode.left_if_faster(run, context):
+                    image = self._write(run, context, job)
+                redraw(context)
+            return self._say(job, image)
+        except (NativeError, TransferError, DomainError) as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return {"CANCELLED"}
+
+    def _chosen_job(self, context: bpy.types.Context) -> MoebiusJob:
+        """The object by its name, or the first one whose UVs are circles."""
+        jobs, problems = _jobs(context, self.object_name, self.layer, lambda job: True)
+        if not jobs:
+            raise TransferError(lines("", problems).strip() or f"no object {self.object_name!r} is selected")
+        return jobs[0]
+
+    def _write(self, run: Transaction, context: bpy.types.Context, job: MoebiusJob) -> CircleImage:
+        """Write the image that the properties say, and bring the report up to date."""
+        domain = _numbered(context, job, job.domains[self.island])
+        image = domain.image(domain.moved(self.rim, complex(*self.center), self.rotation, self.hole))
+        job.write(run, image)
+        note_group(run, report_of(context))
+        entry = moved_circles.entry_of(context, job.name, job.layer, domain)
+        if entry is not None:
+            moved_circles.record(entry, image, job.angle_error(image))
+        return image
+
+    def _say(self, job: MoebiusJob, image: CircleImage) -> set[str]:
+        trouble = len(image.flipped) or image.too_small
+        self.report({"WARNING" if trouble else "INFO"}, f"{job.name}: {moved_circles.describe(image)}")
+        return {"FINISHED"}
+
+    # ---------------------------------------------------------------- by hand
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        space, region = context.space_data, context.region
+        by_hand = event.type == "LEFTMOUSE" and space is not None and space.type == "IMAGE_EDITOR"
+        if bpy.app.background or not by_hand or region is None or region.type != "WINDOW":
+            return self.execute(context)
+        context.evaluated_depsgraph_get()
+        self._region = region
+        place = self._place(event.mouse_region_x, event.mouse_region_y)
+        try:
+            jobs, problems = _jobs(context, "", self.layer, lambda job: job.domain_at(*place, REACH) is not None)
+        except NativeError as error:
+            problems, jobs = [str(error)], []
+        if not jobs:
+            if problems:
+                self.report({"ERROR"}, "Koebe UV: " + few(problems))
+            return {"CANCELLED"}
+        self._begin(context, event, jobs[0], place)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def _begin(
+        self, context: bpy.types.Context, event: bpy.types.Event, job: MoebiusJob, place: tuple[float, float]
+    ) -> None:
+        self.object_name, self.island = job.name, job.domain_at(*place, REACH) or 0
+        self.rim, self.hole, self.center, self.rotation = 0, 0, (0.0, 0.0), 0.0
+        self._job, self._run = job, Transaction()
+        domain = _numbered(context, job, job.domains[self.island])
+        self._pixel = self._place(event.mouse_region_x + 1, event.mouse_region_y)[0] - place[0]
+        self._grip = Grip.at(domain, *place, NEAR * self._pixel)
+        self._pressed, self._dragging, self._live = (event.mouse_x, event.mouse_y), False, False
+        self._back: Callable[[], None] | None = None
+
+    def _place(self, x: float, y: float) -> tuple[float, float]:
+        """The place of the UVs under a pixel of the region."""
+        u, v = self._region.view2d.region_to_view(x, y)
+        return u, v
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        try:
+            if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+                self.cancel(context)
+                self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
+                return {"CANCELLED"}
+            if event.type == "MOUSEMOVE":
+                self._drag(context, event)
+            elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
+                return self._end(context)
+        except (TransferError, DomainError, ReferenceError) as error:
+            self.cancel(context)
+            self.report({"ERROR"}, f"Koebe UV: {reason(self._job.name, error)}")
+            return {"CANCELLED"}
+        except BaseException:
+            self.cancel(context)
+            raise
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Put everything back: after Esc, an error, or when Blender ends the operator."""
+        self._run.put_back()
+        self._tidy(context)
+
+    def _tidy(self, context: bpy.types.Context) -> None:
+        UV_OT_koebe_moebius.shown = None
+        context.workspace.status_text_set(None)
+        redraw(context)
+
+    def _drag(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
+        """Show the map of a drag to where the pointer is."""
+        if not self._dragging:
+            if math.dist(self._pressed, (event.mouse_x, event.mouse_y)) <= CLICK:
+                return
+            self._start(context)
+        x, y = event.mouse_x - self._region.x, event.mouse_y - self._region.y
+        moved = self._grip.moved(*self._place(x, y), SNAP * self._pixel, event.ctrl)
+        center, angle = self._grip.properties(moved)
+        self.center, self.rotation = (center.real, center.imag), angle
+        self._show(context, self._grip.domain.moved(0, complex(*self.center), self.rotation))
+
+    def _start(self, context: bpy.types.Context) -> None:
+        """The pointer has moved: from now on UVs are written, in Object Mode, where that is fast."""
+        self._dragging, domain = True, self._grip.domain
+        note_group(self._run, report_of(context))
+        self._entry = moved_circles.entry_of(context, self._job.name, self._job.layer, domain)
+        if self._entry is not None:
+            moved_circles.begin(self._entry, domain)
+        self._edges = self._job.edges(domain)
+        self._back = edit_mode.leave(self._run, context)
+        self._live = context.mode == "OBJECT"  # else only the circles move until the end
+        if self._live:
+            self._run.before_write(self._job.put_back)
+
+    def _show(self, context: bpy.types.Context, moved: Moebius) -> None:
+        points = self._job.image_of(self._grip.domain, moved)
+        UV_OT_koebe_moebius.shown = points[self._edges]
+        if self._live:
+            self._job.show(self._grip.domain, points)
+        if self._entry is not None:
+            moved_circles.show(self._entry, self._grip.domain, moved)
+        hint = HINTS[self._grip.kind].format(math.degrees(self.rotation), self._grip.hole)
+        context.workspace.status_text_set(f"Koebe UV: {hint}      Esc: Cancel")
+        redraw(context)
+
+    def _end(self, context: bpy.types.Context) -> set[str]:
+        """The button was let go: write for good. A click on a hole makes it the rim; elsewhere it does nothing."""
+        if not self._dragging:
+            if not self._grip.hole:
+                self._tidy(context)
+                return {"CANCELLED"}
+            self.rim = self._grip.hole
+            self._start(context)
+        if self._live:
+            self._job.put_back()
+        image = self._write(self._run, context, self._job)
+        if self._back is not None:
+            self._back()
+        self._tidy(context)
+        return self._say(self._job, image)
+
+
+def _jobs(
+    context: bpy.types.Context, name: str, layer: str, wanted: Callable[[MoebiusJob], bool]
+) -> tuple[list[MoebiusJob], list[str]]:
+    """The first of the objects that has what is wanted, as a list; and what is wrong with those before."""
+    koebe, problems = native_package.load(), []
+    for obj in target_objects(context):
+        if name and obj.name != name:
+            continue
+        try:
+            job = MoebiusJob(koebe, obj, layer)
+        except TransferError as error:
+            problems.append(str(error))
+            continue
+        if wanted(job):
+            return [job], problems
+    return [], problems
+
+
+def _numbered(context: bpy.types.Context, job: MoebiusJob, domain: CircleDomain) -> CircleDomain:
+    """The domain with its holes numbered as in the report, if that has it."""
+    entry = moved_circles.entry_of(context, job.name, job.layer, domain)
+    return domain if entry is None else domain.numbered(moved_circles.loop_keys(entry))
+
+
+register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_moebius,))

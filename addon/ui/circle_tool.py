@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tool "Koebe Circles" in the toolbar of the UV Editor: press the mouse to take hold of what lies there."""
+
+import bpy
+
+from ..operators.moebius import UV_OT_koebe_moebius
+
+CIRCLES_TOOL = "koebe_uv.circles"
+
+
+class CirclesTool(bpy.types.WorkSpaceTool):
+    """What the toolbar shows."""
+
+    bl_space_type = "IMAGE_EDITOR"
+    bl_context_mode = "UV"
+    bl_idname = CIRCLES_TOOL
+    bl_label = "Koebe Circles"
+    bl_description = (
+        "Move the circles of a map: drag the disk or a hole, click a hole to make it the rim,\n"
+        "drag outside the disk to turn it. Circles stay circles, angles are kept"
+    )
+    bl_icon = "ops.transform.tosphere"
+    bl_widget = None
+    bl_keymap = ((UV_OT_koebe_moebius.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
+
+    @staticmethod
+    def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, tool: object) -> None:
+        """A line of help in the header."""
+        layout.label(text="Drag the disk or a hole. Click a hole: it becomes the rim. Drag outside: turn")
+
+
+def register() -> None:
+    """Put the tool after Blender's own that select and place the cursor."""
+    bpy.utils.register_tool(CirclesTool, after={"builtin.cursor"}, separator=True)
+
+
+def unregister() -> None:
+    """Take it away."""
+    bpy.utils.unregister_tool(CirclesTool)
