@@ -63,7 +63,7 @@ def bpy(version: str) -> tuple[Command, dict[str, str]]:
 # By apt, which finds its way where debootstrap does not. A mirror of sid may be older than it should be.
 APT = "apt-get -q -y -o APT::Sandbox::User=root -o Acquire::Check-Valid-Until=false"
 INSTALL = (f"{APT} update && {APT} install --no-install-recommends python3 python3-venv python3-numpy python3-pytest "
-           "blender libsm6")  # the last for the module bpy
+           "python3-cattr python3-requests blender libsm6")  # for the extensions of 5.2, and for the module bpy
 
 
 def other_debian(suite: str, host: str, *prepare: str) -> tuple[Command, dict[str, str]]:

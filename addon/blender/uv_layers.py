@@ -59,9 +59,10 @@ def write_uv(
     mesh = obj.data
     run.before_write(_restore_layers, mesh, *_layers(mesh))
     if layer_name not in mesh.uv_layers:
-        made = mesh.uv_layers.new(name=layer_name, do_init=False)
-        if made is None or made.name != layer_name:
-            raise TransferError(f"{obj.name}: the name {layer_name!r} is taken: choose another layer name")
+        mesh.uv_layers.new(name=layer_name, do_init=False)  # None in Blender 5.2's Edit Mode, though it is made
+        if layer_name not in mesh.uv_layers:
+            taken = "that of a vertex group" if layer_name in obj.vertex_groups else "taken"  # as 5.2 allows no more
+            raise TransferError(f"{obj.name}: the name {layer_name!r} is {taken}: choose another layer name")
     else:
         with arrays(obj) as old:
             run.before_write(_write, obj, layer_name, compat.corner_uv(old.uv_layers[layer_name]), surface, faces)

@@ -31,7 +31,7 @@ def read_report(folder):
 
 def saved(path, **options):
     scenes.add_panel(**SMALL)
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, **options)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, **{"compress": False, **options})
     return path.read_bytes()
 
 

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 import scenes
+import states
 
 
 def test_the_layer_of_the_option_is_made_and_the_others_stay():
@@ -64,7 +65,8 @@ def test_a_uv_layer_with_the_name_of_blenders_seams_breaks_no_run():
     """5.0 takes it for seams, all of them set: the map is as without it, and what has the name keeps it."""
     obj, plain = scenes.add_panel("Named"), scenes.add_panel("Plain")
     obj.data.uv_layers.new(name="uv_seam")
-    obj.vertex_groups.new(name="Koebe")
+    if states.group_and_layer_may_share_a_name():
+        obj.vertex_groups.new(name="Koebe")
     scenes.select(obj, plain)
     before = scenes.corner_uv(obj.data, "uv_seam").copy()
     for _ in range(3):
@@ -73,6 +75,18 @@ def test_a_uv_layer_with_the_name_of_blenders_seams_breaks_no_run():
         assert len(bpy.context.window_manager.koebe_uv.islands) == 2
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), scenes.corner_uv(plain.data, "Koebe"))
     assert np.array_equal(scenes.corner_uv(obj.data, "uv_seam"), before)
+
+
+def test_a_vertex_groups_name_is_refused_where_blender_keeps_it():
+    obj = scenes.add_panel()
+    obj.vertex_groups.new(name="Koebe")
+    if states.group_and_layer_may_share_a_name():
+        assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    else:
+        with pytest.raises(RuntimeError, match="Panel: the name 'Koebe' is that of a vertex group"):
+            bpy.ops.uv.koebe_uniformize()
+        assert len(obj.data.uv_layers) == 0
+    assert [group.name for group in obj.vertex_groups] == ["Koebe"]
 
 
 @pytest.mark.parametrize("name", ["uv_seam", "sharp_edge", "material_index", "crease_edge", "position"])
