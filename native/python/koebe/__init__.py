@@ -15,6 +15,7 @@ from ._api import (
 )
 from ._batch import batch
 from ._family import Family, family
+from ._cut_result import CutResult
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
 from ._plot import plot
@@ -37,6 +38,7 @@ __all__ = [
     "CancelToken",
     "Cancelled",
     "Correspondence",
+    "CutResult",
     "DomainAlignment",
     "Family",
     "InputError",
