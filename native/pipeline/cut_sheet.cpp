@@ -1,5 +1,8 @@
 #include "pipeline/cut_sheet.h"
 
+#include "core/counted.h"
+#include "core/topology.h"
+#include "foldover/untangle.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
@@ -38,14 +41,50 @@ void Sheet::place(const std::vector<MappedPiece>& mapped, const std::vector<Circ
     }
 }
 
-bool Sheet::enlarge_flipped(std::vector<double>& radii) const
+std::vector<std::size_t> Sheet::flipped_pieces() const
 {
-    std::vector<char> flipped(pieces_.size(), 0);
+    std::vector<std::size_t> flipped;
     for (const Index f : flipped_faces(triangles_, points_))
-        if (!StoredFace(triangles_, points_, f).below_resolution()) flipped[piece_[f]] = 1;
-    for (std::size_t i = 0; i < radii.size(); ++i)
-        if (flipped[i]) radii[i] *= 2.0;
-    return std::ranges::find(flipped, 1) != flipped.end();
+        if (!StoredFace(triangles_, points_, f).below_resolution() && (flipped.empty() || flipped.back() != piece_[f]))
+            flipped.push_back(piece_[f]);
+    return flipped;
+}
+
+void Sheet::turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context)
+{
+    const SurfacePiece& own = pieces_[piece];
+    const Surface surface = analyze_surface(own.triangles, static_cast<Index>(own.vertices.rows()));
+    std::vector<VertexLoop> loops;
+    std::vector<Circle> circles;
+    std::vector<Index> off_circle, held;
+    for (const LoopReport& loop : mapped.map.loops) {
+        loops.push_back(loop.vertices);
+        circles.push_back({place.center + place.radius * loop.circle.center, place.radius * loop.circle.radius});
+        off_circle.insert(off_circle.end(), loop.off_circle.begin(), loop.off_circle.end());
+    }
+    std::ranges::sort(off_circle);
+    for (const Index v : {mapped.map.center, mapped.map.point})
+        if (v >= 0) held.push_back(v);
+    auto rows = points_.middleRows(first_vertex_[piece], own.vertices.rows());
+    PlanarPoints points = rows;
+    // In units of the piece: lengths only count in proportion.
+    const Vertices vertices = own.vertices / std::max(own.vertices.cwiseAbs().maxCoeff(), 1e-300);
+    const UntangleReport report =
+        untangle(vertices, surface, loops, circles, off_circle, points, context, {.held = held});
+    rows = points;
+    points.rowwise() -= Eigen::RowVector2d(place.center.real(), place.center.imag());
+    mapped.map.uv = points / place.radius;
+    for (LoopReport& loop : mapped.map.loops) {
+        for (const Index v : report.freed)
+            if (std::ranges::find(loop.vertices, v) != loop.vertices.end()) loop.off_circle.push_back(v);
+        std::ranges::sort(loop.off_circle);
+    }
+    if (report.freed.empty()) return;
+    Warning freed{WarningKind::off_circle, counted(report.freed.size(), "vertex") +
+                                               " taken off the circle, where rounding in a small disk asks for it"};
+    for (const Index v : report.freed) freed.elements.push_back(own.source_vertex[static_cast<std::size_t>(v)]);
+    std::ranges::sort(freed.elements);
+    mapped.map.warnings.push_back(std::move(freed));
 }
 
 Distortion Sheet::distortion() const

@@ -16,8 +16,12 @@ public:
     /// Puts each piece's unit disk onto its circle in [-1, 1]^2.
     void place(const std::vector<MappedPiece>& mapped, const std::vector<Circle>& places);
 
-    /// Doubles the radii of the pieces with flips above resolution. @return whether there are any
-    bool enlarge_flipped(std::vector<double>& radii) const;
+    /// Pieces with flips above resolution, rising: rounding is another where a disk is small.
+    std::vector<std::size_t> flipped_pieces() const;
+
+    /// Turns flipped faces of a piece back where it lies (untangle), and the UVs of its own disk with them.
+    /// @param mapped still in the piece's own numbers
+    void turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context);
 
     /// Of all pieces as one; flipped and below_resolution by the input's faces.
     Distortion distortion() const;

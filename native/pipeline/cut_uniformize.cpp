@@ -84,8 +84,23 @@ public:
             fail(piece, error, mapped);
             if (!failure) failure = std::current_exception();
         }
-        rename(piece, mapped.map);
         return mapped;
+    }
+
+    /// Numbers of the piece to those of the input.
+    static void rename(const SurfacePiece& piece, UniformizeResult& map)
+    {
+        const auto rename_all = [](std::vector<Index>& numbers, const std::vector<Index>& names) {
+            for (Index& number : numbers) number = names[static_cast<std::size_t>(number)];
+        };
+        for (LoopReport& loop : map.loops) {
+            rename_all(loop.vertices, piece.source_vertex);
+            rename_all(loop.off_circle, piece.source_vertex);
+        }
+        rename_all(map.distortion.flipped, piece.source_face);
+        rename_all(map.distortion.below_resolution, piece.source_face);
+        for (Index* named : {&map.center, &map.point})
+            if (*named >= 0) *named = piece.source_vertex[static_cast<std::size_t>(*named)];
     }
 
 private:
@@ -111,21 +126,6 @@ private:
         mapped.map.face_count = static_cast<Index>(piece.triangles.rows());
         mapped.map.warnings.push_back(
             {WarningKind::not_converged, std::string("no map: ") + error.name() + ", " + error.what()});
-    }
-
-    static void rename(const SurfacePiece& piece, UniformizeResult& map)
-    {
-        const auto rename_all = [](std::vector<Index>& numbers, const std::vector<Index>& names) {
-            for (Index& number : numbers) number = names[static_cast<std::size_t>(number)];
-        };
-        for (LoopReport& loop : map.loops) {
-            rename_all(loop.vertices, piece.source_vertex);
-            rename_all(loop.off_circle, piece.source_vertex);
-        }
-        rename_all(map.distortion.flipped, piece.source_face);
-        rename_all(map.distortion.below_resolution, piece.source_face);
-        for (Index* named : {&map.center, &map.point})
-            if (*named >= 0) *named = piece.source_vertex[static_cast<std::size_t>(*named)];
     }
 
     const OpenedSurface& opened_;
@@ -221,15 +221,25 @@ CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& 
     for (int round = 0; round < most_packings; ++round) {
         places = pack_disks(radii);
         sheet.place(result.pieces, places);
-        if (places.size() == 1 || !sheet.enlarge_flipped(radii)) break;
+        if (places.size() == 1) break;
+        for (const std::size_t i : sheet.flipped_pieces())
+            if (result.pieces[i].mapped) sheet.turn_back(i, places[i], result.pieces[i], context);
+        const std::vector<std::size_t> flipped = sheet.flipped_pieces();
+        if (flipped.empty()) break;
+        for (const std::size_t i : flipped) radii[i] *= 2.0;
     }
-    for (std::size_t i = 0; i < places.size(); ++i) result.pieces[i].place = places[i];
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        result.pieces[i].place = places[i];
+        PieceMapper::rename(opened.pieces[i], result.pieces[i].map);
+    }
     result.distortion = sheet.distortion();
     result.uv = sheet.corners(result.face_count);
     draw_left_out(opened.left_out, triangles, result.uv);
     result.cuts = std::move(opened.cuts);
     result.left_out = std::move(opened.left_out);
     result.handles = opened.handles;
+    result.converged =
+        result.converged && result.distortion.flipped.size() == result.distortion.below_resolution.size();
     result.warnings = cut_warnings(result);
     result.seconds.topology += opening;
     result.seconds.total = seconds_since(begin);

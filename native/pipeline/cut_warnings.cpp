@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
 namespace koebe {
@@ -128,6 +129,12 @@ std::vector<Warning> cut_warnings(const CutUniformizeResult& result)
                             counted(result.turned.size(), "face") + " turned to the orientation of the others",
                             result.turned});
     for (Warning& warning : merged(result.pieces)) warnings.push_back(std::move(warning));
+    std::vector<Index> flipped;
+    const Distortion& distortion = result.distortion;
+    std::ranges::set_difference(distortion.flipped, distortion.below_resolution, std::back_inserter(flipped));
+    if (!flipped.empty() && result.pieces.size() > 1)
+        warnings.push_back(
+            {WarningKind::flipped, counted(flipped.size(), "face") + " flipped where the pieces lie", flipped});
     Warning none{WarningKind::not_mapped, ""};
     std::size_t unmapped = 0;
     for (const MappedPiece& piece : result.pieces)

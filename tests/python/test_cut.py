@@ -2,12 +2,11 @@
 
 import json
 
+import koebe
 import numpy as np
 import pytest
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
 from cli_support import koebe as command
-
-import koebe
 
 
 def torus(m=16, n=8, thick=0.35):

@@ -14,8 +14,8 @@ from ._api import (
     uniformize,
 )
 from ._batch import batch
-from ._family import Family, family
 from ._cut_result import CutResult
+from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
 from ._plot import plot

@@ -67,7 +67,7 @@ def uniformize(vertices: Any, triangles: Any = None, *, cut: Literal[True], **op
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: Literal[False] = False, **options: Any
 ) -> UniformizeResult: ...
-def uniformize(
+def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     vertices: Any,
     triangles: Any = None,
     *,
@@ -113,7 +113,7 @@ def uniformize(
 
     cut          open, cut and split in the UVs what cannot be mapped as it is: closed surfaces, handles, edges of three
                  faces, one-sided surfaces, several components, degenerate and duplicate faces. Gives a CutResult, whose
-                 uv are the corners' (F, 3, 2) in [0, 1]^2. Vertices named by outer, center and point matter for one piece
+                 uv are the corners' (F, 3, 2) in [0, 1]^2. A vertex named by outer, center, point is of one piece
 
     With engine='mesh', the paper's own choices:
     partners     'fixed', or 'changing': with 'gk' each sweep pairs the loops another way (Fig. 4)

@@ -11,11 +11,11 @@ from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warn
 class CutResult:
     """The maps of the pieces of any mesh, and their report.
 
-    uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. A cut is an edge whose
-                     two sides have different ones
+    uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. A cut is an edge
+                     whose two sides have different ones
     piece            (F,) int32, the place of each triangle's piece in `pieces`; -1 for those left out
-    pieces           list of dicts: faces, mapped, place (center and radius of its disk in the square), loops with circles
-                     in the coordinates of its own unit disk, and its figures. Numbers are the input's
+    pieces           list of dicts: faces, mapped, place (center and radius of its disk in the square), loops with
+                     circles in the coordinates of its own unit disk, and its figures. Numbers are the input's
     cuts             list of dicts: kind ('crowded_edge', 'orientation', 'bow_tie', 'handle', 'opening'), elements (the
                      vertices along the cut; a closed one ends with its first), text
     handles_cut      how many
