@@ -26,6 +26,10 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::closing_gap: return "closing_gap";
     case WarningKind::flow_flips: return "flow_flips";
     case WarningKind::no_hole: return "no_hole";
+    case WarningKind::cut: return "cut";
+    case WarningKind::pieces: return "pieces";
+    case WarningKind::left_out: return "left_out";
+    case WarningKind::not_mapped: return "not_mapped";
     }
     return "unknown";
 }
@@ -35,12 +39,15 @@ ElementKind elements_of(WarningKind kind) noexcept
     switch (kind) {
     case WarningKind::unused_vertices:
     case WarningKind::off_circle:
+    case WarningKind::cut:
     case WarningKind::out_of_place: return ElementKind::vertices;
     case WarningKind::collapsed_faces:
     case WarningKind::reoriented_faces:
     case WarningKind::flaps:
     case WarningKind::below_resolution:
     case WarningKind::flipped:
+    case WarningKind::left_out:
+    case WarningKind::not_mapped:
     case WarningKind::not_one_to_one: return ElementKind::faces;
     case WarningKind::lost_circles:
     case WarningKind::shrunk_circles:

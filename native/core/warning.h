@@ -31,7 +31,11 @@ enum class WarningKind {
     packing,           ///< the Ricci baseline: its circle packing changes edge lengths
     closing_gap,       ///< the Ricci baseline: holes do not close exactly
     flow_flips,        ///< the Ricci baseline: flips of the flow's own map
-    no_hole,           ///< nothing to fill but the outer boundary; the last of the kinds
+    no_hole,           ///< nothing to fill but the outer boundary
+    cut,               ///< the surface was cut in the UVs, as the report's cuts say; elements: vertices of the cuts
+    pieces,            ///< several pieces, each with a map of its own
+    left_out,          ///< faces without a place of their own in the map; elements: they
+    not_mapped,        ///< faces of pieces that have no map; elements: they. The last of the kinds
 };
 
 /// As in the JSON report: the enumerator's name.

@@ -25,6 +25,13 @@ void write_with_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& m
     write(file, mesh, disk_points);
 }
 
+void write_with_corner_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
+                           const PlanarPoints& corner_uvs)
+{
+    const auto write = format == WrittenFormat::ply ? write_ply_with_corner_uvs : write_obj_with_corner_uvs;
+    write(file, mesh, corner_uvs);
+}
+
 void write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
                         const std::vector<Index>& patch)
 {

@@ -21,6 +21,10 @@ std::optional<WrittenFormat> written_format(const std::filesystem::path& target)
 /// The mesh with texture coordinates: write_obj_with_uvs or write_ply_with_uvs.
 void write_with_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh, const PlanarPoints& disk_points);
 
+/// The mesh with texture coordinates of each corner: write_obj_with_corner_uvs or write_ply_with_corner_uvs.
+void write_with_corner_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
+                           const PlanarPoints& corner_uvs);
+
 /// The mesh with the numbers of its patches, -1 for none: OBJ groups "surface" and "patch_0", "patch_1", …, or the
 /// property `patch` in PLY.
 void write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,

@@ -16,6 +16,12 @@ namespace koebe {
 /// @throws FileError
 void write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points);
 
+/// Writes the mesh with a `vt` for each place that a vertex has: corners of one vertex at one place share it.
+/// @param corner_uvs (C, 2) in [0, 1]^2, in the order of mesh.corners
+/// @throws InputError corner_uvs has not one row for each corner
+/// @throws FileError
+void write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs);
+
 /// Writes the mesh with a `g` line wherever the group changes from face to face. The caller commits the file.
 /// @param group (F) of each face, an index into names
 /// @throws FileError

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace koebe {
@@ -14,10 +15,10 @@ namespace {
 using io::TextWriter;
 
 /// The smallest type that all numbers of corners fit; nearly all readers expect the first.
-std::string_view corner_count_type(const PolygonMesh& mesh)
+std::string_view count_type(const PolygonMesh& mesh, std::size_t numbers_of_corner)
 {
     std::size_t most = 0;
-    for (Index f = 0; f < mesh.face_count(); ++f) most = std::max(most, mesh.face(f).size());
+    for (Index f = 0; f < mesh.face_count(); ++f) most = std::max(most, numbers_of_corner * mesh.face(f).size());
     if (most <= std::numeric_limits<unsigned char>::max()) return "uchar";
     return most <= std::numeric_limits<unsigned short>::max() ? "ushort" : "uint";
 }
@@ -38,7 +39,7 @@ void add_header(TextWriter& text, const PolygonMesh& mesh, std::initializer_list
     text.add("\nelement face ");
     text.add_number(mesh.face_count());
     text.add("\nproperty list ");
-    text.add(corner_count_type(mesh));
+    text.add(count_type(mesh, 1));
     text.add(" int vertex_indices\n");
     text.add(of_faces);
     text.add("end_header\n");
@@ -78,6 +79,30 @@ void write_ply_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarP
     }
     for (Index f = 0; f < mesh.face_count(); ++f) {
         add_corners(text, mesh.face(f));
+        text.add('\n');
+    }
+    text.flush();
+}
+
+void write_ply_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs)
+{
+    io::require_point_for_each_corner(mesh, corner_uvs);
+    TextWriter text(file);
+    const std::string count(count_type(mesh, 2));
+    add_header(text, mesh, {}, "property list " + count + " double texcoord\n");
+    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+        add_position(text, mesh.vertices, v);
+        text.add('\n');
+    }
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        add_corners(text, mesh.face(f));
+        text.add(' ');
+        text.add_number(2 * mesh.face(f).size());
+        for (Index i = mesh.face_begin[f]; i < mesh.face_begin[f + 1]; ++i)
+            for (int axis = 0; axis < 2; ++axis) {
+                text.add(' ');
+                text.add_number(corner_uvs(i, axis));
+            }
         text.add('\n');
     }
     text.flush();

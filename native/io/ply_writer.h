@@ -17,6 +17,12 @@ namespace koebe {
 /// @throws FileError
 void write_ply_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points);
 
+/// Writes the mesh with the list property `texcoord` of each face: u and v of its corners, as MeshLab has it.
+/// @param corner_uvs (C, 2) in [0, 1]^2, in the order of mesh.corners
+/// @throws InputError corner_uvs has not one row for each corner
+/// @throws FileError
+void write_ply_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs);
+
 /// Writes the mesh with the property `patch` for each face. The caller commits the file.
 /// @param patch (F) number of each face's patch, -1 for none
 /// @throws FileError

@@ -18,4 +18,11 @@ inline void require_point_for_each_vertex(const PolygonMesh& mesh, const PlanarP
         throw InputError("as many points of the disk as vertices are needed");
 }
 
+/// @throws InputError corner_uvs has not one row for each corner
+inline void require_point_for_each_corner(const PolygonMesh& mesh, const PlanarPoints& corner_uvs)
+{
+    if (corner_uvs.rows() != static_cast<Eigen::Index>(mesh.corners.size()))
+        throw InputError("as many texture coordinates as corners are needed");
+}
+
 }  // namespace koebe::io

@@ -5,6 +5,8 @@
 #include "iteration/koebe_mesh_options.h"
 #include "iteration/koebe_outcome.h"
 
+#include <vector>
+
 namespace koebe {
 
 enum class Engine { condensed, mesh };  ///< docs/method.md: eliminated once, or patches as real triangles
@@ -20,7 +22,9 @@ struct UniformizeOptions : IterationOptions {
     Balance balance = Balance::none;
     Index center = -1, point = -1;  ///< vertices, one inside that goes to 0, one of the outer loop to 1; -1: none
     bool polish = false;            ///< least angle error with the circles as they are, at the end (angle_polish.h)
-    int threads = 0;                ///< at most; 0: all cores. Today one is used: the result is the same for any number
+    /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
+    std::vector<Index> vertex_names = {}, face_names = {};
+    int threads = 0;  ///< at most; 0: all cores. Today one is used: the result is the same for any number
 };
 
 }  // namespace koebe

@@ -164,8 +164,16 @@ void append(std::vector<Warning>& warnings, std::vector<Warning> more)
     std::move(more.begin(), more.end(), std::back_inserter(warnings));
 }
 
-UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
-                              ExecutionContext& context)
+/// Numbers of a piece to those of the surface it is of.
+void rename(std::vector<Index>& numbers, const std::vector<Index>& names)
+{
+    for (Index& number : numbers) number = names.at(static_cast<std::size_t>(number));
+}
+
+}  // namespace
+
+UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
+                                 ExecutionContext& context)
 {
     UniformizeResult result;
     result.method = options.method;
@@ -245,6 +253,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         polish(whole, *map, faults, context);
     }
     report_map(whole, *map, result);
+    if (!options.vertex_names.empty()) rename(problem.whole.original, options.vertex_names);
+    if (!options.face_names.empty()) rename(problem.whole.original_faces, options.face_names);
     append(result.warnings, circle_warnings(*map));
     append(result.warnings, input_warnings(whole));
     append(result.warnings, iteration_warnings(problem.outcome, no_circles));
@@ -268,13 +278,11 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     return result;
 }
 
-}  // namespace
-
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
                             ExecutionContext& context)
 {
     return run_detachable<UniformizeResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return run_pipeline(vertices, triangles, options, own);
+        return uniformize_here(vertices, triangles, options, own);
     });
 }
 

@@ -19,6 +19,10 @@ namespace koebe {
 KOEBE_API UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles,
                                       const UniformizeOptions& options, ExecutionContext& context);
 
+/// The same on the calling thread: a cancel is answered at the next checkpoint, not at once.
+UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
+                                 ExecutionContext& context);
+
 /// The same without progress, never cancelled.
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles,
                             const UniformizeOptions& options = {});

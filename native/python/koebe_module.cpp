@@ -11,8 +11,10 @@
 #include "holes/fan_filling.h"
 #include "io/polygon_triangulation.h"
 #include "linear/dense_spd.h"
+#include "pipeline/cut_uniformize.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
+#include "report/cut_json.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
@@ -146,7 +148,7 @@ PYBIND11_MODULE(_koebe, m)
         .def_readwrite("polish", &UniformizeOptions::polish);
 
     py::dict warning_elements;
-    for (int k = 0; k <= static_cast<int>(WarningKind::no_hole); ++k)
+    for (int k = 0; k <= static_cast<int>(WarningKind::not_mapped); ++k)
         warning_elements[to_string(static_cast<WarningKind>(k))] = to_string(elements_of(static_cast<WarningKind>(k)));
     m.attr("warning_elements") = warning_elements;
     py::class_<UniformizeResult>(m, "UniformizeResult")
@@ -154,6 +156,11 @@ PYBIND11_MODULE(_koebe, m)
         .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; })
         .def_property_readonly("flipped_faces", [](const UniformizeResult& r) { return r.distortion.flipped; })
         .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
+
+    py::class_<CutUniformizeResult>(m, "CutUniformizeResult")
+        .def_property_readonly("uv", [](const CutUniformizeResult& r) { return r.uv; })
+        .def_property_readonly("flipped_faces", [](const CutUniformizeResult& r) { return r.distortion.flipped; })
+        .def("report", [](const CutUniformizeResult& r) { return to_object(to_json(r)); });
 
     py::class_<MappedSurface>(m, "MappedSurface")
         .def(py::init([](const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
@@ -175,6 +182,14 @@ PYBIND11_MODULE(_koebe, m)
             return uniformize(vertices, triangles, options, context);
         });
     });
+    m.def("uniformize_with_cuts",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             const std::vector<Index>& polygon, const UniformizeOptions& options, const py::object& progress,
+             const CancelToken& cancel) {
+              return without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return uniformize_with_cuts(vertices, triangles, polygon, options, context);
+              });
+          });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
         return detached(
             [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; },

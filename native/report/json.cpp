@@ -36,13 +36,6 @@ Json mean_roundness_json(const std::vector<LoopReport>& loops)
             {"least_squares", {{"all", mean.all.least_squares}, {"holes", mean.holes.least_squares}}}};
 }
 
-Json seconds_json(const StageSeconds& seconds)
-{
-    return {{"read", seconds.read},     {"topology", seconds.topology}, {"metric", seconds.metric},
-            {"factor", seconds.factor}, {"iterate", seconds.iterate},   {"finish", seconds.finish},
-            {"write", seconds.write},   {"total", seconds.total}};
-}
-
 template <typename T>
 Json array_json(const std::vector<T>& items, Json (*item_json)(const T&))
 {
@@ -88,6 +81,13 @@ Json to_json(const Distortion& distortion)
             {"below_resolution", distortion.below_resolution.size()}};
 }
 
+Json to_json(const StageSeconds& seconds)
+{
+    return {{"read", seconds.read},     {"topology", seconds.topology}, {"metric", seconds.metric},
+            {"factor", seconds.factor}, {"iterate", seconds.iterate},   {"finish", seconds.finish},
+            {"write", seconds.write},   {"total", seconds.total}};
+}
+
 Json to_json(const std::vector<Warning>& warnings) { return array_json(warnings, warning_json); }
 
 Json to_json(const UniformizeResult& result)
@@ -108,7 +108,7 @@ Json to_json(const UniformizeResult& result)
     if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);
     if (result.unpolished_angle_error_deg)
         report["angle_error_deg"]["before_polish"] = result.unpolished_angle_error_deg->mean;
-    report.update({{"seconds", seconds_json(result.seconds)},
+    report.update({{"seconds", to_json(result.seconds)},
                    {"peak_memory_mb", result.peak_memory_mb},
                    {"warnings", to_json(result.warnings)}});
     return report;

@@ -21,6 +21,9 @@ KOEBE_API nlohmann::ordered_json to_json(const UniformizeResult& result);
 /// below_resolution (the last two as counts).
 KOEBE_API nlohmann::ordered_json to_json(const Distortion& distortion);
 
+/// Seconds of each stage by its name.
+nlohmann::ordered_json to_json(const StageSeconds& seconds);
+
 /// An array of {"kind", "elements", "text"}.
 KOEBE_API nlohmann::ordered_json to_json(const std::vector<Warning>& warnings);
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
 
 namespace koebe {
@@ -141,6 +142,36 @@ void draw_off_circle(SvgText& svg, const UniformizeResult& result)
 }
 
 }  // namespace
+
+std::string to_svg(const CutUniformizeResult& result, const PolygonMesh& mesh, const PlanarPoints& corner_uvs)
+{
+    SvgText svg;
+    svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10000 10000\" width=\"1000\" height=\"1000\">\n"
+        << "<title>" << static_cast<Index>(result.pieces.size()) << " pieces</title>\n"
+        << "<rect width=\"10000\" height=\"10000\" fill=\"#ffffff\"/>\n";
+    UniformizeResult sheet;  // every corner a vertex
+    sheet.uv = 2.0 * corner_uvs.array() - 1.0;
+    sheet.loops.emplace_back();
+    svg << "<g class=\"disks\" fill=\"#f4efe6\" stroke=\"#1b2a41\" stroke-width=\"12\">\n";
+    for (const MappedPiece& piece : result.pieces) {
+        draw_circle(svg, piece.place);
+        svg << "/>\n";
+        for (std::size_t k = 1; k < piece.map.loops.size(); ++k) {
+            const Circle& circle = piece.map.loops[k].circle;
+            sheet.loops.emplace_back().circle = {piece.place.center + piece.place.radius * circle.center,
+                                                 piece.place.radius * circle.radius};
+        }
+    }
+    svg << "</g>\n";
+    if (mesh.face_count() < wireframe_face_limit) {
+        PolygonMesh corners{Vertices::Zero(corner_uvs.rows(), 3), mesh.corners, mesh.face_begin};
+        std::iota(corners.corners.begin(), corners.corners.end(), 0);
+        draw_wireframe(svg, sheet, corners);
+    }
+    draw_holes(svg, sheet);
+    svg << "</svg>\n";
+    return svg.finish();
+}
 
 std::string to_svg(const UniformizeResult& result, const PolygonMesh& mesh)
 {

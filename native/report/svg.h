@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/polygon_mesh.h"
+#include "pipeline/cut_uniformize.h"
 #include "pipeline/result.h"
 
 #include <string>
@@ -15,5 +16,9 @@ inline constexpr Index wireframe_face_limit = 50000;  // faces
 /// where the map shrinks. The imaginary axis points up. Vertices that are off their loop's circle are marked.
 /// @param mesh the polygons whose vertices result.uv places
 std::string to_svg(const UniformizeResult& result, const PolygonMesh& mesh);
+
+/// The unit square with the pieces of a cut surface: their circles and, as above, their edges.
+/// @param mesh the polygons @param corner_uvs (C, 2) of their corners
+std::string to_svg(const CutUniformizeResult& result, const PolygonMesh& mesh, const PlanarPoints& corner_uvs);
 
 }  // namespace koebe

@@ -14,6 +14,7 @@ from ._api import (
     uniformize,
 )
 from ._batch import batch
+from ._cut_result import CutResult
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
@@ -37,6 +38,7 @@ __all__ = [
     "CancelToken",
     "Cancelled",
     "Correspondence",
+    "CutResult",
     "DomainAlignment",
     "Family",
     "InputError",

@@ -1,11 +1,12 @@
 """The public functions: arrays checked, options made native, results wrapped."""
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Literal, overload
 
 import numpy as np
 
 from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
+from ._cut_result import CutResult
 from ._meshes import is_mesh, read_mesh
 from ._native import _koebe
 from ._options import callback, choice, flag, outer_loop, positive, sweep, token, vertex, whole
@@ -60,7 +61,13 @@ def _options(
     return options
 
 
+@overload
+def uniformize(vertices: Any, triangles: Any = None, *, cut: Literal[True], **options: Any) -> CutResult: ...
+@overload
 def uniformize(
+    vertices: Any, triangles: Any = None, *, cut: Literal[False] = False, **options: Any
+) -> UniformizeResult: ...
+def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     vertices: Any,
     triangles: Any = None,
     *,
@@ -81,7 +88,8 @@ def uniformize(
     metric: str = "first",
     annulus: str = "harmonic",
     record_steps: bool = False,
-) -> UniformizeResult:
+    cut: bool = False,
+) -> UniformizeResult | CutResult:
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
     vertices     (V, 3) float32 or float64, any unit, any order, read-only accepted, never modified
@@ -103,6 +111,10 @@ def uniformize(
     point        a vertex of a boundary loop that goes to 1; its loop is the one on the unit circle. Both together leave
                  no freedom (paper, section 4.3); center alone turns nothing, point alone only turns
 
+    cut          open, cut and split in the UVs what cannot be mapped as it is: closed surfaces, handles, edges of three
+                 faces, one-sided surfaces, several components, degenerate and duplicate faces. Gives a CutResult, whose
+                 uv are the corners' (F, 3, 2) in [0, 1]^2. A vertex named by outer, center, point is of one piece
+
     With engine='mesh', the paper's own choices:
     partners     'fixed', or 'changing': with 'gk' each sweep pairs the loops another way (Fig. 4)
     schedule     the loops that each step of a sweep opens, as places in the result's `loops`: pairs, with 'ck' single
@@ -120,8 +132,9 @@ def uniformize(
     options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point)
     _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    source = _source(vertices, triangles)
-    native = _koebe.uniformize(source.vertices, source.triangles, options, progress, cancel)
+    if flag(cut, "cut") and (schedule is not None or record_steps):
+        raise OptionError("cut excludes schedule and record_steps: they are about the loops of one surface")
+    source = _source(vertices, triangles, cut)
     chosen = {
         "method": method, "engine": engine, "outer": outer if isinstance(outer, str) else int(outer),
         "tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "balance": balance,
@@ -130,16 +143,22 @@ def uniformize(
         "partners": partners, "schedule": sweep(schedule, "schedule") or None, "metric": metric, "annulus": annulus,
         "record_steps": options.mesh.record_steps,
     }  # fmt: skip
+    if cut:
+        polygon = np.zeros(0, np.int32) if source.polygon is None else source.polygon
+        made = _koebe.uniformize_with_cuts(source.vertices, source.triangles, polygon, options, progress, cancel)
+        report = with_origin(made.report(), source, {**chosen, "cut": True})
+        return CutResult(report, made.uv, np.array(made.flipped_faces), source)
+    native = _koebe.uniformize(source.vertices, source.triangles, options, progress, cancel)
     report = with_origin(native.report(), source, chosen)
     return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
 
-def _source(vertices: Any, triangles: Any) -> Source:
+def _source(vertices: Any, triangles: Any, degenerate: bool = False) -> Source:
     """The surface as arrays, of a mesh of another package too."""
     if not is_mesh(vertices):
         if triangles is None:
             raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh, meshio or nibabel")
-        return Source(*as_surface(vertices, triangles))
+        return Source(*as_surface(vertices, triangles, degenerate=degenerate))
     if triangles is not None:
         raise TypeError("a mesh has its own faces: give no triangles")
     polygons = read_mesh(vertices)

@@ -16,8 +16,8 @@ _MOST_VERTICES = 2**31 - 2
 _MOST_FACES = _MOST_VERTICES // 3
 
 
-def as_surface(vertices: Any, triangles: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Positions (V, 3) float64 and faces (F, 3) int32, C order.
+def as_surface(vertices: Any, triangles: Any, *, degenerate: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Positions (V, 3) float64 and faces (F, 3) int32, C order; degenerate: faces may name a vertex twice.
 
     Takes float32 or float64, int32 or int64, in any order and byte order, read-only too.
     """
@@ -26,10 +26,10 @@ def as_surface(vertices: Any, triangles: Any) -> tuple[np.ndarray, np.ndarray]:
         raise InputError("the mesh has no vertices")
     if len(positions) > _MOST_VERTICES:
         raise InputError(f"the mesh has {len(positions)} vertices; there may be {_MOST_VERTICES}")
-    return positions, as_triangles(triangles, len(positions))
+    return positions, as_triangles(triangles, len(positions), degenerate=degenerate)
 
 
-def as_triangles(triangles: Any, vertex_count: int | None = None) -> np.ndarray:
+def as_triangles(triangles: Any, vertex_count: int | None = None, *, degenerate: bool = False) -> np.ndarray:
     """(F, 3) int32, C order: different vertices of 0 .. vertex_count - 1, or of any number without it."""
     faces = _copy(triangles, "triangles", _WHOLE, 3)
     if not len(faces):
@@ -41,7 +41,7 @@ def as_triangles(triangles: Any, vertex_count: int | None = None) -> np.ndarray:
     _refuse(missing, "faces name a vertex that does not exist (faces listed)", "faces")
     a, b, c = faces.T
     twice: np.ndarray = (a == b) | (b == c) | (c == a)
-    _refuse(twice, "faces name the same vertex twice (faces listed)", "faces")
+    _refuse(twice & (not degenerate), "faces name the same vertex twice (faces listed)", "faces")
     return faces.astype(np.int32, copy=False)
 
 

@@ -1,0 +1,269 @@
+#include "pipeline/cut_uniformize.h"
+
+#include "core/detachable_run.h"
+#include "core/errors.h"
+#include "core/peak_memory.h"
+#include "core/topology.h"
+#include "pipeline/cut_sheet.h"
+#include "pipeline/cut_warnings.h"
+#include "pipeline/disk_packing.h"
+#include "pipeline/uniformize.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double opening_share = 0.1;  // of the progress
+constexpr double least_share = 0.1;    // dimensionless: no disk is smaller than this part of the mean one
+constexpr int most_packings = 5;  // pieces with flips, which come from rounding, are drawn twice as large each time
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// Which piece a vertex that the options name is given to, and its number there.
+struct NamedVertex {
+    Index vertex = -1;
+    std::size_t piece = 0;
+    Index local = -1;
+};
+
+NamedVertex find_named(const std::vector<SurfacePiece>& pieces, Index vertex, bool on_loop, const char* what)
+{
+    if (vertex < 0) return {};
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const auto& names = pieces[i].source_vertex;
+        if (std::ranges::find(names, vertex) == names.end()) continue;
+        const std::vector<char> boundary =
+            boundary_mask(analyze_surface(pieces[i].triangles, static_cast<Index>(names.size())));
+        for (std::size_t v = 0; v < names.size(); ++v)
+            if (names[v] == vertex && (boundary[v] != 0) == on_loop) return {vertex, i, static_cast<Index>(v)};
+    }
+    throw InputError("vertex " + std::to_string(vertex) + " cannot be the " + what + ": no piece has it " +
+                         (on_loop ? "on a boundary loop" : "inside"),
+                     ElementKind::vertices, {vertex});
+}
+
+class PieceMapper {
+public:
+    PieceMapper(const OpenedSurface& opened, const UniformizeOptions& options)
+        : opened_(opened),
+          options_(options),
+          outer_(find_named(opened.pieces, options.outer == OuterLoop::vertex ? options.outer_vertex : -1, true,
+                            "outer loop's")),
+          center_(find_named(opened.pieces, options.center, false, "centre")),
+          point_(find_named(opened.pieces, options.point, true, "point"))
+    {
+    }
+
+    /// @param failure the error of a piece that has no map, unless it is set
+    MappedPiece map(std::size_t i, ExecutionContext& context, std::exception_ptr& failure) const
+    {
+        const SurfacePiece& piece = opened_.pieces[i];
+        MappedPiece mapped{piece.source_face, {}, {}};
+        const UniformizeOptions own = options_for(i);
+        try {
+            mapped.map = uniformize_here(piece.vertices, piece.triangles, own, context);
+        } catch (const OutOfMemory&) {
+            throw;
+        } catch (const SolverError& error) {
+            fail(piece, error, mapped);
+            if (!failure) failure = std::current_exception();
+        } catch (const InputError& error) {  // without any extent
+            if (own.outer == OuterLoop::vertex || own.center >= 0 || own.point >= 0) throw;
+            fail(piece, error, mapped);
+            if (!failure) failure = std::current_exception();
+        }
+        return mapped;
+    }
+
+    /// Numbers of the piece to those of the input.
+    static void rename(const SurfacePiece& piece, UniformizeResult& map)
+    {
+        const auto rename_all = [](std::vector<Index>& numbers, const std::vector<Index>& names) {
+            for (Index& number : numbers) number = names[static_cast<std::size_t>(number)];
+        };
+        for (LoopReport& loop : map.loops) {
+            rename_all(loop.vertices, piece.source_vertex);
+            rename_all(loop.off_circle, piece.source_vertex);
+        }
+        rename_all(map.distortion.flipped, piece.source_face);
+        rename_all(map.distortion.below_resolution, piece.source_face);
+        for (Index* named : {&map.center, &map.point})
+            if (*named >= 0) *named = piece.source_vertex[static_cast<std::size_t>(*named)];
+    }
+
+private:
+    UniformizeOptions options_for(std::size_t i) const
+    {
+        UniformizeOptions own = options_;
+        own.center = center_.piece == i ? center_.local : -1;
+        own.point = point_.piece == i ? point_.local : -1;
+        if (own.outer == OuterLoop::vertex) {
+            own.outer_vertex = outer_.piece == i ? outer_.local : -1;
+            if (own.outer_vertex < 0) own.outer = OuterLoop::automatic;
+        }
+        own.vertex_names = opened_.pieces[i].source_vertex;
+        own.face_names = opened_.pieces[i].source_face;
+        return own;
+    }
+
+    static void fail(const SurfacePiece& piece, const KoebeError& error, MappedPiece& mapped)
+    {
+        mapped.mapped = false;
+        mapped.map.uv = PlanarPoints::Zero(piece.vertices.rows(), 2);
+        mapped.map.vertex_count = static_cast<Index>(piece.vertices.rows());
+        mapped.map.face_count = static_cast<Index>(piece.triangles.rows());
+        mapped.map.warnings.push_back(
+            {WarningKind::not_converged, std::string("no map: ") + error.name() + ", " + error.what()});
+    }
+
+    const OpenedSurface& opened_;
+    const UniformizeOptions& options_;
+    NamedVertex outer_, center_, point_;
+};
+
+double area_of(const SurfacePiece& piece, double unit)
+{
+    double area = 0.0;
+    for (const auto& face : piece.triangles.rowwise()) {
+        const Eigen::RowVector3d a = piece.vertices.row(face[0]) / unit;
+        const Eigen::RowVector3d ab = piece.vertices.row(face[1]) / unit - a,
+                                 ac = piece.vertices.row(face[2]) / unit - a;
+        area += 0.5 * ab.cross(ac).norm();
+    }
+    return area;
+}
+
+/// Radii of disks with the areas of the pieces, the least of them larger.
+std::vector<double> radii_by_area(const std::vector<SurfacePiece>& pieces)
+{
+    double unit = 0.0;
+    for (const SurfacePiece& piece : pieces) unit = std::max(unit, piece.vertices.cwiseAbs().maxCoeff());
+    std::vector<double> radii;
+    for (const SurfacePiece& piece : pieces)
+        radii.push_back(std::sqrt(area_of(piece, unit > 0.0 ? unit : 1.0) / std::numbers::pi));
+    double squares = 0.0;
+    for (const double radius : radii) squares += radius * radius;
+    const double mean = std::sqrt(squares / static_cast<double>(radii.size()));
+    for (double& radius : radii) radius = std::max(radius, mean > 0.0 ? least_share * mean : 1.0);
+    return radii;
+}
+
+void draw_left_out(const std::vector<LeftOutFace>& left_out, const Triangles& triangles, PlanarPoints& uv)
+{
+    const auto corner_with = [&](Index f, Index vertex) {
+        for (Eigen::Index k = 0; k < 3; ++k)
+            if (triangles(f, k) == vertex) return k;
+        return Eigen::Index{-1};
+    };
+    for (const LeftOutFace& out : left_out) {
+        Eigen::RowVector2d point = Eigen::RowVector2d::Zero();
+        for (Eigen::Index k = 2; k >= 0 && out.like >= 0; --k)
+            if (const Eigen::Index at = corner_with(out.like, triangles(out.face, k)); at >= 0) {
+                point = uv.row(3 * static_cast<Eigen::Index>(out.like) + at);
+                if (!out.degenerate) uv.row(3 * static_cast<Eigen::Index>(out.face) + k) = point;
+            }
+        if (out.degenerate)
+            for (Eigen::Index k = 0; k < 3; ++k) uv.row(3 * static_cast<Eigen::Index>(out.face) + k) = point;
+    }
+}
+
+CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& triangles,
+                                     const std::vector<Index>& polygon, const UniformizeOptions& options,
+                                     ExecutionContext& context)
+{
+    const auto begin = Clock::now();
+    CutUniformizeResult result;
+    result.method = options.method;
+    result.engine = options.engine;
+    result.vertex_count = static_cast<Index>(vertices.rows());
+    result.face_count = static_cast<Index>(triangles.rows());
+    context.begin_stage("cut", 0.0, opening_share);
+    OpenedSurface opened = open_surface(vertices, triangles, {.polygon = polygon}, context);
+    const double opening = seconds_since(begin);
+    const PieceMapper mapper(opened, options);
+    const double all = static_cast<double>(triangles.rows());
+    double done = 0.0;
+    result.converged = true;
+    std::exception_ptr failure;
+    for (std::size_t i = 0; i < opened.pieces.size(); ++i) {
+        const double faces = static_cast<double>(opened.pieces[i].triangles.rows());
+        ExecutionContext own(
+            [&](double fraction, const std::string& stage) {
+                context.report(opening_share + (1.0 - opening_share) * (done + fraction * faces) / all, stage);
+            },
+            {}, [&context] { context.checkpoint(); });
+        result.pieces.push_back(mapper.map(i, own, failure));
+        done += faces;
+        const MappedPiece& piece = result.pieces.back();
+        result.converged = result.converged && piece.mapped && piece.map.converged;
+        result.seconds += piece.map.seconds;
+        for (std::size_t f = 0; f < piece.faces.size(); ++f)
+            if (opened.pieces[i].turned[f]) result.turned.push_back(piece.faces[f]);
+    }
+    std::ranges::sort(result.turned);
+    if (failure && std::ranges::none_of(result.pieces, &MappedPiece::mapped)) std::rethrow_exception(failure);
+
+    Sheet sheet(opened.pieces);
+    std::vector<double> radii = radii_by_area(opened.pieces);
+    std::vector<Circle> places;
+    for (int round = 0; round < most_packings; ++round) {
+        places = pack_disks(radii);
+        sheet.place(result.pieces, places);
+        if (places.size() == 1) break;
+        for (const std::size_t i : sheet.flipped_pieces())
+            if (result.pieces[i].mapped) sheet.turn_back(i, places[i], result.pieces[i], context);
+        const std::vector<std::size_t> flipped = sheet.flipped_pieces();
+        if (flipped.empty()) break;
+        for (const std::size_t i : flipped) radii[i] *= 2.0;
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        result.pieces[i].place = places[i];
+        PieceMapper::rename(opened.pieces[i], result.pieces[i].map);
+    }
+    result.distortion = sheet.distortion();
+    result.uv = sheet.corners(result.face_count);
+    draw_left_out(opened.left_out, triangles, result.uv);
+    result.cuts = std::move(opened.cuts);
+    result.left_out = std::move(opened.left_out);
+    result.handles = opened.handles;
+    result.converged =
+        result.converged && result.distortion.flipped.size() == result.distortion.below_resolution.size();
+    result.warnings = cut_warnings(result);
+    result.seconds.topology += opening;
+    result.seconds.total = seconds_since(begin);
+    result.peak_memory_mb = peak_memory_mb();
+    context.report(1.0, "finish");
+    return result;
+}
+
+}  // namespace
+
+CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangles& triangles,
+                                         const std::vector<Index>& polygon, const UniformizeOptions& options,
+                                         ExecutionContext& context)
+{
+    return run_detachable<CutUniformizeResult>(context, [vertices, triangles, polygon, options](ExecutionContext& own) {
+        return cut_map_and_pack(vertices, triangles, polygon, options, own);
+    });
+}
+
+CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangles& triangles,
+                                         const std::vector<Index>& polygon, const UniformizeOptions& options)
+{
+    ExecutionContext context;
+    return uniformize_with_cuts(vertices, triangles, polygon, options, context);
+}
+
+}  // namespace koebe

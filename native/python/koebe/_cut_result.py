@@ -1,0 +1,83 @@
+"""What uniformize(..., cut=True) gives: pieces with a map each, side by side in the unit square."""
+
+import copy
+from typing import Any
+
+import numpy as np
+
+from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+
+
+class CutResult:
+    """The maps of the pieces of any mesh, and their report.
+
+    uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. A cut is an edge
+                     whose two sides have different ones
+    piece            (F,) int32, the place of each triangle's piece in `pieces`; -1 for those left out
+    pieces           list of dicts: faces, mapped, place (center and radius of its disk in the square), loops with
+                     circles in the coordinates of its own unit disk, and its figures. Numbers are the input's
+    cuts             list of dicts: kind ('crowded_edge', 'orientation', 'bow_tie', 'handle', 'opening'), elements (the
+                     vertices along the cut; a closed one ends with its first), text
+    handles_cut      how many
+    left_out         list of dicts: face, and the face that it is drawn like, or None. These count in no figure
+    turned           faces turned to the orientation of their piece
+    converged        whether all pieces are
+    angle_error_deg, beltrami, area_distortion, conformal_energy    over all pieces, as they lie in the square
+    flipped, below_resolution    counts of faces, with the UVs as 32-bit floats
+    flipped_faces    int32 array of the faces that `flipped` counts, rising
+    version, input_sha256, options, vertices, faces, method, engine, seconds, peak_memory_mb, warnings
+                     as in UniformizeResult
+    """
+
+    version: str
+    input_sha256: str
+    options: dict[str, Any]
+    uv: np.ndarray
+    piece: np.ndarray
+    pieces: list[dict[str, Any]]
+    cuts: list[dict[str, Any]]
+    handles_cut: int
+    left_out: list[dict[str, Any]]
+    turned: list[int]
+    vertices: int
+    faces: int
+    method: str
+    engine: str
+    converged: bool
+    angle_error_deg: AngleError
+    beltrami: Beltrami
+    area_distortion: AreaDistortion
+    conformal_energy: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    seconds: Seconds
+    peak_memory_mb: float
+    warnings: list[Warning]
+
+    def __init__(self, report: dict[str, Any], uv: np.ndarray, flipped_faces: np.ndarray, source: Source) -> None:
+        self._report = report
+        self._source = source
+        vars(self).update({name: value for name, value in report.items() if name not in {"input", "cut"}})
+        self.uv = uv.reshape(-1, 3, 2)
+        self.uv.flags.writeable = False
+        self.piece = np.full(len(self.uv), -1, np.int32)
+        for number, piece in enumerate(self.pieces):
+            self.piece[piece["faces"]] = number
+        self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        return self._source.vertices, self._source.triangles
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict, with input_sha256 and options."""
+        return copy.deepcopy(self._report)
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.CutResult {self.faces} faces, {len(self.pieces)} pieces, {len(self.cuts)} cuts, "
+            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+        )

@@ -1,0 +1,69 @@
+#include "report/cut_json.h"
+
+#include "pipeline/cut_warnings.h"
+#include "report/json.h"
+
+namespace koebe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What the report of a piece has that the mesh's has not, or has as a whole.
+Json piece_json(const MappedPiece& piece)
+{
+    Json report{{"faces", piece.faces},
+                {"mapped", piece.mapped},
+                {"place",
+                 {{"center", {0.5 * (1.0 + piece.place.center.real()), 0.5 * (1.0 + piece.place.center.imag())}},
+                  {"radius", 0.5 * piece.place.radius}}}};
+    const Json own = to_json(piece.map);
+    for (const char* key : {"outer_loop", "center", "point", "converged", "sweeps", "steps", "history", "loops",
+                            "mean_roundness", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy",
+                            "flipped", "below_resolution", "seconds", "warnings"})
+        if (own.contains(key)) report[key] = own[key];
+    return report;
+}
+
+Json cuts_json(const std::vector<SurfaceCut>& cuts)
+{
+    Json array = Json::array();
+    for (const SurfaceCut& cut : cuts)
+        array.push_back({{"kind", to_string(cut.kind)}, {"elements", cut.vertices}, {"text", cut_text(cut)}});
+    return array;
+}
+
+Json left_out_json(const std::vector<LeftOutFace>& left_out)
+{
+    Json array = Json::array();
+    for (const LeftOutFace& out : left_out)
+        array.push_back({{"face", out.face}, {"like", out.like < 0 ? Json() : Json(out.like)}});
+    return array;
+}
+
+}  // namespace
+
+Json to_json(const CutUniformizeResult& result)
+{
+    Json report{{"version", KOEBE_VERSION},
+                {"input", ""},
+                {"vertices", result.vertex_count},
+                {"faces", result.face_count},
+                {"method", to_string(result.method)},
+                {"engine", to_string(result.engine)},
+                {"cut", true},
+                {"converged", result.converged},
+                {"cuts", cuts_json(result.cuts)},
+                {"handles_cut", result.handles},
+                {"left_out", left_out_json(result.left_out)},
+                {"turned", result.turned}};
+    Json pieces = Json::array();
+    for (const MappedPiece& piece : result.pieces) pieces.push_back(piece_json(piece));
+    report["pieces"] = std::move(pieces);
+    report.update(to_json(result.distortion));
+    report["seconds"] = to_json(result.seconds);
+    report["peak_memory_mb"] = result.peak_memory_mb;
+    report["warnings"] = to_json(result.warnings);
+    return report;
+}
+
+}  // namespace koebe
