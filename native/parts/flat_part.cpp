@@ -1,0 +1,141 @@
+#include "parts/flat_part.h"
+
+#include "core/connectivity.h"
+#include "core/length.h"
+#include "foldover/untangle.h"
+#include "parts/tube_slit.h"
+#include "quality/stored_uv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+std::vector<VertexLoop> original_loops(const PartMesh& mesh)
+{
+    std::vector<VertexLoop> loops;
+    for (const VertexLoop& loop : mesh.surface.loops) {
+        VertexLoop own;
+        for (const Index v : loop) own.push_back(mesh.original[v]);
+        loops.push_back(std::move(own));
+    }
+    return loops;
+}
+
+double signed_area(const PlanarPoints& p, const Triangles& triangles, Eigen::Index f)
+{
+    const Eigen::RowVector2d a = p.row(triangles(f, 1)) - p.row(triangles(f, 0));
+    const Eigen::RowVector2d b = p.row(triangles(f, 2)) - p.row(triangles(f, 0));
+    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/// UV area as area in the middle of the window of least overflow.
+void scale_evenly(const PartMesh& mesh, FlatPart& flat)
+{
+    std::vector<double> u, areas;
+    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) {
+        const double area = signed_area(flat.points, flat.surface.triangles, f);
+        if (!(area > 0.0) || !(mesh.areas[f] > 0.0)) continue;
+        u.push_back(0.5 * std::log(area / mesh.areas[f]));
+        areas.push_back(mesh.areas[f]);
+    }
+    if (u.empty()) return;
+    const Evenness even = evenness(Eigen::Map<VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())),
+                                   Eigen::Map<VectorXd>(areas.data(), static_cast<Eigen::Index>(areas.size())));
+    flat.points *= std::exp(-even.from - 0.5 * even_range);
+}
+
+Index flipped_count(const FlatPart& flat)
+{
+    Index count = 0;
+    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f)
+        count += !(signed_area(flat.points, flat.surface.triangles, f) > 0.0);
+    return count;
+}
+
+FlatPart as_disk(const Part& part)
+{
+    FlatPart flat{
+        part.mesh.faces, part.mesh.original, part.mesh.vertices, part.mesh.surface, {}, PartKind::disk, {}, 0.0};
+    flat.points.resize(part.map.positions.size(), 2);
+    flat.points << part.map.positions.real(), part.map.positions.imag();
+    return flat;
+}
+
+/// Opened along its slit. @return no points if that cannot be
+FlatPart as_tube(const Part& part)
+{
+    FlatPart flat{part.mesh.faces, {}, {}, {}, {}, PartKind::tube, {}, 0.0};
+    const TubeSlit slit = tube_slit(part);
+    if (slit.lift.empty()) return flat;
+    flat.slit = slit.length;
+    const Triangles& triangles = part.mesh.surface.triangles;
+    std::map<std::pair<Index, int>, Index> number;
+    std::vector<Index> own;
+    Triangles opened(triangles.rows(), 3);
+    for (Index c = 0; c < static_cast<Index>(triangles.size()); ++c) {
+        const Index v = triangles.data()[c];
+        const auto [at, is_new] = number.try_emplace({v, slit.lift[c]}, static_cast<Index>(own.size()));
+        if (is_new) own.push_back(v);
+        opened.data()[c] = at->second;
+    }
+    constexpr double two_pi = 2.0 * EIGEN_PI;
+    flat.points.resize(static_cast<Eigen::Index>(own.size()), 2);
+    for (const auto& [key, k] : number)
+        flat.points.row(k) << part.map.strip[key.first].real(), part.map.strip[key.first].imag() + two_pi * key.second;
+    flat.vertices = part.mesh.vertices(own, Eigen::all);
+    for (const Index v : own) flat.original.push_back(part.mesh.original[v]);
+    try {
+        flat.surface = require_bordered_genus_zero(opened, static_cast<Index>(own.size()));
+        if (flat.surface.loops.size() != 1) flat.points.resize(0, 2);
+    } catch (const TopologyError&) {  // the slit pinches the opened tube
+        flat.points.resize(0, 2);
+    }
+    return flat;
+}
+
+}  // namespace
+
+FlatPart flat_part(const CutSurface& whole, const Part& part)
+{
+    (void)whole;
+    FlatPart flat;
+    if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part);
+    if (flat.points.rows() == 0) {
+        flat = as_disk(part);
+    } else if (const Index flips = flipped_count(flat); flips > 0) {
+        FlatPart disk = as_disk(part);
+        if (flipped_count(disk) < flips && part.map.circles[1 - part.map.outer].radius > 1e-3) flat = std::move(disk);
+    }
+    flat.loops = original_loops(part.mesh);
+    scale_evenly(part.mesh, flat);
+    return flat;
+}
+
+Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)
+{
+    PlanarPoints points = 2.0 * uv.array() - 1.0;
+    const auto bad = [&] {
+        Index count = 0;
+        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
+            count += StoredFace(part.surface.triangles, points, f).doubtful();
+        return count;
+    };
+    const Index before = bad();
+    if (before == 0) return 0;
+    std::vector<Index> boundary;
+    for (const VertexLoop& loop : part.surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    std::ranges::sort(boundary);
+    const std::vector<Circle> circles(part.surface.loops.size());
+    untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, points, context,
+             {.slide = false, .held = boundary});
+    const Index after = bad();
+    if (points.allFinite() && after < before) uv = 0.5 * (points.array() + 1.0);
+    return std::min(before, after);
+}
+
+}  // namespace koebe
