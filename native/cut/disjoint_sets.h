@@ -1,0 +1,40 @@
+// Sets that are joined, by Boost.
+#pragma once
+
+#include "core/types.h"
+
+#include <boost/property_map/property_map.hpp>  // before the next, which needs it and does not include it
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace koebe {
+
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count) : rank_(count, 0), parent_(count), sets_(rank_.data(), parent_.data())
+    {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+    DisjointSets(const DisjointSets&) = delete;
+    DisjointSets& operator=(const DisjointSets&) = delete;
+
+    Index find(Index element) { return sets_.find_set(element); }
+    /// false: they were in one set before.
+    bool join(Index a, Index b)
+    {
+        const Index of_a = find(a), of_b = find(b);
+        if (of_a == of_b) return false;
+        sets_.link(of_a, of_b);
+        return true;
+    }
+
+private:
+    std::vector<Index> rank_, parent_;
+    boost::disjoint_sets<Index*, Index*> sets_;
+};
+
+}  // namespace koebe

@@ -1,0 +1,47 @@
+// Shortest paths along the edges of a seamed mesh.
+#pragma once
+
+#include "cut/seamed_mesh.h"
+
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+
+#include <vector>
+
+namespace koebe {
+
+/// Fans and the edges between them that may be cut. An edge that touches the boundary counts as longer, so that paths
+/// keep off it.
+class EdgeGraph {
+public:
+    struct Edge {
+        double length;
+        Index halfedge;  ///< of the two that are joined the lower one
+    };
+    using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, Edge, boost::no_property,
+                                                     Index, Index>;
+
+    /// @param price dimensionless, of an edge that touches the boundary
+    EdgeGraph(const SeamedMesh& mesh, double price);
+
+    const Graph& graph() const { return graph_; }
+    /// As the graph has it, boundary edges too.
+    double length(Index halfedge) const { return length_[halfedge]; }
+
+private:
+    std::vector<double> length_;
+    Graph graph_;
+};
+
+struct PathTree {
+    std::vector<double> distance;  ///< (fans) from the nearest source; the greatest number where none leads
+    std::vector<Index> halfedge;   ///< (fans) the last of the path, in either direction; no_twin at the sources
+    std::vector<Index> parent;     ///< (fans) the fan before; itself at the sources
+
+    /// Half-edges from the fan back to its source.
+    std::vector<Index> path(Index fan) const;
+};
+
+/// Dijkstra's tree (Boost.Graph).
+PathTree shortest_paths(const EdgeGraph& graph, const std::vector<Index>& sources);
+
+}  // namespace koebe
