@@ -7,8 +7,8 @@
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
+#include <unordered_map>
 
 namespace koebe {
 namespace {
@@ -41,37 +41,66 @@ void add_edge(Graph& graph, Index a, Index b, double capacity)
     boost::put(boost::edge_reverse, graph, back, forth);
 }
 
-/// Gives the faces round a loop to the side that some of them are on; joined they are where none of them is.
-std::vector<Index> join_round_loops(const PartMesh& part, std::vector<Side>& sides)
-{
-    std::vector<Index> group(sides.size());
-    std::iota(group.begin(), group.end(), 0);
-    std::vector<int> loop_of(part.surface.vertex_count, -1);
-    for (std::size_t k = 0; k < part.surface.loops.size(); ++k)
-        for (const Index v : part.surface.loops[k]) loop_of[v] = static_cast<int>(k);
-    std::vector<std::vector<Index>> round(part.surface.loops.size());
-    for (Index f = 0; f < static_cast<Index>(sides.size()); ++f)
-        for (int k = 0; k < 3; ++k)
-            if (const int loop = loop_of[part.surface.triangles(f, k)]; loop >= 0) {
-                round[loop].push_back(f);
-                break;
-            }
-    for (const auto& faces : round) {
-        bool inside = false, outside = false;
-        for (const Index f : faces) {
-            inside |= sides[f] == Side::inside;
-            outside |= sides[f] == Side::outside;
-        }
-        if (inside && outside) continue;
-        for (const Index f : faces) {
-            if (inside || outside)
-                sides[f] = inside ? Side::inside : Side::outside;
-            else
-                group[f] = faces.front();
+/// Which faces go to one side together: those of one polygon, and those round a loop unless some of them are given to
+/// either side. Their sides become the same.
+class Groups {
+public:
+    Groups(const PartMesh& part, std::vector<Side>& sides) : sides_(sides), parent_(sides.size())
+    {
+        std::iota(parent_.begin(), parent_.end(), 0);
+        join_polygons(part);
+        join_round_loops(part);
+        for (std::size_t f = 0; f < sides.size(); ++f) sides[f] = sides[root(static_cast<Index>(f))];
+    }
+    Index root(Index f)
+    {
+        while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
+        return f;
+    }
+
+private:
+    void join(Index a, Index b)
+    {
+        a = root(a);
+        b = root(b);
+        if (a == b) return;
+        if (sides_[a] == Side::free)
+            sides_[a] = sides_[b];
+        else if (sides_[b] != Side::free && sides_[b] != sides_[a])
+            sides_[a] = Side::free;
+        parent_[b] = a;
+    }
+    void join_polygons(const PartMesh& part)
+    {
+        if (part.polygon.empty()) return;
+        std::unordered_map<Index, Index> first;
+        for (std::size_t f = 0; f < part.polygon.size(); ++f)
+            join(first.try_emplace(part.polygon[f], static_cast<Index>(f)).first->second, static_cast<Index>(f));
+    }
+    void join_round_loops(const PartMesh& part)
+    {
+        std::vector<int> loop_of(part.surface.vertex_count, -1);
+        for (std::size_t k = 0; k < part.surface.loops.size(); ++k)
+            for (const Index v : part.surface.loops[k]) loop_of[v] = static_cast<int>(k);
+        std::vector<std::vector<Index>> round(part.surface.loops.size());
+        for (Index f = 0; f < static_cast<Index>(sides_.size()); ++f)
+            for (int k = 0; k < 3; ++k)
+                if (const int loop = loop_of[part.surface.triangles(f, k)]; loop >= 0) {
+                    round[loop].push_back(f);
+                    break;
+                }
+        for (const auto& faces : round) {
+            const auto any = [&](Side side) {
+                return std::ranges::any_of(faces, [&](Index f) { return sides_[root(f)] == side; });
+            };
+            if (any(Side::inside) && any(Side::outside)) continue;
+            for (const Index f : faces) join(faces.front(), f);
         }
     }
-    return group;
-}
+
+    std::vector<Side>& sides_;
+    std::vector<Index> parent_;
+};
 
 /// Pieces of a few faces take the label round them.
 void drop_crumbs(const PartMesh& part, std::vector<int>& label)
@@ -96,7 +125,7 @@ void drop_crumbs(const PartMesh& part, std::vector<int>& label)
 std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& given)
 {
     std::vector<Side> sides = given;
-    const std::vector<Index> group = join_round_loops(part, sides);
+    Groups groups(part, sides);
     constexpr Index source = 0, sink = 1;
     std::vector<Index> node(sides.size(), -1);
     Index count = 2;
@@ -104,11 +133,13 @@ std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& give
     for (std::size_t f = 0; f < sides.size(); ++f) {
         inside |= sides[f] == Side::inside;
         outside |= sides[f] == Side::outside;
-        if (sides[f] == Side::free && group[f] == static_cast<Index>(f)) node[f] = count++;
+        if (sides[f] == Side::free && groups.root(static_cast<Index>(f)) == static_cast<Index>(f)) node[f] = count++;
     }
     if (!inside || !outside) return {};
     for (std::size_t f = 0; f < sides.size(); ++f)
-        node[f] = sides[f] == Side::inside ? source : sides[f] == Side::outside ? sink : node[group[f]];
+        node[f] = sides[f] == Side::inside    ? source
+                  : sides[f] == Side::outside ? sink
+                                              : node[groups.root(static_cast<Index>(f))];
 
     Graph graph(count);
     std::vector<double> to_source(count, 0.0), to_sink(count, 0.0);

@@ -100,9 +100,8 @@ FlatPart as_tube(const Part& part)
 
 }  // namespace
 
-FlatPart flat_part(const CutSurface& whole, const Part& part)
+FlatPart flat_part(const Part& part)
 {
-    (void)whole;
     FlatPart flat;
     if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part);
     if (flat.points.rows() == 0) {

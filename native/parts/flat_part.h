@@ -21,7 +21,7 @@ struct FlatPart {
 };
 
 /// The kind is that of the map; a tube that cannot be opened, or has more faces turned over, becomes a disk.
-FlatPart flat_part(const CutSurface& whole, const Part& part);
+FlatPart flat_part(const Part& part);
 
 /// Turns flipped faces back where the part lies in the unit square: the boundary is held.
 /// @param uv (V, 2) in [0, 1]^2, changed in place @return faces still flipped as 32-bit floats

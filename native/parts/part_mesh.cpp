@@ -1,7 +1,6 @@
 #include "parts/part_mesh.h"
 
 #include "core/connectivity.h"
-#include "core/errors.h"
 #include "core/length.h"
 
 #include <Eigen/Geometry>
@@ -12,6 +11,14 @@
 
 namespace koebe {
 namespace {
+
+Index root_of(std::vector<Index>& parent, Index i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+}  // namespace
 
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles)
 {
@@ -24,33 +31,17 @@ VectorXd face_areas(const Vertices& vertices, const Triangles& triangles)
     return areas;
 }
 
-Index root_of(std::vector<Index>& parent, Index i)
+CutSurface cut_surface(const Vertices& vertices, const Triangles& triangles, std::vector<Index> polygon)
 {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-}  // namespace
-
-CutSurface cut_surface(const Vertices& vertices, const Triangles& triangles)
-{
-    validate_arrays(vertices, triangles);
     CutSurface whole;
     whole.surface = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
-    // First within the unit cube: areas of huge or tiny surfaces are beyond the range of a double.
-    const Eigen::RowVector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
-    const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
-    const double extent = (0.5 * high - 0.5 * low).maxCoeff();
-    if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
-    whole.vertices = (vertices.rowwise() - middle) / extent;
-    const double area = face_areas(whole.vertices, whole.surface.triangles).sum();
-    if (!(area > 0.0)) throw InputError("the surface has no area");
-    whole.vertices /= std::sqrt(area);
+    whole.vertices = vertices;
     whole.areas = face_areas(whole.vertices, whole.surface.triangles);
     whole.lengths.resize(triangles.size());
     for (Index h = 0; h < static_cast<Index>(whole.lengths.size()); ++h)
         whole.lengths[h] = length_of(whole.vertices.row(origin(whole.surface.triangles, h)) -
                                      whole.vertices.row(target(whole.surface.triangles, h)));
+    whole.polygon = std::move(polygon);
     return whole;
 }
 
@@ -91,6 +82,8 @@ PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
     part.surface = require_bordered_genus_zero(own, static_cast<Index>(part.original.size()));
     part.areas = whole.areas(faces);
     part.area = part.areas.sum();
+    if (!whole.polygon.empty())
+        for (const Index f : faces) part.polygon.push_back(whole.polygon[f]);
     part.faces = std::move(faces);
     return part;
 }

@@ -8,16 +8,21 @@
 
 namespace koebe {
 
-/// What is cut: a connected, oriented, manifold surface of genus 0 with boundary, scaled to area 1.
+/// What is cut: a connected, oriented, manifold surface of genus 0 with boundary, in a unit in which all surfaces that
+/// are cut together have area 1.
 struct CutSurface {
     Vertices vertices;
     Surface surface;
-    VectorXd areas;    ///< (F) their sum is 1
-    VectorXd lengths;  ///< (3F) of each half-edge
+    VectorXd areas;              ///< (F)
+    VectorXd lengths;            ///< (3F) of each half-edge
+    std::vector<Index> polygon;  ///< (F) faces of one number are not cut apart; empty: each is one by itself
 };
 
-/// @throws InputError no area @throws TopologyError as require_bordered_genus_zero
-CutSurface cut_surface(const Vertices& vertices, const Triangles& triangles);
+/// (F) areas of faces. @param vertices of a size that its square does not overflow
+VectorXd face_areas(const Vertices& vertices, const Triangles& triangles);
+
+/// @throws TopologyError as require_bordered_genus_zero
+CutSurface cut_surface(const Vertices& vertices, const Triangles& triangles, std::vector<Index> polygon);
 
 /// Some faces of a surface, their vertices split where the faces hang together by a vertex alone: a manifold.
 struct PartMesh {
@@ -25,7 +30,8 @@ struct PartMesh {
     std::vector<Index> original;  ///< vertex of the whole, for each vertex
     Vertices vertices;
     Surface surface;
-    VectorXd areas;  ///< (F) in the unit of the whole
+    VectorXd areas;              ///< (F) in the unit of the whole
+    std::vector<Index> polygon;  ///< (F) as of the whole
     double area = 0.0;
 };
 

@@ -16,6 +16,9 @@ struct PartsOptions {
     /// What a part costs, in area share times u that lies outside the even window; two thirds of it are the price of a
     /// cut as long as the root of the area. Higher: fewer parts. 0 < price.
     double price = 0.003;
+    bool cut =
+        true;  ///< any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
 };
 
 struct PartReport {
@@ -28,7 +31,7 @@ struct PartReport {
 struct PartsResult {
     /// (3F, 2) in [0, 1]^2, corner 3 f + k of the input's face f. Across a cut the two sides differ.
     PlanarPoints uv;
-    std::vector<Index> part;  ///< (F) of each face
+    std::vector<Index> part;  ///< (F) of each face; -1: in none, as it is degenerate or the double of another
     std::vector<PartReport> parts;
     double cut_length = 0.0;   ///< of cuts and slits, over the root of the area
     double slit_length = 0.0;  ///< of the slits among them
@@ -49,7 +52,7 @@ struct PartsResult {
 /// coordinates; children are judged by the parent's map, as circles stay circles; cuts that do not pay are taken back.
 /// Each part is then mapped by itself, all are brought to one texel density and packed.
 ///
-/// @param vertices (V, 3) @param triangles (F, 3) a connected manifold of genus 0 with boundary; never changed
+/// @param vertices (V, 3) @param triangles (F, 3) never changed
 /// @return every face in one part, every part one to one but for the faces that `flipped` lists
 /// @throws InputError, TopologyError, SolverError, Cancelled
 KOEBE_API PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,

@@ -23,6 +23,11 @@ double turn(double from, double to)
     return d - two_pi * std::round(d / two_pi);
 }
 
+bool within_polygon(const PartMesh& mesh, Index h, Index twin)
+{
+    return !mesh.polygon.empty() && mesh.polygon[face_of(h)] == mesh.polygon[face_of(twin)];
+}
+
 /// 1 for the half-edges on the slit, both sides; empty if the loops are not connected.
 std::vector<char> slit_edges(const Part& part, double& length)
 {
@@ -34,7 +39,8 @@ std::vector<char> slit_edges(const Part& part, double& length)
     std::vector<Index> arrived(count, no_twin);  // half-edge by which a vertex is reached
     std::vector<std::vector<Index>> leaving(count);
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
-        if (surface.twin[h] != no_twin) leaving[origin(triangles, h)].push_back(h);
+        if (const Index t = surface.twin[h]; t != no_twin && !within_polygon(part.mesh, h, t))
+            leaving[origin(triangles, h)].push_back(h);
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Index v : surface.loops[1]) is_end[v] = 1;
