@@ -3,6 +3,9 @@
 #include "io/text_writer.h"
 #include "io/texture_coordinates.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace koebe {
 namespace {
 
@@ -56,6 +59,46 @@ void write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarP
     add_vertices(text, mesh.vertices);
     add_texture_coordinates(text, disk_points);
     for (Index f = 0; f < mesh.face_count(); ++f) add_face(text, mesh.face(f), true);
+    text.flush();
+}
+
+void write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uv)
+{
+    if (corner_uv.rows() != static_cast<Eigen::Index>(mesh.corners.size()))
+        throw InputError("as many texture coordinates as corners are needed");
+    TextWriter text(file);
+    add_vertices(text, mesh.vertices);
+    // Few places to a vertex: a list of those it has so far.
+    std::vector<std::vector<Index>> places(static_cast<std::size_t>(mesh.vertices.rows()));
+    std::vector<Index> number(mesh.corners.size()), first;
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+        const auto uv = corner_uv.row(static_cast<Eigen::Index>(c));
+        std::vector<Index>& known = places[mesh.corners[c]];
+        const auto same = std::ranges::find_if(known, [&](Index place) { return (corner_uv.row(first[place]) == uv); });
+        if (same != known.end()) {
+            number[c] = *same;
+            continue;
+        }
+        number[c] = static_cast<Index>(first.size());
+        known.push_back(number[c]);
+        first.push_back(static_cast<Index>(c));
+        text.add("vt");
+        for (int axis = 0; axis < 2; ++axis) {
+            text.add(' ');
+            text.add_number(uv[axis]);
+        }
+        text.add('\n');
+    }
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        text.add('f');
+        for (Index c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
+            text.add(' ');
+            text.add_number(mesh.corners[c] + 1);
+            text.add('/');
+            text.add_number(number[c] + 1);
+        }
+        text.add('\n');
+    }
     text.flush();
 }
 

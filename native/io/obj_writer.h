@@ -16,6 +16,13 @@ namespace koebe {
 /// @throws FileError
 void write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points);
 
+/// Writes the mesh with texture coordinates of its corners: a `vt` for each place that a vertex has, in the order of
+/// the faces. The caller commits the file.
+/// @param corner_uv (C, 2) of mesh.corners, in [0, 1]
+/// @throws InputError corner_uv has not one row for each corner
+/// @throws FileError
+void write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uv);
+
 /// Writes the mesh with a `g` line wherever the group changes from face to face. The caller commits the file.
 /// @param group (F) of each face, an index into names
 /// @throws FileError
