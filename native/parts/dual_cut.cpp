@@ -120,6 +120,34 @@ void drop_crumbs(const PartMesh& part, std::vector<int>& label)
     }
 }
 
+/// Faces with two edges on the cut go to the other side: the cut becomes shorter, and no face lies flat on a circle.
+void drop_ears(const PartMesh& part, std::vector<int>& label)
+{
+    const auto is_alone = [&](Index f) {
+        int across = 0;
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            const Index t = part.surface.twin[h];
+            if (t == no_twin) continue;
+            const Index g = face_of(t);
+            if (label[g] != label[f])
+                ++across;
+            else if (!part.polygon.empty() && part.polygon[g] == part.polygon[f])
+                return false;
+        }
+        return across >= 2;
+    };
+    std::vector<Index> queue(label.size());
+    std::iota(queue.begin(), queue.end(), 0);
+    const std::size_t most = 4 * label.size();
+    for (std::size_t head = 0; head < queue.size() && head < most; ++head) {
+        const Index f = queue[head];
+        if (!is_alone(f)) continue;
+        label[f] = 1 - label[f];
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+            if (const Index t = part.surface.twin[h]; t != no_twin) queue.push_back(face_of(t));
+    }
+}
+
 }  // namespace
 
 std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& given)
@@ -166,6 +194,7 @@ std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& give
     std::vector<int> label(sides.size());
     for (std::size_t f = 0; f < sides.size(); ++f)
         label[f] = node[f] == source || (node[f] != sink && color[node[f]] == color[source]);
+    drop_ears(part, label);
     drop_crumbs(part, label);
     if (std::ranges::count(label, 1) == 0 || std::ranges::count(label, 0) == 0) return {};
     return label;

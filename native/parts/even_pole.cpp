@@ -34,8 +34,8 @@ Samples sampled(const VectorXd& areas, const PartMap& map)
 
 double overflow_with(const Samples& samples, Complex a)
 {
-    const VectorXd u = samples.u.array() - 2.0 * (1.0 - std::conj(a) * samples.centers.array()).abs().log();
-    return u.allFinite() ? evenness(u, samples.areas).overflow : 6.0 * samples.areas.sum();
+    const VectorXd u = samples.u.array() - (1.0 - std::conj(a) * samples.centers.array()).abs2().log();
+    return u.allFinite() ? rough_overflow(u, samples.areas) : 6.0 * samples.areas.sum();
 }
 
 /// The automorphism of the disk, by the point that goes to 0.

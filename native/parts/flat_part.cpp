@@ -1,10 +1,13 @@
 #include "parts/flat_part.h"
 
 #include "core/connectivity.h"
-#include "core/length.h"
+#include "core/errors.h"
 #include "foldover/untangle.h"
 #include "parts/tube_slit.h"
+#include "planar/boundary_crossings.h"
 #include "quality/stored_uv.h"
+#include "surface/harmonic_map.h"
+#include "surface/intrinsic_metric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +17,8 @@
 
 namespace koebe {
 namespace {
+
+constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges tell nothing of a loop's course
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
 {
@@ -49,12 +54,31 @@ void scale_evenly(const PartMesh& mesh, FlatPart& flat)
     flat.points *= std::exp(-even.from - 0.5 * even_range);
 }
 
-Index flipped_count(const FlatPart& flat)
+/// Faces turned over.
+Index flaws(const Surface& surface, const PlanarPoints& points)
 {
     Index count = 0;
-    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f)
-        count += !(signed_area(flat.points, flat.surface.triangles, f) > 0.0);
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        count += !(signed_area(points, surface.triangles, f) > 0.0);
     return count;
+}
+
+/// The inside of a disk again, with the boundary where the map has it: a Moebius map of the vertices alone bends faces.
+PlanarPoints harmonic_again(const Part& part)
+{
+    const Surface& surface = part.mesh.surface;
+    const IntrinsicMetric metric = intrinsic_metric(part.mesh.vertices, surface);
+    std::vector<Index> boundary;
+    for (const VertexLoop& loop : surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    const VectorXcd values = part.map.positions(boundary);
+    PlanarPoints points(surface.vertex_count, 2);
+    try {
+        const VectorXcd z = harmonic_map(metric.triangles, metric.lengths, surface.vertex_count, boundary, values);
+        points << z.real(), z.imag();
+    } catch (const SolverError&) {
+        points.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    return points;
 }
 
 FlatPart as_disk(const Part& part)
@@ -63,6 +87,9 @@ FlatPart as_disk(const Part& part)
         part.mesh.faces, part.mesh.original, part.mesh.vertices, part.mesh.surface, {}, PartKind::disk, {}, 0.0};
     flat.points.resize(part.map.positions.size(), 2);
     flat.points << part.map.positions.real(), part.map.positions.imag();
+    if (const PlanarPoints points = harmonic_again(part);
+        flaws(flat.surface, points) <= flaws(flat.surface, flat.points))
+        flat.points = points;
     return flat;
 }
 
@@ -106,35 +133,54 @@ FlatPart flat_part(const Part& part)
     if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part);
     if (flat.points.rows() == 0) {
         flat = as_disk(part);
-    } else if (const Index flips = flipped_count(flat); flips > 0) {
+    } else if (const Index flips = flaws(flat.surface, flat.points); flips > 0) {
         FlatPart disk = as_disk(part);
-        if (flipped_count(disk) < flips && part.map.circles[1 - part.map.outer].radius > 1e-3) flat = std::move(disk);
+        if (flaws(disk.surface, disk.points) < flips && part.map.circles[1 - part.map.outer].radius > 1e-3)
+            flat = std::move(disk);
     }
     flat.loops = original_loops(part.mesh);
     scale_evenly(part.mesh, flat);
     return flat;
 }
 
+bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
+{
+    return crossing_boundary_edges(part.surface.loops, uv, shortest_drawn).empty();
+}
+
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)
 {
-    PlanarPoints points = 2.0 * uv.array() - 1.0;
-    const auto bad = [&] {
+    const auto bad = [&](const PlanarPoints& points) {
         Index count = 0;
         for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
             count += StoredFace(part.surface.triangles, points, f).doubtful();
         return count;
     };
-    const Index before = bad();
-    if (before == 0) return 0;
-    std::vector<Index> boundary;
+    PlanarPoints points = 2.0 * uv.array() - 1.0;
+    Index least = bad(points);
+    // The middle vertex of a face with two edges on one loop may leave it at once: on the straight end of a tube that
+    // face is flat.
+    std::vector<Index> faces_at(part.surface.vertex_count, 0), boundary, held;
+    for (Eigen::Index c = 0; c < part.surface.triangles.size(); ++c) ++faces_at[part.surface.triangles.data()[c]];
     for (const VertexLoop& loop : part.surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
     std::ranges::sort(boundary);
+    std::ranges::copy_if(boundary, std::back_inserter(held), [&](Index v) { return faces_at[v] > 1; });
     const std::vector<Circle> circles(part.surface.loops.size());
-    untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, points, context,
-             {.slide = false, .held = boundary});
-    const Index after = bad();
-    if (points.allFinite() && after < before) uv = 0.5 * (points.array() + 1.0);
-    return std::min(before, after);
+    for (const auto& stay : {held, std::vector<Index>{}}) {
+        if (least == 0) break;
+        PlanarPoints moved = points;
+        untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, moved, context,
+                 {.slide = false, .held = stay});
+        const PlanarPoints in_square = (0.5 * (moved.array() + 1.0)).cwiseMax(0.0).cwiseMin(1.0);
+        if (!moved.allFinite() || !loops_apart(part, in_square)) continue;
+        moved = 2.0 * in_square.array() - 1.0;
+        const Index count = bad(moved);
+        if (count >= least) continue;
+        least = count;
+        points = moved;
+        uv = in_square;
+    }
+    return least;
 }
 
 }  // namespace koebe

@@ -23,7 +23,11 @@ struct FlatPart {
 /// The kind is that of the map; a tube that cannot be opened, or has more faces turned over, becomes a disk.
 FlatPart flat_part(const Part& part);
 
-/// Turns flipped faces back where the part lies in the unit square: the boundary is held.
+/// Whether no boundary loop crosses itself or another: then a part without flips is one to one.
+bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
+
+/// Turns flipped faces back where the part lies in the unit square: with the boundary held, and if that does not do,
+/// with all vertices free as long as no loop comes to cross another.
 /// @param uv (V, 2) in [0, 1]^2, changed in place @return faces still flipped as 32-bit floats
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context);
 

@@ -15,6 +15,7 @@ namespace koebe {
 namespace {
 
 constexpr double cut_share = 2.0 / 3.0;  // of a part's price, for a cut as long as the root of the area
+constexpr int rounds = 2;                // of splitting and merging
 constexpr double margin = 0.004;         // between parts, in the unit square
 
 /// Within the unit cube first, as areas of huge or tiny meshes are beyond the range of a double; then of area 1.
@@ -88,8 +89,11 @@ void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsO
     const CutSurface whole = cut_surface(vertices, piece.triangles, std::move(polygon));
     SplitEffort effort;
     const SplitOptions prices{options.price, cut_share * options.price};
-    std::vector<PartPointer> parts = split_surface(whole, prices, context, effort);
-    merge_parts(whole, prices, parts, context, effort);
+    std::vector<PartPointer> parts{whole_part(whole, context, effort)};
+    for (int round = 0; round < rounds; ++round) {
+        parts = split_parts(whole, prices, std::move(parts), context, effort);
+        if (parts.size() == 1 || !merge_parts(whole, prices, parts, context, effort)) break;
+    }
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
     layout.maps += effort.maps * static_cast<double>(piece.triangles.rows()) / static_cast<double>(layout.part.size());
     for (const PartPointer& part : parts) {

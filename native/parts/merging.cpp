@@ -54,9 +54,10 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
 
 }  // namespace
 
-void merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
+bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                  ExecutionContext& context, SplitEffort& effort)
 {
+    bool any = false;
     std::set<std::pair<PartPointer, PartPointer>> refused;
     for (bool changed = true; changed;) {
         changed = false;
@@ -74,10 +75,11 @@ void merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
             }
             parts[pair.first] = std::move(both);
             parts.erase(parts.begin() + pair.second);
-            changed = true;
+            any = changed = true;
             break;
         }
     }
+    return any;
 }
 
 }  // namespace koebe

@@ -71,7 +71,7 @@ void report_density(const PartsLayout& layout, const PlanarPoints& uv, const std
     double inside = 0.0;
     std::size_t end = 0;
     for (const auto& [u, area] : density) {
-        while (end < density.size() && density[end].first <= u + even_range) inside += density[end++].second;
+        while (end < density.size() && density[end].first <= u + factor_three) inside += density[end++].second;
         result.even_area = std::max(result.even_area, inside / total);
         inside -= area;
     }

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -20,9 +18,6 @@ constexpr std::size_t most_looked_at = 8;  // proposals of a part
 constexpr std::size_t most_verified = 3;   // of them
 constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged
-constexpr double well_predicted = 0.15;    // of the cost
-
-const bool verbose = std::getenv("PARTS_VERBOSE") != nullptr;
 
 struct Split {
     double gain = 0.0, border = 0.0;
@@ -121,22 +116,23 @@ Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOp
 void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort)
 {
     context.checkpoint();
-    const double before = part.map.overflow, off = part.map.off_round;
     part.map = map_part(part.mesh, context);
     effort.maps += static_cast<double>(part.mesh.faces.size()) / static_cast<double>(whole.areas.size());
-    if (verbose)
-        std::fprintf(stderr, "map %zu faces, area %.4f, %zu loops: %s %.4f (predicted %.4f, off %.2f), lost %.4f\n",
-                     part.mesh.faces.size(), part.mesh.area, part.mesh.surface.loops.size(), to_string(part.map.kind),
-                     part.map.overflow, before, off, part.map.lost_area);
 }
 
-std::vector<PartPointer> split_surface(const CutSurface& whole, const SplitOptions& options, ExecutionContext& context,
-                                       SplitEffort& effort)
+PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, SplitEffort& effort)
 {
     std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
     std::iota(faces.begin(), faces.end(), 0);
-    std::vector<PartPointer> open{std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}})}, done;
-    map_anew(whole, *open.back(), context, effort);
+    auto part = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}});
+    map_anew(whole, *part, context, effort);
+    return part;
+}
+
+std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
+                                     std::vector<PartPointer> open, ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<PartPointer> done;
     while (!open.empty()) {
         const auto costliest = std::ranges::max_element(
             open, [](const PartPointer& a, const PartPointer& b) { return a->map.overflow < b->map.overflow; });
@@ -146,19 +142,20 @@ std::vector<PartPointer> split_surface(const CutSurface& whole, const SplitOptio
         if (!part->map.measured && part->map.lost_area > surely_lost * part->mesh.area)
             map_anew(whole, *part, context, effort);
         Split split;
-        if (part->map.overflow > options.part_price) split = best_split(whole, part, options, context, effort);
+        if (!part->settled && part->map.overflow > options.part_price)
+            split = best_split(whole, part, options, context, effort);
         if (split.gain > 0.0) {
             std::ranges::move(split.children, std::back_inserter(open));
             continue;
         }
         if (!part->map.measured) {
-            const double predicted = part->map.overflow;
             map_anew(whole, *part, context, effort);
-            if (part->map.overflow > (1.0 + well_predicted) * predicted + 0.1 * options.part_price) {
+            if (part->map.overflow > options.part_price) {
                 open.push_back(part);
                 continue;
             }
         }
+        part->settled = true;
         done.push_back(part);
     }
     return done;

@@ -17,6 +17,7 @@ from ._batch import batch
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
+from ._parts import PartsResult, parts
 from ._plot import plot
 from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning, load
 from ._shapes import (
@@ -42,6 +43,7 @@ __all__ = [
     "InputError",
     "KoebeError",
     "OptionError",
+    "PartsResult",
     "SolverError",
     "TopologyError",
     "UV_RESOLUTION",
@@ -66,6 +68,7 @@ __all__ = [
     "module_distance",
     "module_error",
     "module_names",
+    "parts",
     "plot",
     "transfer",
     "uniformize",

@@ -29,8 +29,9 @@ def as_surface(vertices: Any, triangles: Any) -> tuple[np.ndarray, np.ndarray]:
     return positions, as_triangles(triangles, len(positions))
 
 
-def as_triangles(triangles: Any, vertex_count: int | None = None) -> np.ndarray:
-    """(F, 3) int32, C order: different vertices of 0 .. vertex_count - 1, or of any number without it."""
+def as_triangles(triangles: Any, vertex_count: int | None = None, degenerate: bool = False) -> np.ndarray:
+    """(F, 3) int32, C order: vertices of 0 .. vertex_count - 1, or of any number without it; different ones, unless
+    degenerate faces are taken."""
     faces = _copy(triangles, "triangles", _WHOLE, 3)
     if not len(faces):
         raise InputError("the mesh has no faces")
@@ -39,6 +40,8 @@ def as_triangles(triangles: Any, vertex_count: int | None = None) -> np.ndarray:
     limit = _MOST_VERTICES if vertex_count is None else vertex_count
     missing: np.ndarray = np.any((faces < 0) | (faces >= limit), axis=1)
     _refuse(missing, "faces name a vertex that does not exist (faces listed)", "faces")
+    if degenerate:
+        return faces.astype(np.int32, copy=False)
     a, b, c = faces.T
     twice: np.ndarray = (a == b) | (b == c) | (c == a)
     _refuse(twice, "faces name the same vertex twice (faces listed)", "faces")
