@@ -9,7 +9,7 @@ namespace koebe {
 inline constexpr double factor_three = 1.0986122886681098;
 
 /// What a part is judged by: a little less, so that with rounding and the spread between neighbours all is within it.
-inline constexpr double even_range = 0.9 * factor_three;
+inline constexpr double even_range = 0.8 * factor_three;
 
 struct Evenness {
     double overflow = 0.0;  ///< sum of area times the distance of u from [from, from + even_range], at most 6 each

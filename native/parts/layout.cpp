@@ -14,9 +14,9 @@
 namespace koebe {
 namespace {
 
-constexpr double cut_share = 2.0 / 3.0;  // of a part's price, for a cut as long as the root of the area
-constexpr int rounds = 2;                // of splitting and merging
-constexpr double margin = 0.004;         // between parts, in the unit square
+constexpr double cut_share = 1.0;  // of a part's price, for a cut as long as the root of the area
+constexpr int rounds = 2;          // of splitting and merging
+constexpr double margin = 0.004;   // between parts, in the unit square
 
 /// Within the unit cube first, as areas of huge or tiny meshes are beyond the range of a double; then of area 1.
 Vertices of_area_one(const Vertices& vertices, const Triangles& triangles)

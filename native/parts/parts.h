@@ -13,9 +13,9 @@
 namespace koebe {
 
 struct PartsOptions {
-    /// What a part costs, in area share times u that lies outside the even window; two thirds of it are the price of a
-    /// cut as long as the root of the area. Higher: fewer parts. 0 < price.
-    double price = 0.0035;
+    /// What a part costs, in area share times the u that lies outside the even window; a cut as long as the root of the
+    /// area costs as much. Higher: fewer parts. Positive.
+    double price = 0.0037;
     bool cut =
         true;  ///< any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself

@@ -9,8 +9,8 @@
 namespace koebe {
 
 struct SplitOptions {
-    double part_price = 0.003;  ///< of a part, in overflow
-    double cut_price = 0.002;   ///< of a cut as long as the root of the area
+    double part_price = 0.0037;  ///< of a part, in overflow
+    double cut_price = 0.0037;   ///< of a cut as long as the root of the area
 };
 
 struct Part {
