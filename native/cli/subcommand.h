@@ -16,6 +16,7 @@ Subcommand add_batch(CLI::App& app);
 Subcommand add_compare(CLI::App& app);
 Subcommand add_fill(CLI::App& app);
 Subcommand add_module(CLI::App& app);
+Subcommand add_parts(CLI::App& app);
 Subcommand add_ricci(CLI::App& app);
 Subcommand add_transfer(CLI::App& app);
 Subcommand add_uniformize(CLI::App& app);

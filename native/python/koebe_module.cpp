@@ -11,11 +11,13 @@
 #include "holes/fan_filling.h"
 #include "io/polygon_triangulation.h"
 #include "linear/dense_spd.h"
+#include "parts/parts.h"
 #include "pipeline/cut_uniformize.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "report/cut_json.h"
 #include "report/json.h"
+#include "report/parts_json.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
@@ -190,6 +192,20 @@ PYBIND11_MODULE(_koebe, m)
                   return uniformize_with_cuts(vertices, triangles, polygon, options, context);
               });
           });
+    py::class_<PartsResult>(m, "PartsResult")
+        .def_property_readonly("uv", [](const PartsResult& r) { return r.uv; })
+        .def_property_readonly("part",
+                               [](const PartsResult& r) { return py::array_t<Index>(r.part.size(), r.part.data()); })
+        .def_property_readonly("flipped_faces", [](const PartsResult& r) { return r.flipped; })
+        .def("report", [](const PartsResult& r) { return to_object(to_json(r)); });
+    m.attr("default_price") = PartsOptions{}.price;
+    m.def("parts", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                      double price, bool cut, const std::vector<Index>& polygon, const py::object& progress,
+                      const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return parts_of(vertices, triangles, {.price = price, .cut = cut, .polygon = polygon}, context);
+        });
+    });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
         return detached(
             [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; },

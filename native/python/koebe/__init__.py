@@ -18,6 +18,7 @@ from ._cut_result import CutResult
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
+from ._parts import PartsResult, parts
 from ._plot import plot
 from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning, load
 from ._shapes import (
@@ -44,6 +45,7 @@ __all__ = [
     "InputError",
     "KoebeError",
     "OptionError",
+    "PartsResult",
     "SolverError",
     "TopologyError",
     "UV_RESOLUTION",
@@ -68,6 +70,7 @@ __all__ = [
     "module_distance",
     "module_error",
     "module_names",
+    "parts",
     "plot",
     "transfer",
     "uniformize",

@@ -1,0 +1,186 @@
+#include "parts/flat_part.h"
+
+#include "core/connectivity.h"
+#include "core/errors.h"
+#include "foldover/untangle.h"
+#include "parts/tube_slit.h"
+#include "planar/boundary_crossings.h"
+#include "quality/stored_uv.h"
+#include "surface/harmonic_map.h"
+#include "surface/intrinsic_metric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges tell nothing of a loop's course
+
+std::vector<VertexLoop> original_loops(const PartMesh& mesh)
+{
+    std::vector<VertexLoop> loops;
+    for (const VertexLoop& loop : mesh.surface.loops) {
+        VertexLoop own;
+        for (const Index v : loop) own.push_back(mesh.original[v]);
+        loops.push_back(std::move(own));
+    }
+    return loops;
+}
+
+double signed_area(const PlanarPoints& p, const Triangles& triangles, Eigen::Index f)
+{
+    const Eigen::RowVector2d a = p.row(triangles(f, 1)) - p.row(triangles(f, 0));
+    const Eigen::RowVector2d b = p.row(triangles(f, 2)) - p.row(triangles(f, 0));
+    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/// UV area as area in the middle of the window of least overflow.
+void scale_evenly(const PartMesh& mesh, FlatPart& flat)
+{
+    std::vector<double> u, areas;
+    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) {
+        const double area = signed_area(flat.points, flat.surface.triangles, f);
+        if (!(area > 0.0) || !(mesh.areas[f] > 0.0)) continue;
+        u.push_back(0.5 * std::log(area / mesh.areas[f]));
+        areas.push_back(mesh.areas[f]);
+    }
+    if (u.empty()) return;
+    const Evenness even = evenness(Eigen::Map<VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())),
+                                   Eigen::Map<VectorXd>(areas.data(), static_cast<Eigen::Index>(areas.size())));
+    flat.points *= std::exp(-even.from - 0.5 * even_range);
+}
+
+/// Faces turned over.
+Index flaws(const Surface& surface, const PlanarPoints& points)
+{
+    Index count = 0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        count += !(signed_area(points, surface.triangles, f) > 0.0);
+    return count;
+}
+
+/// The inside of a disk again, with the boundary where the map has it: a Moebius map of the vertices alone bends faces.
+PlanarPoints harmonic_again(const Part& part)
+{
+    const Surface& surface = part.mesh.surface;
+    const IntrinsicMetric metric = intrinsic_metric(part.mesh.vertices, surface);
+    std::vector<Index> boundary;
+    for (const VertexLoop& loop : surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    const VectorXcd values = part.map.positions(boundary);
+    PlanarPoints points(surface.vertex_count, 2);
+    try {
+        const VectorXcd z = harmonic_map(metric.triangles, metric.lengths, surface.vertex_count, boundary, values);
+        points << z.real(), z.imag();
+    } catch (const SolverError&) {
+        points.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    return points;
+}
+
+FlatPart as_disk(const Part& part)
+{
+    FlatPart flat{
+        part.mesh.faces, part.mesh.original, part.mesh.vertices, part.mesh.surface, {}, PartKind::disk, {}, 0.0};
+    flat.points.resize(part.map.positions.size(), 2);
+    flat.points << part.map.positions.real(), part.map.positions.imag();
+    if (const PlanarPoints points = harmonic_again(part);
+        flaws(flat.surface, points) <= flaws(flat.surface, flat.points))
+        flat.points = points;
+    return flat;
+}
+
+/// Opened along its slit. @return no points if that cannot be
+FlatPart as_tube(const Part& part)
+{
+    FlatPart flat{part.mesh.faces, {}, {}, {}, {}, PartKind::tube, {}, 0.0};
+    const TubeSlit slit = tube_slit(part);
+    if (slit.lift.empty()) return flat;
+    flat.slit = slit.length;
+    const Triangles& triangles = part.mesh.surface.triangles;
+    std::map<std::pair<Index, int>, Index> number;
+    std::vector<Index> own;
+    Triangles opened(triangles.rows(), 3);
+    for (Index c = 0; c < static_cast<Index>(triangles.size()); ++c) {
+        const Index v = triangles.data()[c];
+        const auto [at, is_new] = number.try_emplace({v, slit.lift[c]}, static_cast<Index>(own.size()));
+        if (is_new) own.push_back(v);
+        opened.data()[c] = at->second;
+    }
+    constexpr double two_pi = 2.0 * EIGEN_PI;
+    flat.points.resize(static_cast<Eigen::Index>(own.size()), 2);
+    for (const auto& [key, k] : number)
+        flat.points.row(k) << part.map.strip[key.first].real(), part.map.strip[key.first].imag() + two_pi * key.second;
+    flat.vertices = part.mesh.vertices(own, Eigen::all);
+    for (const Index v : own) flat.original.push_back(part.mesh.original[v]);
+    try {
+        flat.surface = require_bordered_genus_zero(opened, static_cast<Index>(own.size()));
+        if (flat.surface.loops.size() != 1) flat.points.resize(0, 2);
+    } catch (const TopologyError&) {  // the slit pinches the opened tube
+        flat.points.resize(0, 2);
+    }
+    return flat;
+}
+
+}  // namespace
+
+FlatPart flat_part(const Part& part)
+{
+    FlatPart flat;
+    if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part);
+    if (flat.points.rows() == 0) {
+        flat = as_disk(part);
+    } else if (const Index flips = flaws(flat.surface, flat.points); flips > 0) {
+        FlatPart disk = as_disk(part);
+        if (flaws(disk.surface, disk.points) < flips && part.map.circles[1 - part.map.outer].radius > 1e-3)
+            flat = std::move(disk);
+    }
+    flat.loops = original_loops(part.mesh);
+    scale_evenly(part.mesh, flat);
+    return flat;
+}
+
+bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
+{
+    return crossing_boundary_edges(part.surface.loops, uv, shortest_drawn).empty();
+}
+
+Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)
+{
+    const auto bad = [&](const PlanarPoints& points) {
+        Index count = 0;
+        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
+            count += StoredFace(part.surface.triangles, points, f).doubtful();
+        return count;
+    };
+    PlanarPoints points = 2.0 * uv.array() - 1.0;
+    Index least = bad(points);
+    // The middle vertex of a face with two edges on one loop may leave it at once: on the straight end of a tube that
+    // face is flat.
+    std::vector<Index> faces_at(part.surface.vertex_count, 0), boundary, held;
+    for (Eigen::Index c = 0; c < part.surface.triangles.size(); ++c) ++faces_at[part.surface.triangles.data()[c]];
+    for (const VertexLoop& loop : part.surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    std::ranges::sort(boundary);
+    std::ranges::copy_if(boundary, std::back_inserter(held), [&](Index v) { return faces_at[v] > 1; });
+    const std::vector<Circle> circles(part.surface.loops.size());
+    for (const auto& stay : {held, std::vector<Index>{}}) {
+        if (least == 0) break;
+        PlanarPoints moved = points;
+        untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, moved, context,
+                 {.slide = false, .held = stay});
+        const PlanarPoints in_square = (0.5 * (moved.array() + 1.0)).cwiseMax(0.0).cwiseMin(1.0);
+        if (!moved.allFinite() || !loops_apart(part, in_square)) continue;
+        moved = 2.0 * in_square.array() - 1.0;
+        const Index count = bad(moved);
+        if (count >= least) continue;
+        least = count;
+        points = moved;
+        uv = in_square;
+    }
+    return least;
+}
+
+}  // namespace koebe

@@ -1,0 +1,34 @@
+// A part laid into the plane: as its disk, or its tube opened along a slit.
+#pragma once
+
+#include "core/execution.h"
+#include "parts/splitting.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// A part with its slit open, a disk or a disk with holes, in UVs of its own unit.
+struct FlatPart {
+    std::vector<Index> faces;     ///< of the whole, in the order of the triangles
+    std::vector<Index> original;  ///< vertex of the whole, for each vertex
+    Vertices vertices;            ///< (V, 3) with area 1 for the whole surface
+    Surface surface;              ///< opened
+    PlanarPoints points;          ///< (V, 2) with UV area as area in the middle of the even window
+    PartKind kind = PartKind::disk;
+    std::vector<VertexLoop> loops;  ///< of the part before it is opened, by vertices of the whole
+    double slit = 0.0;              ///< length
+};
+
+/// The kind is that of the map; a tube that cannot be opened, or has more faces turned over, becomes a disk.
+FlatPart flat_part(const Part& part);
+
+/// Whether no boundary loop crosses itself or another: then a part without flips is one to one.
+bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
+
+/// Turns flipped faces back where the part lies in the unit square: with the boundary held, and if that does not do,
+/// with all vertices free as long as no loop comes to cross another.
+/// @param uv (V, 2) in [0, 1]^2, changed in place @return faces still flipped as 32-bit floats
+Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context);
+
+}  // namespace koebe

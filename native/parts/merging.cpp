@@ -1,0 +1,85 @@
+#include "core/connectivity.h"
+#include "parts/splitting.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace koebe {
+namespace {
+
+constexpr double worth_mapping = -0.5;  // of a part's price: predicted gains from which on the map is made
+
+/// The smallest part that both come from.
+std::shared_ptr<const Part> common_origin(const Part& a, const Part& b)
+{
+    std::set<const Part*> origins;
+    for (auto p = a.parent; p; p = p->parent) origins.insert(p.get());
+    for (auto p = b.parent; p; p = p->parent)
+        if (origins.contains(p.get())) return p;
+    return {};
+}
+
+/// Lengths of the borders between parts.
+std::map<std::pair<int, int>, double> borders(const CutSurface& whole, const std::vector<PartPointer>& parts)
+{
+    std::vector<int> label(whole.areas.size(), -1);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (const Index f : parts[k]->mesh.faces) label[f] = static_cast<int>(k);
+    std::map<std::pair<int, int>, double> result;
+    for (Index h = 0; h < static_cast<Index>(whole.surface.twin.size()); ++h) {
+        const Index t = whole.surface.twin[h];
+        if (t == no_twin || t < h) continue;
+        const int a = label[face_of(h)], b = label[face_of(t)];
+        if (a != b) result[std::minmax(a, b)] += whole.lengths[h];
+    }
+    return result;
+}
+
+/// Both as one part, if that is the better.
+PartPointer merged(const CutSurface& whole, const SplitOptions& options, const Part& a, const Part& b, double border,
+                   ExecutionContext& context, SplitEffort& effort)
+{
+    const auto origin = common_origin(a, b);
+    if (!origin) return {};
+    std::vector<Index> faces = a.mesh.faces;
+    faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
+    auto both = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, origin});
+    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
+    both->map = restricted_map(origin->mesh, origin->map, both->mesh);
+    if (both->map.lost_area > 0.0 || saved - both->map.overflow < worth_mapping * options.part_price) return {};
+    map_anew(whole, *both, context, effort);
+    return both->map.overflow < saved ? both : PartPointer{};
+}
+
+}  // namespace
+
+bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
+                 ExecutionContext& context, SplitEffort& effort)
+{
+    bool any = false;
+    std::set<std::pair<PartPointer, PartPointer>> refused;
+    for (bool changed = true; changed;) {
+        changed = false;
+        std::vector<std::pair<double, std::pair<int, int>>> order;
+        for (const auto& [pair, length] : borders(whole, parts)) order.emplace_back(length, pair);
+        std::ranges::sort(order, std::greater<>());
+        for (const auto& [length, pair] : order) {
+            context.checkpoint();
+            const PartPointer a = parts[pair.first], b = parts[pair.second];
+            if (refused.contains({a, b})) continue;
+            PartPointer both = merged(whole, options, *a, *b, length, context, effort);
+            if (!both) {
+                refused.insert({a, b});
+                continue;
+            }
+            parts[pair.first] = std::move(both);
+            parts.erase(parts.begin() + pair.second);
+            any = changed = true;
+            break;
+        }
+    }
+    return any;
+}
+
+}  // namespace koebe

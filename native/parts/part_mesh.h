@@ -1,0 +1,45 @@
+// A part of a surface as a surface of its own.
+#pragma once
+
+#include "core/topology.h"
+#include "core/types.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// What is cut: a connected, oriented, manifold surface of genus 0 with boundary, in a unit in which all surfaces that
+/// are cut together have area 1.
+struct CutSurface {
+    Vertices vertices;
+    Surface surface;
+    VectorXd areas;              ///< (F)
+    VectorXd lengths;            ///< (3F) of each half-edge
+    std::vector<Index> polygon;  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+};
+
+/// (F) areas of faces. @param vertices of a size that its square does not overflow
+VectorXd face_areas(const Vertices& vertices, const Triangles& triangles);
+
+/// @throws TopologyError as require_bordered_genus_zero
+CutSurface cut_surface(const Vertices& vertices, const Triangles& triangles, std::vector<Index> polygon);
+
+/// Some faces of a surface, their vertices split where the faces hang together by a vertex alone: a manifold.
+struct PartMesh {
+    std::vector<Index> faces;     ///< of the whole, rising
+    std::vector<Index> original;  ///< vertex of the whole, for each vertex
+    Vertices vertices;
+    Surface surface;
+    VectorXd areas;              ///< (F) in the unit of the whole
+    std::vector<Index> polygon;  ///< (F) as of the whole
+    double area = 0.0;
+};
+
+/// @param faces connected by edges @throws TopologyError as require_bordered_genus_zero: a closed surface
+PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces);
+
+/// The pieces of a labelled part that are connected by edges. @param label (F) of the part's faces
+/// @return the piece of each face, from 0
+std::vector<Index> connected_pieces(const PartMesh& part, const std::vector<int>& label, Index& count);
+
+}  // namespace koebe

@@ -1,0 +1,183 @@
+#include "parts/parts.h"
+
+#include "core/counted.h"
+#include "core/detachable_run.h"
+#include "core/memory_limit.h"
+#include "linear/dense_spd.h"
+#include "parts/layout.h"
+#include "parts/part_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+/// What is stored: the report is true of it.
+PlanarPoints stored(const PlanarPoints& uv) { return uv.cast<float>().cast<double>(); }
+
+/// Of some faces, each corner a vertex of its own.
+Distortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces)
+{
+    const Eigen::Index count = static_cast<Eigen::Index>(faces.size());
+    Vertices vertices(3 * count, 3);
+    PlanarPoints points(3 * count, 2);
+    Triangles triangles(count, 3);
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Index c = 3 * i + k;
+            triangles(i, k) = static_cast<Index>(c);
+            vertices.row(c) = layout.vertices.row(layout.triangles(faces[i], k));
+            points.row(c) = 2.0 * uv.row(3 * static_cast<Eigen::Index>(faces[i]) + k).array() - 1.0;
+        }
+    Distortion result = measure_distortion(vertices, triangles, points);
+    for (auto* list : {&result.flipped, &result.below_resolution})
+        for (Index& f : *list) f = faces[f];
+    return result;
+}
+
+double uv_area(const PlanarPoints& uv, Eigen::Index f)
+{
+    const Eigen::RowVector2d a = uv.row(3 * f + 1) - uv.row(3 * f), b = uv.row(3 * f + 2) - uv.row(3 * f);
+    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/// Texel densities: the ratio of the quantiles, and the area within the best factor 3. Faces without area in the UVs
+/// count as the least dense.
+void report_density(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces,
+                    PartsResult& result)
+{
+    constexpr double none = -1000.0;
+    const VectorXd areas = face_areas(layout.vertices, layout.triangles);
+    std::vector<std::pair<double, double>> density;
+    double total = 0.0;
+    for (const Index f : faces) {
+        if (!(areas[f] > 0.0)) continue;
+        const double area = uv_area(uv, f);
+        density.emplace_back(area > 0.0 ? 0.5 * std::log(area / areas[f]) : none, areas[f]);
+        total += areas[f];
+    }
+    std::ranges::sort(density);
+    const auto quantile = [&](double share) {
+        double below = 0.0;
+        for (const auto& [u, area] : density)
+            if ((below += area) >= share * total) return u;
+        return density.empty() ? 0.0 : density.back().first;
+    };
+    result.density_ratio_5_95 = std::exp(std::min(quantile(0.95) - quantile(0.05), 700.0));
+    double inside = 0.0;
+    std::size_t end = 0;
+    for (const auto& [u, area] : density) {
+        while (end < density.size() && density[end].first <= u + factor_three) inside += density[end++].second;
+        result.even_area = std::max(result.even_area, inside / total);
+        inside -= area;
+    }
+}
+
+/// The length of the edges whose faces do not meet in the UVs, for each further side.
+double seam_length(const PartsLayout& layout, const std::vector<Index>& faces)
+{
+    using Side = std::array<double, 6>;  // the edge's vertices and their UVs
+    std::vector<Side> sides;
+    sides.reserve(3 * faces.size());
+    for (const Index f : faces)
+        for (int k = 0; k < 3; ++k) {
+            Eigen::Index a = 3 * static_cast<Eigen::Index>(f) + k, b = 3 * static_cast<Eigen::Index>(f) + (k + 1) % 3;
+            if (layout.triangles.data()[a] > layout.triangles.data()[b]) std::swap(a, b);
+            sides.push_back({static_cast<double>(layout.triangles.data()[a]),
+                             static_cast<double>(layout.triangles.data()[b]), layout.uv(a, 0), layout.uv(a, 1),
+                             layout.uv(b, 0), layout.uv(b, 1)});
+        }
+    std::sort(sides.begin(), sides.end());
+    double length = 0.0;
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        if (sides[i][0] != sides[i - 1][0] || sides[i][1] != sides[i - 1][1] || sides[i] == sides[i - 1]) continue;
+        const auto end = [&](int k) { return layout.vertices.row(static_cast<Eigen::Index>(sides[i][k])); };
+        length += (end(0) - end(1)).norm();
+    }
+    return length;
+}
+
+std::vector<Warning> warnings_of(const PartsLayout& layout, const PartsResult& result)
+{
+    std::vector<Warning> warnings;
+    std::vector<Index> left_out;
+    for (std::size_t f = 0; f < layout.part.size(); ++f)
+        if (layout.part[f] < 0) left_out.push_back(static_cast<Index>(f));
+    if (!left_out.empty())
+        warnings.push_back({WarningKind::collapsed_faces,
+                            counted(left_out.size(), "face") + " of no area or like another, in no part", left_out});
+    if (!layout.reoriented.empty())
+        warnings.push_back({WarningKind::reoriented_faces,
+                            counted(layout.reoriented.size(), "face") + " turned to the orientation of the others",
+                            layout.reoriented});
+    if (!result.below_resolution.empty())
+        warnings.push_back({WarningKind::below_resolution,
+                            counted(result.below_resolution.size(), "face") + " below the resolution of 32-bit UVs",
+                            result.below_resolution, "A lower price makes more parts, and more even ones"});
+    if (result.flipped.size() > result.below_resolution.size()) {
+        std::vector<Index> flipped;
+        std::ranges::set_difference(result.flipped, result.below_resolution, std::back_inserter(flipped));
+        warnings.push_back({WarningKind::flipped, counted(flipped.size(), "face") + " flipped as 32-bit UVs", flipped});
+    }
+    return warnings;
+}
+
+/// The corner of the mapped face for a corner of the input's, which may have been turned.
+int mapped_corner(const PartsLayout& layout, const Triangles& input, Eigen::Index f, int k)
+{
+    for (int c = 0; c < 3; ++c)
+        if (layout.triangles(f, c) == input(f, k)) return c;
+    return k;
+}
+
+PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+                    ExecutionContext& context)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
+    require_memory_for_faces(triangles.rows());
+    const SerialDenseKernels serial;
+    PartsLayout layout = parts_layout(vertices, triangles, options, context);
+    const PlanarPoints uv = stored(layout.uv);
+
+    PartsResult result;
+    std::vector<Index> mapped;
+    for (std::size_t f = 0; f < layout.part.size(); ++f)
+        if (layout.part[f] >= 0) mapped.push_back(static_cast<Index>(f));
+    Distortion distortion = distortion_of(layout, uv, mapped);
+    result.flipped = std::move(distortion.flipped);
+    result.below_resolution = std::move(distortion.below_resolution);
+    result.angle_error_deg = distortion.angle_error_deg;
+    result.parts = std::move(layout.parts);
+    for (PartReport& part : result.parts)
+        part.angle_error_deg = distortion_of(layout, uv, part.faces).angle_error_deg.mean;
+    report_density(layout, uv, mapped, result);
+    result.cut_length = seam_length(layout, mapped);
+    result.slit_length = layout.slit_length;
+    result.handles_cut = layout.handles_cut;
+    result.maps = layout.maps;
+    result.warnings = warnings_of(layout, result);
+    result.uv.resize(uv.rows(), 2);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            result.uv.row(3 * f + k) = layout.uv.row(3 * f + mapped_corner(layout, triangles, f, k));
+    result.part = std::move(layout.part);
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+}  // namespace
+
+PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+                     ExecutionContext& context)
+{
+    return run_detachable<PartsResult>(context, [vertices, triangles, options](ExecutionContext& own) {
+        return compute(vertices, triangles, options, own);
+    });
+}
+
+}  // namespace koebe

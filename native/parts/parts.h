@@ -1,0 +1,61 @@
+// A surface cut in the UVs alone into parts of even texels: disks and tubes.
+#pragma once
+
+#include "core/api.h"
+#include "core/execution.h"
+#include "core/types.h"
+#include "core/warning.h"
+#include "parts/part_map.h"
+#include "quality/distortion.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct PartsOptions {
+    /// What a part costs, in area share times the u that lies outside the even window; a cut as long as the root of the
+    /// area costs as much. Higher: fewer parts. Positive.
+    double price = 0.0037;
+    bool cut =
+        true;  ///< any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+};
+
+struct PartReport {
+    PartKind kind = PartKind::disk;
+    std::vector<Index> faces;       ///< rising
+    std::vector<VertexLoop> loops;  ///< before a tube is opened; by vertices of the input
+    double angle_error_deg = 0.0;   ///< mean
+};
+
+struct PartsResult {
+    /// (3F, 2) in [0, 1]^2, corner 3 f + k of the input's face f. Across a cut the two sides differ.
+    PlanarPoints uv;
+    std::vector<Index> part;  ///< (F) of each face; -1: in none, as it is degenerate or the double of another
+    std::vector<PartReport> parts;
+    double cut_length = 0.0;   ///< of cuts and slits, over the root of the area
+    double slit_length = 0.0;  ///< of the slits among them
+    int handles_cut = 0;
+    double density_ratio_5_95 = 1.0;               ///< texel density, 95 % over 5 % of the area
+    double even_area = 0.0;                        ///< share of the area within the best factor 3 of texel density
+    std::vector<Index> flipped, below_resolution;  ///< as Distortion has them
+    AngleError angle_error_deg;
+    double seconds = 0.0;
+    double maps = 0.0;  ///< faces mapped, in faces of the surface
+    std::vector<Warning> warnings;
+};
+
+/// Cuts a surface into parts where that makes texels more even than a part and its cuts cost.
+///
+/// A part's cost is its overflow (evenness.h) on the circle domain of the most even Moebius map, or on the unrolled
+/// tube. The costliest is split by minimum cuts of the dual graph round windows of density and about tips, in log polar
+/// coordinates; children are judged by the parent's map, as circles stay circles; cuts that do not pay are taken back.
+/// Each part is then mapped by itself, all are brought to one texel density and packed.
+///
+/// @param vertices (V, 3) @param triangles (F, 3) never changed
+/// @return every face in one part, every part one to one but for the faces that `flipped` lists
+/// @throws InputError, TopologyError, SolverError, Cancelled
+KOEBE_API PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+                               ExecutionContext& context);
+
+}  // namespace koebe

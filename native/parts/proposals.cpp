@@ -1,0 +1,151 @@
+#include "parts/proposals.h"
+
+#include "circles/moebius.h"
+#include "core/connectivity.h"
+#include "parts/log_polar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace koebe {
+namespace {
+
+constexpr double window_share = 0.85;  // of even_range
+constexpr double margin = 0.35;        // in u: faces beyond it are surely on the other side
+constexpr double apart = 0.5;          // in u: between the windows that are proposed
+constexpr std::size_t most_windows = 3, most_tips = 6, most_holes = 6;
+
+struct Window {
+    double from = 0.0, area = 0.0;
+    Index piece = -1;
+    std::vector<Index> pieces;  // (F)
+};
+
+Window window_at(const PartMesh& part, const PartMap& map, double from)
+{
+    std::vector<int> label(part.faces.size());
+    for (std::size_t f = 0; f < label.size(); ++f) {
+        const double u = map.u[static_cast<Eigen::Index>(f)];
+        label[f] = u >= from && u <= from + window_share * even_range;
+    }
+    Window window{from, 0.0, -1, {}};
+    Index count = 0;
+    window.pieces = connected_pieces(part, label, count);
+    std::vector<double> areas(count, 0.0);
+    for (std::size_t f = 0; f < label.size(); ++f)
+        if (label[f]) areas[window.pieces[f]] += part.areas[static_cast<Eigen::Index>(f)];
+    if (count == 0) return window;
+    window.piece = static_cast<Index>(std::ranges::max_element(areas) - areas.begin());
+    window.area = areas[window.piece];
+    return window;
+}
+
+/// The windows of most area in one piece, apart from each other.
+std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
+{
+    std::vector<double> u;
+    for (std::size_t f = 0; f < map.lost.size(); ++f)
+        if (!map.lost[f]) u.push_back(map.u[static_cast<Eigen::Index>(f)]);
+    if (u.empty()) return {};
+    std::ranges::sort(u);
+    const double low = u[u.size() / 100], high = u[u.size() - 1 - u.size() / 100];
+    std::vector<Window> all, best;
+    const double step = std::max(0.12, (high - low) / 60.0);
+    for (double from = low - 0.5; from < high; from += step) all.push_back(window_at(part, map, from));
+    std::ranges::sort(all, [](const Window& a, const Window& b) { return a.area > b.area; });
+    for (Window& window : all) {
+        if (best.size() == most_windows) break;
+        if (std::ranges::all_of(best, [&](const Window& b) { return std::abs(b.from - window.from) > apart; }))
+            best.push_back(std::move(window));
+    }
+    return best;
+}
+
+Proposal propose(const PartMap& map, const Window& window)
+{
+    Proposal proposal{std::vector<Side>(window.pieces.size(), Side::free), window.area, "window"};
+    for (std::size_t f = 0; f < window.pieces.size(); ++f) {
+        const double u = map.u[static_cast<Eigen::Index>(f)];
+        if (window.pieces[f] == window.piece)
+            proposal.sides[f] = Side::inside;
+        else if (u < window.from - margin || u > window.from + window_share * even_range + margin)
+            proposal.sides[f] = Side::outside;
+    }
+    return proposal;
+}
+
+/// Where the map shrinks most, in each of the pieces that are smaller than the window allows; the costliest first.
+std::vector<Complex> tips(const PartMesh& part, const PartMap& map, const Window& window)
+{
+    std::vector<int> label(part.faces.size());
+    for (std::size_t f = 0; f < label.size(); ++f) label[f] = map.u[static_cast<Eigen::Index>(f)] < window.from;
+    Index count = 0;
+    const std::vector<Index> piece = connected_pieces(part, label, count);
+    struct Tip {
+        double cost = 0.0, u = std::numeric_limits<double>::infinity();
+        Complex place;
+    };
+    std::vector<Tip> all(count);
+    for (std::size_t f = 0; f < label.size(); ++f) {
+        if (!label[f]) continue;
+        const auto face = static_cast<Eigen::Index>(f);
+        Tip& tip = all[piece[f]];
+        tip.cost += part.areas[face] * std::min(window.from - map.u[face], 6.0);
+        if (map.u[face] < tip.u) {
+            tip.u = map.u[face];
+            tip.place = map.centers[face];
+        }
+    }
+    std::ranges::sort(all, [](const Tip& a, const Tip& b) { return a.cost > b.cost; });
+    std::vector<Complex> places;
+    for (const Tip& tip : all)
+        if (tip.cost > 0.0 && places.size() < most_tips) places.push_back(tip.place);
+    return places;
+}
+
+std::vector<Side> sides_of(const LogPolar& polar, double from, double until, double gap)
+{
+    std::vector<Side> sides(static_cast<std::size_t>(polar.t.size()), Side::free);
+    for (std::size_t f = 0; f < sides.size(); ++f) {
+        const double t = polar.t[static_cast<Eigen::Index>(f)];
+        if (t > from + gap && t < until - gap)
+            sides[f] = Side::inside;
+        else if (t < from - gap || t > until + gap)
+            sides[f] = Side::outside;
+    }
+    return sides;
+}
+
+void add_tubes(const PartMesh& part, const PartMap& map, Complex about, int hole, std::vector<Proposal>& all)
+{
+    const LogPolar polar = log_polar(part, map, about, hole);
+    for (const double share : {0.985, 0.95}) {
+        const TubeRange tube = longest_tube(part, map, polar, share);
+        if (!(tube.area > 0.0)) continue;
+        const double gap = std::min(0.5 * margin, 0.2 * (tube.until - tube.from));
+        all.push_back({sides_of(polar, tube.from, tube.until, gap), tube.area, "tube"});
+        all.push_back(
+            {sides_of(polar, -std::numeric_limits<double>::infinity(), tube.until, gap), 0.5 * tube.area, "circle"});
+    }
+}
+
+}  // namespace
+
+std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map)
+{
+    std::vector<Proposal> all;
+    const std::vector<Window> windows = best_windows(part, map);
+    for (const Window& window : windows) all.push_back(propose(map, window));
+    if (windows.empty()) return all;
+    for (const Complex tip : tips(part, map, windows.front())) add_tubes(part, map, tip, -1, all);
+    std::vector<int> holes;
+    for (std::size_t k = 0; k < map.circles.size(); ++k)
+        if (static_cast<int>(k) != map.outer) holes.push_back(static_cast<int>(k));
+    std::ranges::sort(holes, [&](int a, int b) { return map.circles[a].radius < map.circles[b].radius; });
+    for (std::size_t i = 0; i < std::min(holes.size(), most_holes); ++i)
+        add_tubes(part, map, center_circle(map.circles[holes[i]]).a, holes[i], all);
+    return all;
+}
+
+}  // namespace koebe

@@ -1,0 +1,21 @@
+// Where a part could be cut.
+#pragma once
+
+#include "parts/dual_cut.h"
+#include "parts/part_map.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct Proposal {
+    std::vector<Side> sides;  ///< (F) for minimum_cut
+    double area = 0.0;        ///< of what is to be even
+    const char* kind = "";
+};
+
+/// Windows of u, whose largest piece is to be an even disk; about tips and holes, in log polar coordinates, tubes, and
+/// circles at their outer ends.
+std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map);
+
+}  // namespace koebe

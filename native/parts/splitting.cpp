@@ -1,0 +1,164 @@
+#include "parts/splitting.h"
+
+#include "core/connectivity.h"
+#include "core/length.h"
+#include "parts/proposals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double remaining = 0.6;          // of an uneven child's cost, after it is split in its turn
+constexpr double lost_cost = 0.25;         // in u: what is left of a face's cost where the parent's map says nothing
+constexpr std::size_t most_looked_at = 8;  // proposals of a part
+constexpr std::size_t most_verified = 3;   // of them
+constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
+constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged
+
+struct Split {
+    double gain = 0.0, border = 0.0;
+    std::vector<PartPointer> children;
+};
+
+double cost_of(const PartMap& map)
+{
+    return map.measured ? map.overflow : std::max(map.overflow - (6.0 - lost_cost) * map.lost_area, 0.0);
+}
+
+/// What is left of a child's cost in the end.
+double expected_cost(const PartMap& map, double price)
+{
+    const double cost = cost_of(map);
+    return cost > 2.0 * price ? 2.0 * price + remaining * (cost - 2.0 * price) : cost;
+}
+
+double border_length(const PartMesh& part, const std::vector<int>& label)
+{
+    double length = 0.0;
+    for (Index h = 0; h < static_cast<Index>(part.surface.twin.size()); ++h) {
+        const Index t = part.surface.twin[h];
+        if (t == no_twin || t < h || label[face_of(t)] == label[face_of(h)]) continue;
+        length += length_of(part.vertices.row(origin(part.surface.triangles, h)) -
+                            part.vertices.row(target(part.surface.triangles, h)));
+    }
+    return length;
+}
+
+std::vector<PartPointer> children_of(const CutSurface& whole, const PartPointer& part, const std::vector<int>& label)
+{
+    Index count = 0;
+    const std::vector<Index> piece = connected_pieces(part->mesh, label, count);
+    std::vector<std::vector<Index>> faces(count);
+    for (std::size_t f = 0; f < piece.size(); ++f) faces[piece[f]].push_back(part->mesh.faces[f]);
+    std::vector<PartPointer> children;
+    for (auto& own : faces) {
+        auto child = std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, part});
+        child->map = restricted_map(part->mesh, part->map, child->mesh);
+        children.push_back(std::move(child));
+    }
+    return children;
+}
+
+double gain_of(const Split& split, const Part& part, const SplitOptions& options)
+{
+    double gain = cost_of(part.map) - options.cut_price * split.border -
+                  options.part_price * static_cast<double>(split.children.size() - 1);
+    for (const PartPointer& child : split.children) gain -= expected_cost(child->map, options.part_price);
+    return gain;
+}
+
+/// The splits that seem to pay, the best first.
+std::vector<Split> promising_splits(const CutSurface& whole, const PartPointer& part, const SplitOptions& options,
+                                    ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<Proposal> all = proposals(part->mesh, part->map);
+    std::ranges::stable_sort(all, [](const Proposal& a, const Proposal& b) { return a.area > b.area; });
+    if (all.size() > most_looked_at) all.resize(most_looked_at);
+    std::vector<Split> splits;
+    std::vector<std::vector<int>> seen;
+    for (const Proposal& proposal : all) {
+        context.checkpoint();
+        std::vector<int> label = minimum_cut(part->mesh, proposal.sides);
+        ++effort.cuts;
+        if (label.empty() || std::ranges::count(seen, label) > 0) continue;
+        Split split{0.0, border_length(part->mesh, label), children_of(whole, part, label)};
+        split.gain = gain_of(split, *part, options);
+        seen.push_back(std::move(label));
+        if (split.gain > 0.0) splits.push_back(std::move(split));
+    }
+    std::ranges::stable_sort(splits, [](const Split& a, const Split& b) { return a.gain > b.gain; });
+    return splits;
+}
+
+/// The split of most gain once the children that the part's map says little of have maps of their own.
+Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOptions& options,
+                 ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<Split> splits = promising_splits(whole, part, options, context, effort);
+    Split best;
+    for (std::size_t i = 0; i < std::min(splits.size(), most_verified); ++i) {
+        Split& split = splits[i];
+        if (split.gain <= best.gain) break;
+        for (const PartPointer& child : split.children)
+            if (child->map.off_round > most_off_round) map_anew(whole, *child, context, effort);
+        split.gain = gain_of(split, *part, options);
+        if (split.gain > best.gain) best = std::move(split);
+    }
+    return best;
+}
+
+}  // namespace
+
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort)
+{
+    context.checkpoint();
+    part.map = map_part(part.mesh, context);
+    effort.maps += static_cast<double>(part.mesh.faces.size()) / static_cast<double>(whole.areas.size());
+}
+
+PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
+    std::iota(faces.begin(), faces.end(), 0);
+    auto part = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}});
+    map_anew(whole, *part, context, effort);
+    return part;
+}
+
+std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
+                                     std::vector<PartPointer> open, ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<PartPointer> done;
+    while (!open.empty()) {
+        const auto costliest = std::ranges::max_element(
+            open, [](const PartPointer& a, const PartPointer& b) { return a->map.overflow < b->map.overflow; });
+        std::swap(*costliest, open.back());
+        const PartPointer part = open.back();
+        open.pop_back();
+        if (!part->map.measured && part->map.lost_area > surely_lost * part->mesh.area)
+            map_anew(whole, *part, context, effort);
+        Split split;
+        if (!part->settled && part->map.overflow > options.part_price)
+            split = best_split(whole, part, options, context, effort);
+        if (split.gain > 0.0) {
+            std::ranges::move(split.children, std::back_inserter(open));
+            continue;
+        }
+        if (!part->map.measured) {
+            map_anew(whole, *part, context, effort);
+            if (part->map.overflow > options.part_price) {
+                open.push_back(part);
+                continue;
+            }
+        }
+        part->settled = true;
+        done.push_back(part);
+    }
+    return done;
+}
+
+}  // namespace koebe

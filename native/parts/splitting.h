@@ -1,0 +1,49 @@
+// The parts of a surface: split where it pays, mapped, and merged again where a cut does not.
+#pragma once
+
+#include "parts/part_map.h"
+
+#include <memory>
+#include <vector>
+
+namespace koebe {
+
+struct SplitOptions {
+    double part_price = 0.0037;  ///< of a part, in overflow
+    double cut_price = 0.0037;   ///< of a cut as long as the root of the area
+};
+
+struct Part {
+    PartMesh mesh;
+    PartMap map;
+    std::shared_ptr<const Part> parent = {};  ///< of which it is some of the faces
+    bool settled = false;                     ///< no split of it pays
+};
+
+using PartPointer = std::shared_ptr<Part>;
+
+/// What the splitting took.
+struct SplitEffort {
+    double maps = 0.0;  ///< faces mapped, in faces of the surface
+    int cuts = 0;       ///< minimum cuts
+};
+
+/// Maps a part anew.
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort);
+
+/// The surface as one part, mapped.
+PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, SplitEffort& effort);
+
+/// Splits the costliest part by the proposal of most gain, children judged by the parent's map, until nothing pays.
+/// Children whose loops are not round there are mapped before they are judged. Every part that stays has a map of its
+/// own.
+std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
+                                     std::vector<PartPointer> parts, ExecutionContext& context, SplitEffort& effort);
+
+/// Merges neighbours whose cut does not pay, the longest common border first: judged by the map of a part that both
+/// come from, and then mapped.
+/// @return whether any were
+bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
+                 ExecutionContext& context, SplitEffort& effort);
+
+}  // namespace koebe

@@ -1,0 +1,111 @@
+"""Surfaces cut in their UVs into even disks and tubes."""
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ._api import _source
+from ._arrays import as_points, as_triangles
+from ._meshes import is_mesh
+from ._native import _koebe
+from ._options import callback, flag, positive, token
+from ._result import AngleError, Source, Warning
+from .errors import InputError
+
+
+class PartsResult:
+    """What `parts` gives.
+
+    uv               (F, 3, 2) float64 in [0, 1]^2: of each corner of each triangle, read-only
+    part             (F,) int32: the part of each triangle; -1 for those in none, degenerate or the double of another
+    parts            of each part a dict: kind ('disk' or 'tube'), faces, angle_error_deg (mean), loops (lists of
+                     vertices)
+    cut_length, slit_length    of all cuts, and of the slits of tubes among them, over the root of the area
+    handles_cut      handles that were cut
+    density_ratio_5_95    texel density (a length over a length) at 95 % of the area over that at 5 %
+    even_area        share of the area whose texel density lies within the best factor 3
+    flipped, below_resolution    counts of triangles, with u and v rounded to 32-bit floats
+    flipped_faces    int32 array of the faces that `flipped` counts
+    angle_error_deg  mean, sd and max over all corners
+    seconds          of the whole
+    maps             faces mapped, in faces of the mesh
+    warnings         list of Warning: kind, elements, text
+    """
+
+    version: str
+    uv: np.ndarray
+    part: np.ndarray
+    parts: list[dict[str, Any]]
+    cut_length: float
+    slit_length: float
+    handles_cut: int
+    density_ratio_5_95: float
+    even_area: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    angle_error_deg: AngleError
+    seconds: float
+    maps: float
+    warnings: list[Warning]
+
+    def __init__(self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray) -> None:
+        self._report = report
+        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        self.uv = uv.reshape(-1, 3, 2)
+        self.uv.flags.writeable = False
+        self.part = part
+        self.flipped_faces = flipped_faces
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict."""
+        return copy.deepcopy(self._report)
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.PartsResult {len(self.parts)} parts, cuts {self.cut_length:.3g}, texel density within "
+            f"{self.density_ratio_5_95:.3g}, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+        )
+
+
+def parts(
+    vertices: Any,
+    triangles: Any = None,
+    *,
+    price: float | None = None,
+    cut: bool = True,
+    progress: Callable[[float, str], Any] | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> PartsResult:
+    """Cut a surface in its UVs alone into disks and tubes of even texel density, packed into the unit square.
+
+    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
+    price     of a part, in area share times the log of the density outside a factor 3: a higher one makes fewer parts.
+              None: 0.0037
+    cut       True: any mesh; what is not manifold is split, handles are cut, what is closed is opened, each component
+              is laid out by itself. False: only what `uniformize` takes
+    progress, cancel    as of `uniformize`
+    Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
+    """
+    chosen = _koebe.default_price if price is None else positive(price, "price")
+    whole = flag(cut, "cut")
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    source = _surface(vertices, triangles, whole)
+    polygon = np.zeros(0, np.int32) if source.polygon is None else source.polygon
+    native = _koebe.parts(source.vertices, source.triangles, chosen, whole, polygon, progress, cancel)
+    report = native.report()
+    report["options"] = {"price": chosen, "cut": whole}
+    return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32))
+
+
+def _surface(vertices: Any, triangles: Any, any_mesh: bool) -> Source:
+    """Degenerate faces are taken where any mesh is."""
+    if is_mesh(vertices) or triangles is None or not any_mesh:
+        return _source(vertices, triangles)
+    positions = as_points(vertices, "vertices", 3)
+    if not len(positions):
+        raise InputError("the mesh has no vertices")
+    return Source(positions, as_triangles(triangles, len(positions), degenerate=True))

@@ -1,0 +1,358 @@
+#include "core/errors.h"
+#include "parts/dual_cut.h"
+#include "parts/evenness.h"
+#include "parts/packing.h"
+#include "parts/parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+using namespace koebe;
+
+namespace {
+
+struct Mesh {
+    Vertices vertices;
+    Triangles triangles;
+};
+
+constexpr double pi = std::numbers::pi;
+
+/// A surface of revolution: rings of vertices at (radius, height), each pair of neighbours joined; a point closes an
+/// end of radius 0.
+Mesh revolved(const std::vector<std::pair<double, double>>& profile, int around)
+{
+    std::vector<Eigen::RowVector3d> points;
+    std::vector<std::vector<Index>> rings;
+    for (const auto& [radius, height] : profile) {
+        std::vector<Index> ring;
+        for (int i = 0; i < (radius > 0.0 ? around : 1); ++i) {
+            const double angle = 2.0 * pi * i / around;
+            ring.push_back(static_cast<Index>(points.size()));
+            points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height);
+        }
+        rings.push_back(std::move(ring));
+    }
+    std::vector<Eigen::RowVector3i> faces;
+    for (std::size_t r = 0; r + 1 < rings.size(); ++r)
+        for (int i = 0; i < around; ++i) {
+            const auto at = [&](std::size_t ring, int k) {
+                return rings[ring][rings[ring].size() > 1 ? k % around : 0];
+            };
+            const Index a = at(r, i), b = at(r, i + 1), c = at(r + 1, i), d = at(r + 1, i + 1);
+            if (a != b) faces.emplace_back(a, b, c == d ? c : d);
+            if (c != d) faces.emplace_back(a, d, c);
+        }
+    Mesh mesh{Vertices(points.size(), 3), Triangles(faces.size(), 3)};
+    for (std::size_t v = 0; v < points.size(); ++v) mesh.vertices.row(v) = points[v];
+    for (std::size_t f = 0; f < faces.size(); ++f) mesh.triangles.row(f) = faces[f];
+    return mesh;
+}
+
+/// A finger: a tube of radius 1, open below, with half a sphere on top.
+Mesh finger(double length = 10.0, int around = 24)
+{
+    std::vector<std::pair<double, double>> profile;
+    const double step = 2.0 * pi / around;
+    for (double h = 0.0; h < length; h += step) profile.emplace_back(1.0, h);
+    const int rings = around / 4;
+    for (int k = 0; k < rings; ++k)
+        profile.emplace_back(std::cos(0.5 * pi * k / rings), length + std::sin(0.5 * pi * k / rings));
+    profile.emplace_back(0.0, length + 1.0);
+    return revolved(profile, around);
+}
+
+/// A flat ring of radii 1/4 and 1.
+Mesh flat_ring()
+{
+    std::vector<std::pair<double, double>> profile;
+    for (int k = 0; k <= 10; ++k) profile.emplace_back(1.0 - 0.075 * k, 0.0);
+    return revolved(profile, 48);
+}
+
+Mesh torus(int n = 40, int m = 20)
+{
+    Mesh mesh{Vertices(n * m, 3), Triangles(2 * n * m, 3)};
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < m; ++j) {
+            const double a = 2.0 * pi * i / n, b = 2.0 * pi * j / m, r = 2.0 + std::cos(b);
+            mesh.vertices.row(i * m + j) << r * std::cos(a), r * std::sin(a), std::sin(b);
+            const Index p = i * m + j, q = (i + 1) % n * m + j, s = i * m + (j + 1) % m,
+                        t = (i + 1) % n * m + (j + 1) % m;
+            mesh.triangles.row(2 * p) << p, q, t;
+            mesh.triangles.row(2 * p + 1) << p, t, s;
+        }
+    return mesh;
+}
+
+PartsResult parts(const Mesh& mesh, const PartsOptions& options = {})
+{
+    ExecutionContext context;
+    return parts_of(mesh.vertices, mesh.triangles, options, context);
+}
+
+Eigen::Matrix<double, 3, 2> stored_face(const PartsResult& result, Eigen::Index f)
+{
+    return result.uv.middleRows(3 * f, 3).cast<float>().cast<double>();
+}
+
+double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// Faces that are not upright as stored.
+Index upside_down(const PartsResult& result)
+{
+    Index count = 0;
+    for (Eigen::Index f = 0; f < result.uv.rows() / 3; ++f) {
+        const auto p = stored_face(result, f);
+        count += !(cross(p.row(1) - p.row(0), p.row(2) - p.row(0)) > 0.0);
+    }
+    return count;
+}
+
+/// The most faces that lie over one of many points.
+int most_layers(const PartsResult& result)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(0.0, 1.0);
+    int most = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Eigen::RowVector2d x(place(random), place(random));
+        int layers = 0;
+        for (Eigen::Index f = 0; f < result.uv.rows() / 3; ++f) {
+            const auto p = stored_face(result, f);
+            layers += cross(p.row(1) - p.row(0), x - p.row(0)) > 0.0 &&
+                      cross(p.row(2) - p.row(1), x - p.row(1)) > 0.0 && cross(p.row(0) - p.row(2), x - p.row(2)) > 0.0;
+        }
+        most = std::max(most, layers);
+    }
+    return most;
+}
+
+void expect_sound(const PartsResult& result, Index faces)
+{
+    ASSERT_EQ(result.uv.rows(), 3 * faces);
+    EXPECT_TRUE(result.uv.allFinite());
+    EXPECT_GE(result.uv.minCoeff(), 0.0);
+    EXPECT_LE(result.uv.maxCoeff(), 1.0);
+    std::vector<int> times(faces, 0);
+    for (std::size_t k = 0; k < result.parts.size(); ++k)
+        for (const Index f : result.parts[k].faces) {
+            ++times[f];
+            EXPECT_EQ(result.part[f], static_cast<Index>(k));
+        }
+    EXPECT_EQ(std::ranges::count(times, 1), faces);
+    EXPECT_EQ(static_cast<Index>(result.flipped.size()), upside_down(result));
+    EXPECT_EQ(result.flipped.size(), 0U);
+    EXPECT_EQ(most_layers(result), 1);
+}
+
+}  // namespace
+
+TEST(Parts, finger_becomes_a_tube_and_a_cap)
+{
+    const Mesh mesh = finger();
+    const PartsResult result = parts(mesh);
+    expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
+    ASSERT_EQ(result.parts.size(), 2U);
+    EXPECT_EQ(result.parts[0].kind, PartKind::tube);
+    EXPECT_EQ(result.parts[1].kind, PartKind::disk);
+    EXPECT_EQ(result.parts[0].loops.size(), 2U);
+    EXPECT_LT(result.density_ratio_5_95, 2.0);
+    EXPECT_GT(result.even_area, 0.99);
+    // The girth once, and the slit.
+    const double area = 2.0 * pi * 11.0;
+    EXPECT_NEAR(result.cut_length - result.slit_length, 2.0 * pi / std::sqrt(area), 0.05);
+    EXPECT_NEAR(result.slit_length, 10.0 / std::sqrt(area), 0.15);
+}
+
+TEST(Parts, what_is_even_stays_one_part)
+{
+    const Mesh mesh = flat_ring();
+    const PartsResult result = parts(mesh);
+    expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
+    ASSERT_EQ(result.parts.size(), 1U);
+    EXPECT_EQ(result.parts[0].kind, PartKind::disk);
+    EXPECT_EQ(result.cut_length, 0.0);
+    EXPECT_LT(result.density_ratio_5_95, 1.05);
+    EXPECT_LT(result.angle_error_deg.mean, 0.5);
+}
+
+TEST(Parts, a_higher_price_makes_fewer)
+{
+    // Three beads on a string, open below.
+    std::vector<std::pair<double, double>> profile;
+    for (int k = 0; k < 90; ++k) profile.emplace_back(0.35 + 0.65 * std::abs(std::sin(pi * k / 30.0)), 0.09 * k);
+    profile.emplace_back(0.0, 0.09 * 90);
+    const Mesh mesh = revolved(profile, 24);
+    std::size_t last = 1000;
+    double even = 2.0;
+    for (const double price : {0.0005, 0.005, 0.05, 5.0}) {
+        const PartsResult result = parts(mesh, {.price = price});
+        EXPECT_EQ(static_cast<Index>(result.flipped.size()), upside_down(result));
+        EXPECT_EQ(result.flipped.size(), result.below_resolution.size());
+        EXPECT_LE(result.parts.size(), last) << price;
+        EXPECT_LE(result.even_area, even + 0.02) << price;
+        last = result.parts.size();
+        even = result.even_area;
+    }
+    EXPECT_EQ(last, 1U);
+}
+
+TEST(Parts, scale_and_place_change_nothing)
+{
+    Mesh mesh = finger(6.0);
+    const PartsResult before = parts(mesh);
+    for (const int exponent : {-500, -30, 30, 500}) {
+        const double scale = std::ldexp(1.0, exponent);
+        const Mesh scaled{scale * mesh.vertices, mesh.triangles};
+        const PartsResult after = parts(scaled);
+        EXPECT_EQ(after.part, before.part) << exponent;
+        EXPECT_EQ(after.uv, before.uv) << exponent;
+    }
+    EXPECT_EQ(parts(mesh).uv, before.uv);
+}
+
+TEST(Parts, closed_surfaces_and_handles_are_opened)
+{
+    const Mesh ring = torus();
+    const PartsResult result = parts(ring);
+    expect_sound(result, static_cast<Index>(ring.triangles.rows()));
+    EXPECT_EQ(result.handles_cut, 1);
+    EXPECT_LT(result.density_ratio_5_95, 3.1);
+    ExecutionContext context;
+    EXPECT_THROW(parts_of(ring.vertices, ring.triangles, {.cut = false}, context), TopologyError);
+
+    std::vector<std::pair<double, double>> profile{{0.0, -1.0}};
+    for (int k = 1; k < 16; ++k) profile.emplace_back(std::sin(pi * k / 16), -std::cos(pi * k / 16));
+    profile.emplace_back(0.0, 1.0);
+    const Mesh sphere = revolved(profile, 32);
+    const PartsResult opened = parts(sphere);
+    expect_sound(opened, static_cast<Index>(sphere.triangles.rows()));
+    EXPECT_GT(opened.even_area, 0.85);
+}
+
+TEST(Parts, polygons_stay_whole)
+{
+    const Mesh mesh = finger();
+    PartsOptions options{.price = 0.0005};
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) options.polygon.push_back(static_cast<Index>(f / 2));
+    const PartsResult result = parts(mesh, options);
+    expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
+    EXPECT_GT(result.parts.size(), 1U);
+    for (Eigen::Index f = 0; f + 1 < 2 * (mesh.triangles.rows() / 2); f += 2) {
+        EXPECT_EQ(result.part[f], result.part[f + 1]);
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b)
+                if (mesh.triangles(f, a) == mesh.triangles(f + 1, b)) {
+                    EXPECT_EQ(result.uv.row(3 * f + a), result.uv.row(3 * f + 3 + b)) << f;
+                }
+    }
+}
+
+TEST(Parts, a_face_like_another_is_in_no_part)
+{
+    const Mesh mesh = flat_ring();
+    Mesh doubled{mesh.vertices, Triangles(mesh.triangles.rows() + 1, 3)};
+    doubled.triangles << mesh.triangles, mesh.triangles.row(5);
+    const PartsResult result = parts(doubled);
+    EXPECT_EQ(std::ranges::count(result.part, -1), 1);
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_EQ(result.warnings[0].kind, WarningKind::collapsed_faces);
+}
+
+TEST(Parts, wrong_prices_and_cancelled_calls)
+{
+    const Mesh mesh = finger();
+    for (const double price : {0.0, -1.0, std::nan("")}) EXPECT_THROW(parts(mesh, {.price = price}), InputError);
+    CancelToken token;
+    token.cancel();
+    ExecutionContext context({}, token);
+    EXPECT_THROW(parts_of(mesh.vertices, mesh.triangles, {}, context), Cancelled);
+}
+
+TEST(Parts, progress_never_goes_back)
+{
+    const Mesh mesh = finger();
+    double last = 0.0;
+    ExecutionContext context(
+        [&](double fraction, const std::string&) {
+            EXPECT_GE(fraction, last);
+            last = fraction;
+        },
+        {});
+    parts_of(mesh.vertices, mesh.triangles, {}, context);
+    EXPECT_GE(last, 0.9);
+}
+
+TEST(Evenness, finds_the_best_window)
+{
+    std::mt19937 random(3);
+    std::normal_distribution<double> spread(0.0, 1.0);
+    VectorXd u(400), areas(400);
+    for (Eigen::Index f = 0; f < u.size(); ++f) {
+        u[f] = spread(random);
+        areas[f] = std::abs(spread(random)) + 0.01;
+    }
+    double least = 1e300;
+    for (double from = -4.0; from < 4.0; from += 1e-3) {
+        double overflow = 0.0;
+        for (Eigen::Index f = 0; f < u.size(); ++f)
+            overflow += areas[f] * std::max({from - u[f], u[f] - from - even_range, 0.0});
+        least = std::min(least, overflow);
+    }
+    const Evenness even = evenness(u, areas);
+    EXPECT_NEAR(even.overflow, least, 1e-4 * least);
+    EXPECT_NEAR(rough_overflow(u, areas), least, 2e-2 * least);
+}
+
+TEST(DualCut, is_shortest_at_the_waist)
+{
+    std::vector<std::pair<double, double>> profile;
+    for (int k = 0; k <= 20; ++k) profile.emplace_back(k == 12 ? 0.5 : 1.0, 0.3 * k);
+    const Mesh mesh = revolved(profile, 16);
+    std::vector<Index> all(mesh.triangles.rows());
+    for (std::size_t f = 0; f < all.size(); ++f) all[f] = static_cast<Index>(f);
+    const PartMesh part = part_mesh(cut_surface(mesh.vertices, mesh.triangles, {}), all);
+    std::vector<Side> sides(all.size(), Side::free);
+    for (int f = 0; f < 32; ++f) {
+        sides[f] = Side::inside;
+        sides[sides.size() - 1 - f] = Side::outside;
+    }
+    const std::vector<int> label = minimum_cut(part, sides);
+    ASSERT_EQ(label.size(), all.size());
+    for (std::size_t f = 0; f < label.size(); ++f) EXPECT_EQ(label[f], f < 12U * 32U) << f;
+}
+
+TEST(Packing, boxes_lie_apart_in_the_square)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> size(0.05, 1.0);
+    for (const int count : {1, 2, 7, 60}) {
+        std::vector<Box> boxes;
+        double area = 0.0;
+        for (int i = 0; i < count; ++i) {
+            boxes.push_back({size(random), size(random)});
+            area += boxes.back().width * boxes.back().height;
+        }
+        const PackedBoxes pack = pack_boxes(boxes, 0.004);
+        for (int i = 0; i < count; ++i) {
+            const auto [x, y] = pack.corners[i];
+            EXPECT_GE(std::min(x, y), 0.0);
+            EXPECT_LE(std::max(x + boxes[i].width, y + boxes[i].height), pack.side);
+            for (int j = 0; j < i; ++j) {
+                const auto [p, q] = pack.corners[j];
+                EXPECT_TRUE(x >= p + boxes[j].width || p >= x + boxes[i].width || y >= q + boxes[j].height ||
+                            q >= y + boxes[i].height)
+                    << i << " " << j;
+            }
+        }
+        if (count == 60) {
+            EXPECT_GT(area, 0.7 * pack.side * pack.side);
+        }
+    }
+}

@@ -1,0 +1,161 @@
+"""Parts: the package's function and the command, on the same surfaces."""
+
+import json
+import threading
+
+import koebe
+import numpy as np
+import pytest
+from cli_support import CANNOT_BE_MAPPED, USAGE, koebe as command, obj_text, perforated
+
+
+def finger(around=24, rings=40):
+    """A tube open below, with half a sphere on top: vertices and quadrilaterals, triangles at the tip."""
+    angle = 2 * np.pi * np.arange(around) / around
+    profile = [(1.0, 0.25 * k) for k in range(rings)]
+    top = 0.25 * rings
+    profile += [(np.cos(t), top + np.sin(t)) for t in np.linspace(0, np.pi / 2, around // 4, endpoint=False)]
+    vertices = [(r * np.cos(a), r * np.sin(a), h) for r, h in profile for a in angle] + [(0, 0, top + 1)]
+    faces = []
+    for k in range(len(profile) - 1):
+        for i in range(around):
+            j = (i + 1) % around
+            faces.append([k * around + i, k * around + j, (k + 1) * around + j, (k + 1) * around + i])
+    last = (len(profile) - 1) * around
+    faces += [[last + i, last + (i + 1) % around, len(vertices) - 1] for i in range(around)]
+    return np.array(vertices), faces
+
+
+def triangulated(faces):
+    return np.array([[f[0], f[k], f[k + 1]] for f in faces for k in range(1, len(f) - 1)])
+
+
+def areas(uv):
+    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+    return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+
+
+VERTICES, FACES = finger()
+TRIANGLES = triangulated(FACES)
+
+
+def test_a_finger_is_a_tube_and_a_cap():
+    result = koebe.parts(VERTICES, TRIANGLES)
+    assert [part["kind"] for part in result.parts] == ["tube", "disk"]
+    assert result.uv.shape == (len(TRIANGLES), 3, 2) and result.uv.dtype == np.float64
+    assert (result.uv >= 0).all() and (result.uv <= 1).all()
+    assert sorted(np.concatenate([part["faces"] for part in result.parts])) == list(range(len(TRIANGLES)))
+    assert all((result.part[part["faces"]] == k).all() for k, part in enumerate(result.parts))
+    assert (areas(result.uv.astype(np.float32).astype(float)) > 0).all()
+    assert result.flipped == 0 and len(result.flipped_faces) == 0
+    assert result.density_ratio_5_95 < 2 and result.even_area > 0.99
+    assert 0 < result.slit_length < result.cut_length
+    assert "2 parts" in repr(result)
+
+
+def test_the_report_is_true_of_the_uvs():
+    result = koebe.parts(VERTICES, TRIANGLES)
+    stored = result.uv.astype(np.float32).astype(float)
+    a, b = (VERTICES[TRIANGLES[:, k]] - VERTICES[TRIANGLES[:, 0]] for k in (1, 2))
+    surface = 0.5 * np.linalg.norm(np.cross(a, b), axis=1)
+    u = 0.5 * np.log(areas(stored) / surface)
+    order = np.argsort(u)
+    below = np.cumsum(surface[order]) / surface.sum()
+    low, high = (u[order][np.searchsorted(below, share)] for share in (0.05, 0.95))
+    assert result.density_ratio_5_95 == pytest.approx(np.exp(high - low), rel=1e-6)
+
+    seams = 0.0
+    sides = {}
+    for f, face in enumerate(TRIANGLES):
+        for k in range(3):
+            v, w = face[k], face[(k + 1) % 3]
+            ends = {v: tuple(result.uv[f, k]), w: tuple(result.uv[f, (k + 1) % 3])}
+            other = sides.setdefault((min(v, w), max(v, w)), ends)
+            if other != ends:
+                seams += np.linalg.norm(VERTICES[v] - VERTICES[w])
+    assert result.cut_length == pytest.approx(seams / np.sqrt(surface.sum()), rel=1e-9)
+
+
+def test_price_and_cut():
+    assert len(koebe.parts(VERTICES, TRIANGLES, price=50.0).parts) == 1
+    two = np.concatenate([TRIANGLES, TRIANGLES + len(VERTICES)])
+    both = np.concatenate([VERTICES, VERTICES + 5.0])
+    assert len(koebe.parts(both, two).parts) == 4
+    with pytest.raises(koebe.TopologyError) as caught:
+        koebe.parts(both, two, cut=False)
+    assert caught.value.kind == "disconnected"
+    for price in (0.0, -1.0, float("nan"), float("inf")):
+        with pytest.raises(koebe.OptionError):
+            koebe.parts(VERTICES, TRIANGLES, price=price)
+    for wrong in ({"price": "low"}, {"cut": 1}, {"progress": 3}, {"cancel": True}):
+        with pytest.raises(TypeError):
+            koebe.parts(VERTICES, TRIANGLES, **wrong)
+
+
+def test_degenerate_faces_are_taken():
+    more = np.concatenate([TRIANGLES, [[0, 0, 1]], TRIANGLES[:1]])
+    result = koebe.parts(VERTICES, more)
+    assert list(result.part[-2:]) == [-1, -1]
+    assert [warning.kind for warning in result.warnings] == ["collapsed_faces"]
+    assert result.warnings[0].elements == [len(TRIANGLES), len(TRIANGLES) + 1]
+    with pytest.raises(koebe.InputError):
+        koebe.parts(VERTICES, more, cut=False)
+
+
+def test_progress_and_cancel():
+    seen = []
+    koebe.parts(VERTICES, TRIANGLES, progress=lambda fraction, stage: seen.append((fraction, stage)))
+    fractions = [fraction for fraction, _ in seen]
+    assert fractions == sorted(fractions) and {"topology", "split", "pack"} <= {stage for _, stage in seen}
+    token = koebe.CancelToken()
+    threading.Timer(0.02, token.cancel).start()
+    with pytest.raises(koebe.Cancelled):
+        while True:
+            koebe.parts(VERTICES, TRIANGLES, cancel=token)
+
+
+def read_obj(path):
+    vertices, places, faces = [], [], []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        word, *rest = line.split()
+        if word == "v":
+            vertices.append([float(x) for x in rest])
+        elif word == "vt":
+            places.append([float(x) for x in rest])
+        elif word == "f":
+            faces.append([[int(i) - 1 for i in corner.split("/")] for corner in rest])
+    return np.array(vertices), np.array(places), faces
+
+
+@pytest.mark.parametrize("surface", [(VERTICES, FACES), perforated()])
+def test_the_command_keeps_vertices_and_polygons(tmp_path, surface):
+    vertices, faces = surface
+    source, target, report = tmp_path / "in.obj", tmp_path / "out.obj", tmp_path / "out.json"
+    source.write_text(obj_text(vertices, faces), encoding="utf-8")
+    done = command("parts", source, target, "--json", report, "--svg", tmp_path / "out.svg")
+    assert done.returncode == 0 and done.stderr == "" and done.stdout.count("\n") == 1
+    found, places, corners = read_obj(target)
+    assert np.array_equal(found, vertices)
+    assert [[v for v, _ in face] for face in corners] == [list(face) for face in faces]
+    assert (places >= 0).all() and (places <= 1).all()
+
+    result = json.loads(report.read_text(encoding="utf-8"))
+    assert list(result)[:4] == ["version", "input", "parts", "cut_length"]
+    keys = {"handles_cut", "density_ratio_5_95", "flipped", "below_resolution", "angle_error_deg", "seconds", "warnings"}
+    assert keys <= set(result) and result["input"] == "in.obj" and result["flipped"] == 0
+    assert sorted(f for part in result["parts"] for f in part["faces"]) == list(range(len(faces)))
+    assert all(set(part) == {"kind", "faces", "angle_error_deg", "loops"} for part in result["parts"])
+    assert "<svg" in (tmp_path / "out.svg").read_text(encoding="utf-8")
+
+
+def test_exit_codes_of_the_command(tmp_path):
+    source, target = tmp_path / "in.obj", tmp_path / "out.obj"
+    source.write_text(obj_text(VERTICES, FACES), encoding="utf-8")
+    for wrong in (["--price", "0"], ["--price", "few"], ["--balance", "area"]):
+        assert command("parts", source, target, *wrong).returncode == USAGE
+    assert command("parts", source, tmp_path / "out.ply").returncode == USAGE
+    assert command("parts", source).returncode == USAGE
+    source.write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", encoding="utf-8")
+    flat = command("parts", source, target)
+    assert flat.returncode == CANNOT_BE_MAPPED and flat.stderr.startswith("InputError: ")
+    assert not target.exists()
