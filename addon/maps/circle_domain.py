@@ -90,7 +90,7 @@ class CircleDomain:
             return Moebius()
         loop = self.loops[number]
         turned = inside_out(loop.center, loop.radius)
-        z, weights = turned.apply(self.points), self._weights()
+        z, weights = turned.apply(self.points), self.weights()
         moved = to_middle(balance_point(_in_disk(z), weights)).after(turned)
         turn = upright_turn(self.island, as_points(self.moved_points(moved)[0]))
         return rotation(float(np.angle(turn))).after(moved)
@@ -118,7 +118,7 @@ class CircleDomain:
             raise DomainError(f"loop {hole} is to be the rim, so it cannot be a hole in the middle")
         return own_center(*changed.circle(self.loops[hole].center, self.loops[hole].radius))
 
-    def _weights(self) -> np.ndarray:
+    def weights(self) -> np.ndarray:
         """The surface's area (n,) at each vertex."""
         return np.bincount(
             self.island.triangles.ravel(), np.repeat(self.island.areas, 3), minlength=len(self.points)
