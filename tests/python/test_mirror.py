@@ -86,6 +86,8 @@ def test_what_is_done_twice_stays():
 @pytest.mark.parametrize("options, text", [
     ({"noise": 0.02}, "no plane was found"), ({"holes": EVEN_HOLES[1:]}, "no plane was found"),
     ({"height": lambda x, y: 0.4 * x * x + 0.3 * np.sin(2 * x + y)}, "no plane was found"),
+    ({"holes": (*EVEN_HOLES, (25, 26, 3, 4))}, "no plane was found"),  # one face less, all vertices still there
+    ({"holes": EVEN_HOLES[1:], "height": lambda x, y: 0.0 * x}, "no plane was found"),  # but its own
 ])  # fmt: skip
 def test_what_is_not_symmetric_is_refused(options, text):
     with pytest.raises(domains.DomainError, match=text):
@@ -104,4 +106,4 @@ def test_a_rim_that_is_not_its_own_image_is_refused():
 def test_a_flat_sheet_is_not_mirrored_in_its_own_plane():
     domain = mapped(masked(height=lambda x, y: 0.0 * x))
     image = mirror.mirror_of(domain.island)
-    assert (image != np.arange(len(image))).mean() > 0.9
+    assert (image != np.arange(len(image))).mean() > 0.9  # but across x

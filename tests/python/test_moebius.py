@@ -198,6 +198,22 @@ def test_a_hole_is_brought_to_the_middle(mapped):
         assert abs(image.loops[4].center) < 1e-12
 
 
+@pytest.mark.parametrize("rim", [1, 4])
+def test_what_was_moved_is_read_again_as_it_was_told(mapped, rim):
+    """Corners of the square are off their circle by then."""
+    domain, _ = mapped
+    image = domain.image(domain.moved(rim, 0.2j, 0.0))
+    corners = image.uv[domain.island.corner_vertex]
+    again = domains.read_domain(koebe, domain.island, corners).numbered([domain.key(loop) for loop in image.loops])
+    for told, read in zip(image.loops, again.loops, strict=True):
+        assert abs(told.center - read.center) < 1e-6 and abs(told.radius - read.radius) < 1e-6
+        assert set(told.on) <= set(read.on)
+    onward = again.image(again.moved(0, -0.1j, 0.0))
+    assert max(distances(onward)) < 1e-5 and len(onward.flipped) == 0
+    back = again.image(again.moved(rim, 0.0, 0.0))
+    assert max(distances(back)) < 1e-5 and len(back.flipped) == 0
+
+
 def test_flips_are_counted_as_they_are_in_the_uvs(mapped):
     domain, _ = mapped
     image = domain.image(domain.moved(2, 0.999j, 0.0))  # coarse triangles do not follow so far
