@@ -26,6 +26,7 @@ def _parts() -> tuple[ModuleType, ...]:
         moebius,
         option_presets,
         select_from_report,
+        symmetrize,
         uniformize,
     )
     from .state import moved_circles, option_properties, run_report, shape_report
@@ -34,7 +35,8 @@ def _parts() -> tuple[ModuleType, ...]:
     return (
         option_properties, run_report, moved_circles, shape_report,
         uniformize, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture, option_presets,
-        moebius, flat_copy, distortion_legend, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
+        moebius, symmetrize, flat_copy,
+        distortion_legend, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 
 

@@ -54,7 +54,7 @@ class MoebiusJob:
 
     def image_of(self, domain: CircleDomain, moved: Moebius) -> np.ndarray:
         """UVs (n,) of a domain's vertices after a map, as complex numbers in 32 bits, for `show`."""
-        z, _ = domain.moved_points(moved)
+        z = domain.moved_points(moved)
         z *= domain.scale
         z += domain.offset
         return z.astype(np.complex64)

@@ -90,9 +90,9 @@ class CircleDomain:
             return Moebius()
         loop = self.loops[number]
         turned = inside_out(loop.center, loop.radius)
-        z, weights = turned.apply(self.points), self._weights()
+        z, weights = turned.apply(self.points), self.weights()
         moved = to_middle(balance_point(_in_disk(z), weights)).after(turned)
-        turn = upright_turn(self.island, as_points(self.moved_points(moved)[0]))
+        turn = upright_turn(self.island, as_points(self.moved_points(moved)))
         return rotation(float(np.angle(turn))).after(moved)
 
     def moved(self, number: int, center: complex, angle: float, hole: int = 0) -> Moebius:
@@ -118,7 +118,7 @@ class CircleDomain:
             raise DomainError(f"loop {hole} is to be the rim, so it cannot be a hole in the middle")
         return own_center(*changed.circle(self.loops[hole].center, self.loops[hole].radius))
 
-    def _weights(self) -> np.ndarray:
+    def weights(self) -> np.ndarray:
         """The surface's area (n,) at each vertex."""
         return np.bincount(
             self.island.triangles.ravel(), np.repeat(self.island.areas, 3), minlength=len(self.points)
@@ -126,46 +126,55 @@ class CircleDomain:
 
     @functools.cached_property
     def _ears(self) -> np.ndarray:
-        """Triangles (k, 3) with two edges on one loop, the vertex between them first."""
+        """Triangles (k, 3) with two edges on one loop, the vertex between them, the tip, first."""
         triangles, number = self.island.triangles, np.full(len(self.points), -1)
         for k, loop in enumerate(self.loops):
-            number[loop.on] = k
+            number[loop.vertices] = k
         around = number[triangles]
         found = np.flatnonzero((around[:, 0] >= 0) & (around == around[:, :1]).all(axis=1))
         alone = np.bincount(triangles.ravel(), minlength=len(number))[triangles[found]] == 1
         found, tip = found[alone.any(axis=1)], np.argmax(alone[alone.any(axis=1)], axis=1)
         return triangles[found[:, None], (tip[:, None] + np.arange(3)) % 3]
 
-    def moved_points(self, moved: Moebius, out: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Images (n,) of the points, and which vertices (k,) are off their circles in them.
+    def _turn_ears(self, z: np.ndarray) -> np.ndarray:
+        """Turn back the ears among points z (n,) that are turned over: their tips (k,).
 
-        A triangle with three vertices on the rim would be turned over where that becomes a hole, as the edges are
-        straight: the vertex between its two edges there is mirrored into the hole, so that its angles stay.
+        A triangle with three vertices on the rim is turned over where that becomes a hole, as its edges are straight:
+        its tip is mirrored into the hole, so that the angles stay.
         """
-        z = moved.apply(self.points, out)
         tip, one, other = z[self._ears].T
         over = ((one - tip).conj() * (other - tip)).imag <= 0.0
         if over.any():
             chord = other[over] - one[over]
             z[self._ears[over, 0]] = one[over] + chord * ((tip[over] - one[over]) / chord).conj()
-        return z, self._ears[over, 0]
+        return self._ears[over, 0]
+
+    def moved_points(self, moved: Moebius) -> np.ndarray:
+        """Images (n,) of the points, as far as they matter while something is dragged."""
+        z = moved.apply(self.points)
+        self._turn_ears(z)
+        return z
 
     def image(self, moved: Moebius) -> "CircleImage":
         """The whole image of the domain, ready to be written and reported."""
         if moved.is_identity:
             return CircleImage(self, self.loops, self.old_uv, rounded(self.old_uv, self.island.triangles)[1])
-        z, off = self.moved_points(moved)
-        loops = [self._moved_loop(loop, moved, z, off) for loop in self.loops]
+        z = moved.apply(self.points)
+        loops = [self._moved_loop(loop, moved, z) for loop in self.loops]
+        off = self._turn_ears(z)
+        loops = [dataclasses.replace(loop, on=np.setdiff1d(loop.on, off)) for loop in loops]
         rim = int(np.argmax([loop.radius for loop in loops]))
         loops[0], loops[rim] = loops[rim], loops[0]  # the others keep their numbers
         uv, flipped = rounded(self.placed(z), self.island.triangles)
         return CircleImage(self, loops, uv, flipped)
 
-    @staticmethod
-    def _moved_loop(loop: Loop, moved: Moebius, z: np.ndarray, off: np.ndarray) -> Loop:
-        """The image of a loop, whose points z (n,) are put onto its circle: 32 bits had left them beside it."""
+    def _moved_loop(self, loop: Loop, moved: Moebius, z: np.ndarray) -> Loop:
+        """The image of a loop, whose points z (n,) are put onto its circle: 32 bits had left them beside it.
+
+        So are the tips of ears, which had been mirrored into it.
+        """
         center, radius = moved.circle(loop.center, loop.radius)
-        on = np.setdiff1d(loop.on, off)
+        on = np.union1d(loop.on, np.intersect1d(loop.vertices, self._ears[:, 0]))
         arms = z[on] - center
         z[on] = center + arms * (radius / np.abs(arms))
         return dataclasses.replace(loop, on=on, center=center, radius=radius)

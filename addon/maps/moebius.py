@@ -26,12 +26,12 @@ class Moebius:
         """Image of one point."""
         return (self.a * z + self.b) / (self.c * z + self.d)
 
-    def apply(self, z: np.ndarray, out: np.ndarray | None = None) -> np.ndarray:
-        """Images of points (n,), in `out` (n,) if given, which may be of 32-bit parts.
+    def apply(self, z: np.ndarray) -> np.ndarray:
+        """Images of points (n,).
 
         Blocks of them at a time: what is computed on the way stays in the processor's cache.
         """
-        result = np.empty_like(z) if out is None else out
+        result = np.empty_like(z)
         for part in blocks(len(z)):
             below = z[part] * self.c
             below += self.d

@@ -115,7 +115,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
 
     def _write(self, run: Transaction, context: bpy.types.Context, job: MoebiusJob) -> CircleImage:
         """Write the image that the properties say, and bring the report up to date."""
-        domain = _numbered(context, job, job.domains[self.island])
+        domain = numbered(context, job, job.domains[self.island])
         image = domain.image(domain.moved(self.rim, complex(*self.center), self.rotation, self.hole))
         job.write(run, image)
         note_group(run, report_of(context))
@@ -157,7 +157,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self.object_name, self.island = job.name, job.domain_at(*place, REACH) or 0
         self.rim, self.hole, self.center, self.rotation = 0, 0, (0.0, 0.0), 0.0
         self._job, self._run = job, Transaction()
-        domain = _numbered(context, job, job.domains[self.island])
+        domain = numbered(context, job, job.domains[self.island])
         self._pixel = self._place(event.mouse_region_x + 1, event.mouse_region_y)[0] - place[0]
         self._grip = Grip.at(domain, *place, NEAR * self._pixel)
         self._pressed, self._dragging, self._live = (event.mouse_x, event.mouse_y), False, False
@@ -268,7 +268,7 @@ def _jobs(
     return [], problems
 
 
-def _numbered(context: bpy.types.Context, job: MoebiusJob, domain: CircleDomain) -> CircleDomain:
+def numbered(context: bpy.types.Context, job: MoebiusJob, domain: CircleDomain) -> CircleDomain:
     """The domain with its holes numbered as in the report, if that has it."""
     entry = moved_circles.entry_of(context, job.name, job.layer, domain)
     return domain if entry is None else domain.numbered(moved_circles.loop_keys(entry))

@@ -14,6 +14,7 @@ from ..maps.moebius import Moebius
 from ..maps.wording import counted
 from .run_report import KoebeIslandReport, report_of
 
+MOVED, SYMMETRIC = "moved by hand", "made symmetric"
 KEPT = 50  # states of an island that are known again after undo
 
 
@@ -45,14 +46,14 @@ def show(entry: KoebeIslandReport, domain: CircleDomain, moved: Moebius) -> None
         _place(place, domain, center, radius)
 
 
-def record(entry: KoebeIslandReport, image: CircleImage, angle_error: float) -> None:
+def record(entry: KoebeIslandReport, image: CircleImage, angle_error: float, what: str = MOVED) -> None:
     """Bring the entry up to date with an image that was written. Its loops become those of the image, in its order."""
     domain = image.domain
     begin(entry, domain)
     before = {key: (loop.vertices, loop.roundness) for key, loop in zip(loop_keys(entry), entry.loops, strict=True)}
     entry.angle_error, entry.flipped = angle_error, len(image.flipped)
     entry.flipped_faces = json.dumps(np.unique(domain.island.triangle_face[image.flipped]).tolist())
-    entry.moved = describe(image)
+    entry.moved = describe(image, what)
     for place, loop in zip(entry.loops, image.loops, strict=True):
         place.vertices, place.roundness = before[domain.key(loop)]
         place.radius = loop.radius
@@ -60,14 +61,14 @@ def record(entry: KoebeIslandReport, image: CircleImage, angle_error: float) -> 
     _remember(entry, _hash(image.uv, domain))
 
 
-def describe(image: CircleImage) -> str:
-    """What a move has made of the island, in words; what to watch out for comes after the colon."""
+def describe(image: CircleImage, what: str = MOVED) -> str:
+    """What was done with the island, in words; what to watch out for comes after the colon."""
     troubles = []
     if len(image.flipped):
         troubles.append(f"{counted(len(image.flipped), 'triangle')} turned over")
     if image.too_small:
         troubles.append(f"{counted(image.too_small, 'triangle')} too small for UVs of 32 bits")
-    return "moved by hand" + (f": {' and '.join(troubles)}. Move less, or map it anew" if troubles else "")
+    return what + (f": {' and '.join(troubles)}. Move less, or map it anew" if troubles else "")
 
 
 def _place(place: Any, domain: CircleDomain, center: complex, radius: float) -> None:

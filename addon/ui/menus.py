@@ -5,6 +5,7 @@ import bpy
 
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
+from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import copy_options, settings_of
 
@@ -15,6 +16,7 @@ def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     layout.separator()
     layout.operator_context = "INVOKE_DEFAULT"
     copy_options(settings_of(context), layout.operator(UV_OT_koebe_uniformize.bl_idname))
+    layout.operator(UV_OT_koebe_symmetrize.bl_idname)
 
 
 def draw_clean_up_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:

@@ -9,6 +9,7 @@ from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.option_presets import UV_OT_koebe_reset
+from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import KoebeSettings, copy_options, settings_of
 from ..state.run_report import report_of
@@ -75,6 +76,7 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
     for value, text in (("angle", "Angle"), ("area", "Area"), ("none", "Off")):
         button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
         button.kind, button.layer = value, settings.layer
+    column.operator(UV_OT_koebe_symmetrize.bl_idname, icon="MOD_MIRROR")
     if context.space_data.type == "IMAGE_EDITOR":
         row = column.row()
         row.prop(report_of(context), "show_circles")

@@ -96,6 +96,29 @@ def mapped_in_edit_mode():
     bpy.ops.uv.koebe_uniformize(checker=False)
 
 
+def even(name="Even"):
+    """A panel that is its own mirror image, mapped."""
+    holes = ((0.026, 0.101, 0.35, 0.65), (0.401, 0.476, 0.35, 0.65), (0.651, 0.851, 0.45, 0.62))
+    return scenes.add_panel(name, size=20, holes=holes, height=lambda x, y: 0.3 * x * x + 0.2 * np.sin(2.0 * y))
+
+
+def symmetric():
+    """Two objects of which one is its own mirror image, mapped and with the colours of the distortion."""
+    states.new_file()
+    objects = [even(), states.layered()]
+    scenes.select(*objects)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    bpy.ops.uv.koebe_distortion(kind="area")
+    states.consistent(objects)
+    scenes.select(*objects)
+
+
+def symmetric_in_edit_mode():
+    """The same in Edit Mode."""
+    symmetric()
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
 RUNS = {
     "uniformize": (states.many, "uv.koebe_uniformize", {}),
     "uniformize what is worn": (states.worn, "uv.koebe_uniformize", {"checker_size": 5.0, "checker_even": False}),
@@ -121,6 +144,8 @@ RUNS = {
     "carry": (carried, "uv.koebe_carry_texture", {"fit_holes": True}),
     "move circles": (mapped, "uv.koebe_moebius", {"rim": 1, "center": (0.1, 0.2)}),
     "move circles in Edit Mode": (mapped_in_edit_mode, "uv.koebe_moebius", {"hole": 2, "rotation": 1.0}),
+    "symmetrize": (symmetric, "uv.koebe_symmetrize", {}),
+    "symmetrize in Edit Mode": (symmetric_in_edit_mode, "uv.koebe_symmetrize", {}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
     "compare": (carried, "uv.koebe_compare_shapes", {}),
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),

@@ -90,6 +90,8 @@ class Touched:
     def _moebius(self, owner, what):
         return (owner, what) == ("file", "report") or self._writes_uv(owner, what)
 
+    _symmetrize = _moebius
+
     def _flat_copy(self, owner, what):
         """New data, selected; the copy shares the materials."""
         return " Flat" in owner or owner.startswith("names of ") or what.startswith("selected in ") or (

@@ -184,7 +184,7 @@ def test_a_new_rim_is_balanced_and_upright(mapped):
     domain, _ = mapped
     image = domain.image(domain.moved(2, 0.0, 0.0))
     z = (image.uv.astype(np.float64) @ [1, 1j] - domain.offset) / domain.scale
-    weights = domain._weights()
+    weights = domain.weights()
     assert abs((weights * z).sum() / weights.sum()) < 1e-5
     turn = maps_module("upright").upright_turn(domain.island, np.stack([z.real, z.imag], axis=1))
     assert abs(turn - 1.0) < 1e-2  # 32 bits leave that much of the thin triangles at the square's corners
@@ -196,6 +196,22 @@ def test_a_hole_is_brought_to_the_middle(mapped):
         image = domain.image(domain.moved(rim, 0.0, 0.5, hole=4))
         assert set(image.loops[4].vertices) == set(domain.loops[4].vertices)
         assert abs(image.loops[4].center) < 1e-12
+
+
+@pytest.mark.parametrize("rim", [1, 4])
+def test_what_was_moved_is_read_again_as_it_was_told(mapped, rim):
+    """Corners of the square are off their circle by then."""
+    domain, _ = mapped
+    image = domain.image(domain.moved(rim, 0.2j, 0.0))
+    corners = image.uv[domain.island.corner_vertex]
+    again = domains.read_domain(koebe, domain.island, corners).numbered([domain.key(loop) for loop in image.loops])
+    for told, read in zip(image.loops, again.loops, strict=True):
+        assert abs(told.center - read.center) < 1e-6 and abs(told.radius - read.radius) < 1e-6
+        assert set(told.on) <= set(read.on)
+    onward = again.image(again.moved(0, -0.1j, 0.0))
+    assert max(distances(onward)) < 1e-5 and len(onward.flipped) == 0
+    back = again.image(again.moved(rim, 0.0, 0.0))
+    assert max(distances(back)) < 1e-5 and len(back.flipped) == 0
 
 
 def test_flips_are_counted_as_they_are_in_the_uvs(mapped):
