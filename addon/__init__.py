@@ -25,6 +25,7 @@ def _parts() -> tuple[ModuleType, ...]:
         flat_copy,
         moebius,
         option_presets,
+        parts,
         select_from_report,
         symmetrize,
         uniformize,
@@ -34,8 +35,8 @@ def _parts() -> tuple[ModuleType, ...]:
 
     return (
         option_properties, run_report, moved_circles, shape_report,
-        uniformize, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture, option_presets,
-        moebius, symmetrize, flat_copy,
+        uniformize, parts, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture,
+        option_presets, moebius, symmetrize, flat_copy,
         distortion_legend, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

@@ -163,8 +163,33 @@ def option(name: str) -> Any:
     return UniformizeProperties.__annotations__[name]
 
 
+EVENNESS = FloatProperty(
+    name="Fewer ↔ More Even",
+    default=0.5,
+    min=0.0,
+    max=1.0,
+    subtype="FACTOR",
+    description="0: as few parts as can be. 1: texels as even as can be, with more parts and longer cuts",
+)
+
+
+class PartsProperties:
+    """What the artist can choose of a surface that is cut into parts, beside the options of all maps that it has."""
+
+    evenness: EVENNESS
+    layer: option("layer")
+    checker: option("checker")
+    checker_size: option("checker_size")
+    checker_even: option("checker_even")
+
+
+PART_OPTION_NAMES = tuple(PartsProperties.__annotations__)
+
+
 class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     """The scene's settings, shown in the panel."""
+
+    evenness: EVENNESS
 
 
 def settings_of(context: bpy.types.Context) -> KoebeSettings:
@@ -176,6 +201,18 @@ def copy_options(source: Any, target: Any) -> None:
     """Set the options of the operator's properties from the settings, or the other way round."""
     for name in OPTION_NAMES:
         setattr(target, name, getattr(source, name))
+
+
+def copy_part_options(source: Any, target: Any) -> None:
+    """Set the options of the operator that cuts into parts from the settings."""
+    for name in PART_OPTION_NAMES:
+        setattr(target, name, getattr(source, name))
+
+
+def part_options_of(properties: PartsProperties) -> Options:
+    """The `Options` of the operator that cuts into parts: its layer and checker. Raises OptionError."""
+    names = set(PART_OPTION_NAMES) & set(OPTION_NAMES)
+    return Options(**{name: getattr(properties, name) for name in names})
 
 
 def options_of(properties: UniformizeProperties) -> Options:

@@ -21,6 +21,7 @@ from ..maps.carried_uv import Carried
 from ..maps.circle_fit import fitted_circle
 from ..maps.offending_elements import offending_elements
 from ..maps.outcomes import IslandOutcome, SurfaceOutcome
+from ..maps.parts import PartsOutcome
 from ..maps.surface import Island
 from ..maps.wording import explain, warnings
 
@@ -51,6 +52,9 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     flipped: IntProperty(description="Triangles that are turned over in the UVs")
     flipped_faces: StringProperty(description="Their faces, as JSON")
     seconds: FloatProperty(description="Time of the computation")
+    parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
+    density: FloatProperty(description="Of parts: texel density at 95 % of the area over that at 5 %")
+    cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
     corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
     history: StringProperty(description="What the report was for each state of such an island, as JSON")
@@ -101,6 +105,34 @@ def record(
     for name, text in refused:
         _record_failure(report, name, text)
     # What has to be looked at comes first.
+    report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
+
+
+def record_parts(
+    run: Transaction,
+    context: bpy.types.Context,
+    outcomes: list[PartsOutcome],
+    layer: str,
+    refused: list[tuple[str, str]],
+) -> None:
+    """Replace the report by the parts of objects, an entry for each object. They have no circles to be drawn."""
+    report = report_of(context)
+    note_group(run, report)
+    report.islands.clear()
+    for outcome in outcomes:
+        if outcome.problem:
+            _record_failure(report, outcome.name, outcome.problem)
+        for result in outcome.mapped:
+            entry = report.islands.add()
+            entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)
+            entry.mapped = entry.converged = True
+            entry.angle_error, entry.flipped = result.angle_error_deg["mean"], result.flipped
+            entry.density, entry.cut_length = result.density_ratio_5_95, result.cut_length
+            entry.seconds = result.seconds
+            entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
+            entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
+    for name, text in refused:
+        _record_failure(report, name, text)
     report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
 
 

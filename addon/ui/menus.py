@@ -5,17 +5,19 @@ import bpy
 
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
+from ..operators.parts import UV_OT_koebe_parts
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import copy_options, settings_of
+from ..state.option_properties import copy_options, copy_part_options, settings_of
 
 
 def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    """The entry in the U menu and in the UV Editor's UV menu, with the panel's options."""
+    """The entries in the U menu and in the UV Editor's UV menu, with the panel's options."""
     layout = self.layout
     layout.separator()
     layout.operator_context = "INVOKE_DEFAULT"
     copy_options(settings_of(context), layout.operator(UV_OT_koebe_uniformize.bl_idname))
+    copy_part_options(settings_of(context), layout.operator(UV_OT_koebe_parts.bl_idname))
     layout.operator(UV_OT_koebe_symmetrize.bl_idname)
 
 

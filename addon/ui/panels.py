@@ -9,9 +9,10 @@ from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.option_presets import UV_OT_koebe_reset
+from ..operators.parts import UV_OT_koebe_parts
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import KoebeSettings, copy_options, settings_of
+from ..state.option_properties import KoebeSettings, copy_options, copy_part_options, settings_of
 from ..state.run_report import report_of
 from .circle_tool import CIRCLES_TOOL
 from .panel_parts import KoebePanel
@@ -48,6 +49,9 @@ class MainPanel(KoebePanel):
         run = layout.column(align=True)
         run.scale_y = 1.4
         copy_options(settings, run.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE"))
+        parts = layout.column(align=True)
+        parts.prop(settings, "evenness", text="Parts")
+        copy_part_options(settings, parts.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
         draw_judges(layout.column(), context, settings)
         fill = layout.row(align=True)
         fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Fill Holes", icon="MESH_DATA").which = "holes"

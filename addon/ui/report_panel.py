@@ -76,10 +76,18 @@ class ReportPanel(KoebePanel):
 def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     """Figures of a mapped island, and buttons that select its loops and its flipped faces."""
     table = column.column(align=True)
-    for name, value in (
-        ("Angle error", f"{entry.angle_error:.2f}°"),
+    of_circles = [
         ("Roundness", f"{entry.roundness:.1e}"),
         ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged"),
+    ]
+    of_parts = [
+        ("Parts", f"{entry.parts}"),
+        ("Cuts / √Area", f"{entry.cut_length:.1f}"),
+        ("Density within", f"{entry.density:.1f}"),
+    ]
+    for name, value in (
+        ("Angle error", f"{entry.angle_error:.2f}°"),
+        *(of_parts if entry.parts else of_circles),
         ("Flipped", f"{entry.flipped}"),
         ("Time", f"{entry.seconds:.2f} s"),
     ):
@@ -88,6 +96,8 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         split.label(text=value)
     if entry.flipped:
         column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
+    if not entry.loops:
+        return
     column.label(text="Select Loop")
     grid = column.grid_flow(row_major=True, columns=4, even_columns=True, align=True)
     for index in range(min(len(entry.loops), MAX_LOOP_BUTTONS)):

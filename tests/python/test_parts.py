@@ -6,7 +6,8 @@ import threading
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, koebe as command, obj_text, perforated
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated
+from cli_support import koebe as command
 
 
 def finger(around=24, rings=40):
@@ -141,7 +142,8 @@ def test_the_command_keeps_vertices_and_polygons(tmp_path, surface):
 
     result = json.loads(report.read_text(encoding="utf-8"))
     assert list(result)[:4] == ["version", "input", "parts", "cut_length"]
-    keys = {"handles_cut", "density_ratio_5_95", "flipped", "below_resolution", "angle_error_deg", "seconds", "warnings"}
+    keys = {"handles_cut", "density_ratio_5_95", "flipped", "below_resolution", "angle_error_deg", "seconds",
+            "warnings"}
     assert keys <= set(result) and result["input"] == "in.obj" and result["flipped"] == 0
     assert sorted(f for part in result["parts"] for f in part["faces"]) == list(range(len(faces)))
     assert all(set(part) == {"kind", "faces", "angle_error_deg", "loops"} for part in result["parts"])

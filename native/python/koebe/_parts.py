@@ -66,8 +66,9 @@ class PartsResult:
 
     def __repr__(self) -> str:
         return (
-            f"<koebe.PartsResult {len(self.parts)} parts, cuts {self.cut_length:.3g}, texel density within "
-            f"{self.density_ratio_5_95:.3g}, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+            f"<koebe.PartsResult {len(self.parts)} parts, cuts {self.cut_length:.3g}, "
+            f"texel density within {self.density_ratio_5_95:.3g}, "
+            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
         )
 
 
@@ -77,6 +78,7 @@ def parts(
     *,
     price: float | None = None,
     cut: bool = True,
+    polygon: Any = None,
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> PartsResult:
@@ -87,6 +89,8 @@ def parts(
               None: 0.0037
     cut       True: any mesh; what is not manifold is split, handles are cut, what is closed is opened, each component
               is laid out by itself. False: only what `uniformize` takes
+    polygon   (F,) integers: triangles of one number are one polygon and stay together. None: each by itself, or as the
+              mesh has them
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
     """
@@ -94,11 +98,21 @@ def parts(
     whole = flag(cut, "cut")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = _surface(vertices, triangles, whole)
-    polygon = np.zeros(0, np.int32) if source.polygon is None else source.polygon
-    native = _koebe.parts(source.vertices, source.triangles, chosen, whole, polygon, progress, cancel)
+    numbers = _polygons(polygon, len(source.triangles)) if polygon is not None else source.polygon
+    if numbers is None:
+        numbers = np.zeros(0, np.int32)
+    native = _koebe.parts(source.vertices, source.triangles, chosen, whole, numbers, progress, cancel)
     report = native.report()
     report["options"] = {"price": chosen, "cut": whole}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32))
+
+
+def _polygons(polygon: Any, count: int) -> np.ndarray:
+    """Polygons' numbers from 0 on, in int32."""
+    given = np.asarray(polygon)
+    if given.shape != (count,) or given.dtype.kind not in "iu":
+        raise InputError(f"polygon must be ({count},) integers, not {given.shape} {given.dtype}")
+    return np.unique(given, return_inverse=True)[1].astype(np.int32)
 
 
 def _surface(vertices: Any, triangles: Any, any_mesh: bool) -> Source:

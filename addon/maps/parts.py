@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces cut in their UVs into even parts: from a surface to UV coordinates of its corners."""
+
+import dataclasses
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .islands import cut_into_islands
+from .outcomes import Progress, Task
+from .wording import counted
+
+if TYPE_CHECKING:
+    from koebe import PartsResult
+
+# The price of a part at the dial's ends: as few parts as there can be, and texels as even as they can be.
+HIGHEST, LOWEST = 0.03, 0.0003
+
+
+def price_of(evenness: float) -> float:
+    """The price of a part, by a dial from 0, fewer parts, to 1, more even ones."""
+    return float(HIGHEST * (LOWEST / HIGHEST) ** evenness)
+
+
+@dataclasses.dataclass
+class PartsOutcome:
+    """What became of one surface.
+
+    corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
+    not_written  why nothing of it could be written, or None
+    remarks      what to say of the object beside its parts
+    """
+
+    task: Task
+    corners: np.ndarray
+    uv: np.ndarray
+    result: "PartsResult | None" = None
+    error: Exception | None = None
+    not_written: str | None = None
+    remarks: list[str] = dataclasses.field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """Name of the surface's object."""
+        return self.task.name
+
+    @property
+    def mapped(self) -> list["PartsResult"]:
+        """The result, unless there is none or it could not be written."""
+        return [self.result] if self.result is not None and not self.not_written else []
+
+    @property
+    def flipped_faces(self) -> np.ndarray:
+        """Faces of the surface with triangles that are turned over in the UVs."""
+        surface = self.task.surface
+        chosen = np.flatnonzero(surface.selected[surface.triangle_face])
+        return np.unique(surface.triangle_face[chosen[self.mapped[0].flipped_faces]])
+
+    @property
+    def problem(self) -> str | None:
+        """Why there are no new UVs, or None."""
+        return self.not_written or (f"{self.name}: {self.error}" if self.error else None)
+
+    def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
+        """Corners (m,) and their UV coordinates (m, 2) in 32 bits."""
+        return self.corners, self.uv
+
+    def line(self) -> str:
+        """One line: parts, cuts, evenness, angles, flips, seconds."""
+        result = self.mapped[0]
+        kinds = [part["kind"] for part in result.parts]
+        words = [
+            counted(len(kinds), "part") + f" ({', '.join(counted(kinds.count(kind), kind) for kind in _kinds(kinds))})",
+            f"cuts {result.cut_length:.1f} times the root of the area",
+            f"texel density within {result.density_ratio_5_95:.1f} on nine tenths",
+            f"angle error {result.angle_error_deg['mean']:.2f}°",
+            counted(result.flipped, "flip"),
+            f"{result.seconds:.2f} s",
+        ]
+        if result.handles_cut:
+            words.insert(1, counted(result.handles_cut, "handle") + " cut")
+        return f"{self.name}: {', '.join(words)}"
+
+
+def _kinds(kinds: list[str]) -> list[str]:
+    return sorted(set(kinds))
+
+
+def cut_into_parts(
+    koebe: ModuleType, task: Task, price: float, progress: Progress | None = None, cancel: Any = None
+) -> PartsOutcome:
+    """Cut the selected faces of a surface into parts. Seams stay cuts. Polygons stay whole.
+
+    Errors of the native package are the outcome's; `koebe.Cancelled` goes on.
+    """
+    surface = task.surface
+    vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
+    positions, count = [], 0
+    for island in cut_into_islands(surface):
+        vertex_of_corner[island.corners] = island.corner_vertex + count
+        positions.append(island.vertices)
+        count += len(island.vertices)
+    chosen = surface.selected[surface.triangle_face]
+    corners = surface.triangle_corners[chosen]
+    outcome = PartsOutcome(task, np.zeros(0, dtype=np.int32), np.zeros((0, 2), dtype=np.float32))
+    try:
+        result = koebe.parts(
+            np.concatenate(positions), vertex_of_corner[corners], price=price, polygon=surface.triangle_face[chosen],
+            progress=progress, cancel=cancel,
+        )  # fmt: skip
+    except koebe.Cancelled:
+        raise
+    except koebe.KoebeError as error:
+        outcome.error = error
+        return outcome
+    uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
+    uv[corners.ravel()] = result.uv.reshape(-1, 2)
+    outcome.result, outcome.corners = result, np.unique(corners)
+    outcome.uv = uv[outcome.corners]
+    return outcome
