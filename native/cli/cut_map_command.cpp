@@ -98,7 +98,7 @@ int run_cut_map(const MapRequest& request)
     const CancelToken token = cancel_on_signal();
     const std::vector<OutputFile> outputs{{"OUT", request.output}, {"--json", request.json}, {"--svg", request.svg}};
     require_writable_files(outputs, !request.quiet);
-    const MeshInput input = read_mesh_input(request.input, token);
+    const MeshInput input = read_mesh_input(request.input, token, true);
     CutUniformizeResult result;
     {
         ProgressLine progress(request.quiet);

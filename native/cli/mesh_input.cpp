@@ -1,6 +1,7 @@
 #include "cli/mesh_input.h"
 
 #include "batch/content_hash.h"
+#include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "io/mesh_reader.h"
@@ -13,7 +14,7 @@ namespace koebe::cli {
 
 namespace {
 
-MeshInput read_and_triangulate(const std::filesystem::path& path)
+MeshInput read_and_triangulate(const std::filesystem::path& path, bool any_polygon)
 {
     const auto begin = std::chrono::steady_clock::now();
     MeshInput input;
@@ -22,13 +23,18 @@ MeshInput read_and_triangulate(const std::filesystem::path& path)
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
     input.polygons = read_mesh(path);
-    input.triangulation = triangulate(input.polygons);
+    input.triangulation = triangulate(input.polygons, !any_polygon);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())
         input.warnings.push_back(
             {WarningKind::collapsed_faces,
              "faces of fewer than three different vertices, passed over: " + std::to_string(collapsed.size()),
              collapsed});
+    if (const std::vector<Index>& uncut = input.triangulation.uncut; !uncut.empty())
+        input.warnings.push_back({WarningKind::left_out,
+                                  counted(uncut.size(), "polygon") +
+                                      " left out of the map, which cannot be cut into triangles, each on one point",
+                                  uncut});
     if (input.triangulation.triangles.rows() == 0)
         throw InputError("no face has three different vertices", ElementKind::faces, collapsed);
     input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -37,10 +43,11 @@ MeshInput read_and_triangulate(const std::filesystem::path& path)
 
 }  // namespace
 
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token)
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, bool any_polygon)
 {
     ExecutionContext context({}, token);
-    return run_detachable<MeshInput>(context, [path](ExecutionContext&) { return read_and_triangulate(path); });
+    return run_detachable<MeshInput>(
+        context, [path, any_polygon](ExecutionContext&) { return read_and_triangulate(path, any_polygon); });
 }
 
 void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)

@@ -21,8 +21,9 @@ struct MeshInput {
     double seconds = 0.0;  ///< to read and triangulate
 };
 
+/// @param any_polygon those that cannot be cut into triangles are a warning, no error
 /// @throws FileError, InputError, Cancelled
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token);
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, bool any_polygon = false);
 
 /// Faces of the triangulation to faces of the file, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);

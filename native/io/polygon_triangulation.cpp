@@ -121,14 +121,14 @@ public:
         for (const Triangle& t : cut) add({polygon[t[0]], polygon[t[1]], polygon[t[2]]}, f);
     }
 
-    Triangulation finish()
+    Triangulation finish(bool refuse)
     {
-        if (!uncut_.empty())
+        if (refuse && !uncut_.empty())
             throw InputError(std::to_string(uncut_.size()) + " polygons cannot be cut into triangles (faces listed)",
                              ElementKind::faces, uncut_);
         const Index* data = triangles_.empty() ? nullptr : triangles_.front().data();
         return {Eigen::Map<const Triangles>(data, static_cast<Eigen::Index>(triangles_.size()), 3), std::move(face_),
-                std::move(collapsed_)};
+                std::move(collapsed_), std::move(uncut_)};
     }
 
 private:
@@ -145,12 +145,12 @@ private:
 
 }  // namespace
 
-Triangulation triangulate(const PolygonMesh& mesh)
+Triangulation triangulate(const PolygonMesh& mesh, bool refuse)
 {
     const SilentCgal silent;
     Triangulator triangulator(mesh);
     for (Index f = 0; f < mesh.face_count(); ++f) triangulator.add_face(f);
-    return triangulator.finish();
+    return triangulator.finish(refuse);
 }
 
 }  // namespace koebe

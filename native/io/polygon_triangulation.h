@@ -12,6 +12,7 @@ struct Triangulation {
     Triangles triangles;           ///< with the polygons' vertices and orientation, in the order of the faces
     std::vector<Index> face;       ///< the filed face of each triangle
     std::vector<Index> collapsed;  ///< faces of fewer than three different vertices: they have no triangle
+    std::vector<Index> uncut;      ///< polygons that cannot be cut, if they are not refused: they have none either
 };
 
 /// Cuts every polygon into triangles without new vertices.
@@ -22,7 +23,8 @@ struct Triangulation {
 /// polygon may go round a hole through a slit, along which it names two vertices twice.
 ///
 /// @param mesh with finite vertices and indices in range
+/// @param refuse false: a polygon that cannot be cut has no triangles
 /// @throws InputError a polygon that cannot be cut, as one that goes to and fro (1 2 1 3) (elements: faces)
-KOEBE_API Triangulation triangulate(const PolygonMesh& mesh);
+KOEBE_API Triangulation triangulate(const PolygonMesh& mesh, bool refuse = true);
 
 }  // namespace koebe

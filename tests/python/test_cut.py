@@ -106,6 +106,19 @@ def test_faces_without_a_place_stay_in_the_file(tmp_path):
     assert kinds["left_out"] == [len(faces) - 2]
 
 
+def test_a_polygon_that_is_none_is_left_out(tmp_path):
+    vertices, quads = perforated()
+    faces = [*quads.tolist(), [0, 1, 0, 2]]
+    (tmp_path / "in.obj").write_text(obj_text(vertices, faces))
+    assert command("uniformize", "in.obj", "out.obj", cwd=tmp_path).returncode == CANNOT_BE_MAPPED
+    done = command("uniformize", "--cut", "in.obj", "out.obj", "--json", "r.json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    _, written, corners = read_corners(tmp_path / "out.obj")
+    assert written == faces and len({tuple(c) for c in corners[-1]}) == 1
+    first = json.loads((tmp_path / "r.json").read_text())["warnings"][0]
+    assert (first["kind"], first["elements"]) == ("left_out", [len(faces) - 1])
+
+
 def test_ply_has_the_corners_of_obj(tmp_path):
     (tmp_path / "in.obj").write_text(obj_text(*torus()))
     for name in ("out.obj", "out.ply"):
