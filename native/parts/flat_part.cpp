@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "foldover/untangle.h"
 #include "parts/tube_slit.h"
+#include "pipeline/uniformize.h"
 #include "planar/boundary_crossings.h"
 #include "quality/stored_uv.h"
 #include "surface/harmonic_map.h"
@@ -60,6 +61,16 @@ Index flaws(const Surface& surface, const PlanarPoints& points)
     Index count = 0;
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
         count += !(signed_area(points, surface.triangles, f) > 0.0);
+    return count;
+}
+
+/// Faces that are not upright, seen from some corner, as they are stored. @param uv in [0, 1]^2
+Index stored_flips(const Surface& surface, const PlanarPoints& uv)
+{
+    const PlanarPoints points = 2.0 * uv.array() - 1.0;
+    Index count = 0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+        count += StoredFace(surface.triangles, points, f).doubtful();
     return count;
 }
 
@@ -151,10 +162,7 @@ bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)
 {
     const auto bad = [&](const PlanarPoints& points) {
-        Index count = 0;
-        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
-            count += StoredFace(part.surface.triangles, points, f).doubtful();
-        return count;
+        return stored_flips(part.surface, 0.5 * (points.array() + 1.0));
     };
     PlanarPoints points = 2.0 * uv.array() - 1.0;
     Index least = bad(points);
@@ -181,6 +189,29 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
         uv = in_square;
     }
     return least;
+}
+
+void embed_safely(FlatPart& part, PlanarPoints& uv, ExecutionContext& context)
+{
+    const auto flaws_of = [&](const PlanarPoints& places) {
+        return std::make_pair(stored_flips(part.surface, places), !loops_apart(part, places));
+    };
+    const auto before = flaws_of(uv);
+    if (before.first == 0 && !before.second) return;
+    PlanarPoints disk;
+    try {
+        ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
+        disk = uniformize(part.vertices, part.surface.triangles, {}, inner).uv;
+    } catch (const SolverError&) {
+        return;
+    }
+    const Eigen::RowVector2d low = uv.colwise().minCoeff(), high = uv.colwise().maxCoeff();
+    PlanarPoints places = (0.5 * (high - low).minCoeff() * disk).rowwise() + 0.5 * (low + high);
+    repair_flips(part, places, context);
+    const auto after = flaws_of(places);
+    if (!places.allFinite() || after >= before) return;
+    uv = places;
+    part.kind = PartKind::disk;
 }
 
 }  // namespace koebe

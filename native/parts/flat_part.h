@@ -18,6 +18,7 @@ struct FlatPart {
     PartKind kind = PartKind::disk;
     std::vector<VertexLoop> loops;  ///< of the part before it is opened, by vertices of the whole
     double slit = 0.0;              ///< length
+    bool one_to_one = true;         ///< false: its boundary crosses itself
 };
 
 /// The kind is that of the map; a tube that cannot be opened, or has more faces turned over, becomes a disk.
@@ -30,5 +31,10 @@ bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
 /// with all vertices free as long as no loop comes to cross another.
 /// @param uv (V, 2) in [0, 1]^2, changed in place @return faces still flipped as 32-bit floats
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context);
+
+/// The part within the same box by the map that is one to one from its start, where the other has faces turned over or
+/// loops that cross: a disk, less even. Nothing changes if that is no better.
+/// @param uv (V, 2) in [0, 1]^2, changed in place
+void embed_safely(FlatPart& part, PlanarPoints& uv, ExecutionContext& context);
 
 }  // namespace koebe

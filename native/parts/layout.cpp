@@ -63,7 +63,8 @@ PlanarPoints upright(const PlanarPoints& flat, Box& box)
 }
 
 /// Into the unit square, and flips turned back there.
-std::vector<PlanarPoints> packed(const std::vector<FlatPart>& flats, ExecutionContext& context)
+/// @param flats whose kinds may change
+std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, ExecutionContext& context)
 {
     std::vector<PlanarPoints> placed;
     std::vector<Box> boxes(flats.size());
@@ -73,8 +74,10 @@ std::vector<PlanarPoints> packed(const std::vector<FlatPart>& flats, ExecutionCo
         placed[k].rowwise() += Eigen::RowVector2d(pack.corners[k][0], pack.corners[k][1]);
         placed[k] /= pack.side;
         repair_flips(flats[k], placed[k], context);
+        embed_safely(flats[k], placed[k], context);
         if (!placed[k].allFinite()) throw SolverError("the map of a part is not finite");
         placed[k] = placed[k].cwiseMax(0.0).cwiseMin(1.0);
+        if (!loops_apart(flats[k], placed[k])) flats[k].one_to_one = false;
     }
     return placed;
 }
@@ -161,6 +164,7 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
             const Index f = flat.faces[i];
             const auto row = flat.surface.triangles.row(static_cast<Eigen::Index>(i));
             layout.part[f] = static_cast<Index>(k);
+            if (!flat.one_to_one) layout.crossing.push_back(f);
             for (int c = 0; c < 3; ++c) {
                 layout.triangles(f, c) = flat.original[row[c]];
                 layout.uv.row(3 * static_cast<Eigen::Index>(f) + c) = placed[k].row(row[c]);
@@ -170,6 +174,7 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
         layout.parts.push_back({flat.kind, std::move(flat.faces), std::move(flat.loops), 0.0});
     }
     std::ranges::sort(layout.reoriented);
+    std::ranges::sort(layout.crossing);
     place_left_out(opened, layout);
     return layout;
 }

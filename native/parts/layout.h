@@ -16,6 +16,7 @@ struct PartsLayout {
     std::vector<Index> part;  ///< (F); -1: in no part, degenerate or the double of another
     std::vector<PartReport> parts;
     std::vector<Index> reoriented;  ///< faces that were turned
+    std::vector<Index> crossing;    ///< faces of parts whose boundary crosses itself
     double slit_length = 0.0;
     int handles_cut = 0;
     double maps = 0.0;  ///< faces mapped, in faces of the mesh

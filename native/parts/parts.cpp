@@ -123,6 +123,10 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const PartsResult& r
         std::ranges::set_difference(result.flipped, result.below_resolution, std::back_inserter(flipped));
         warnings.push_back({WarningKind::flipped, counted(flipped.size(), "face") + " flipped as 32-bit UVs", flipped});
     }
+    if (!layout.crossing.empty())
+        warnings.push_back({WarningKind::not_one_to_one,
+                            "parts whose boundary crosses itself, with " + counted(layout.crossing.size(), "face"),
+                            layout.crossing});
     return warnings;
 }
 
