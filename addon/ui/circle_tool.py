@@ -30,10 +30,12 @@ class CirclesTool(bpy.types.WorkSpaceTool):
 
 
 def register() -> None:
-    """Put the tool after Blender's own that select and place the cursor."""
-    bpy.utils.register_tool(CirclesTool, after={"builtin.cursor"}, separator=True)
+    """Put the tool after Blender's own that select and place the cursor. Without a window there may be no toolbar."""
+    if bpy.context.window_manager.keyconfigs.addon is not None:
+        bpy.utils.register_tool(CirclesTool, after={"builtin.cursor"}, separator=True)
 
 
 def unregister() -> None:
-    """Take it away."""
-    bpy.utils.unregister_tool(CirclesTool)
+    """Take it away, if it is there."""
+    if hasattr(CirclesTool, "_bl_tool"):
+        bpy.utils.unregister_tool(CirclesTool)

@@ -145,3 +145,8 @@ def test_a_file_that_cannot_be_written_is_said(tmp_path):
     with pytest.raises(RuntimeError, match="No such file"):
         bpy.ops.uv.koebe_flat_svg(filepath=str(tmp_path / "missing" / "cut.svg"))
     assert list(tmp_path.iterdir()) == []
+    folder = tmp_path / "cut.svg"
+    folder.mkdir()
+    with pytest.raises(RuntimeError, match="cut.svg: Is a directory"):
+        bpy.ops.uv.koebe_flat_svg(filepath=str(folder))
+    assert list(tmp_path.iterdir()) == [folder]

@@ -1,7 +1,11 @@
 """Enabled, disabled and enabled again: everything is there, nothing is left behind."""
 
+import importlib
+
 import addon_utils
 import bpy
+import processes
+import pytest
 
 
 def registered():
@@ -27,6 +31,26 @@ def test_disabling_leaves_nothing_behind(addon_name):
     finally:
         addon_utils.enable(addon_name)
     assert registered() == (True, True, True, True, 1, 1)
+
+
+@pytest.mark.skipif(not bpy.app.binary_path, reason="the module bpy enables no add-ons by itself")
+def test_a_blender_that_starts_with_it_enabled_says_nothing(tmp_path):
+    """It is enabled before there are key maps."""
+    script = tmp_path / "look.py"
+    script.write_text("import bpy\nbpy.ops.uv.koebe_moebius.get_rna_type()\nprint('registered')\n")
+    code, out, err = processes.finish(processes.start(script, tmp_path))
+    assert code == 0 and "registered" in out and "Traceback" not in out + err
+
+
+def test_the_tool_comes_and_goes(addon, addon_name):
+    tools = importlib.import_module("bl_ui.space_toolsystem_toolbar").IMAGE_PT_tools_active._tools["UV"]
+    count = len(tools)
+    here = hasattr(addon("ui.circle_tool").CirclesTool, "_bl_tool")
+    assert here == (bpy.context.window_manager.keyconfigs.addon is not None)
+    addon_utils.disable(addon_name)
+    assert len(tools) == count - 2 * here  # and its separator
+    addon_utils.enable(addon_name)
+    assert len(tools) == count
 
 
 def test_panels_are_where_artists_look():
