@@ -3,9 +3,8 @@
 
 #include "core/types.h"
 
-#include <boost/property_map/property_map.hpp>  // before the next, which needs it and does not include it
-
 #include <boost/pending/disjoint_sets.hpp>
+#include <boost/property_map/property_map.hpp>
 
 #include <cstddef>
 #include <numeric>
@@ -15,7 +14,8 @@ namespace koebe {
 
 class DisjointSets {
 public:
-    explicit DisjointSets(std::size_t count) : rank_(count, 0), parent_(count), sets_(rank_.data(), parent_.data())
+    explicit DisjointSets(std::size_t count)
+        : rank_(count, 0), parent_(count), sets_(Map(rank_.data()), Map(parent_.data()))
     {
         std::iota(parent_.begin(), parent_.end(), 0);
     }
@@ -33,8 +33,11 @@ public:
     }
 
 private:
+    // Not plain pointers: their `get` is found only where it was declared before, whatever is included first.
+    using Map = boost::iterator_property_map<Index*, boost::typed_identity_property_map<Index>, Index, Index&>;
+
     std::vector<Index> rank_, parent_;
-    boost::disjoint_sets<Index*, Index*> sets_;
+    boost::disjoint_sets<Map, Map> sets_;
 };
 
 }  // namespace koebe
