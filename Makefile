@@ -77,7 +77,7 @@ dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS
 matrix: dist ## the zips of `make dist` tested in every Blender that can be had here: docs/compatibility.md
 	$(PYTHON) scripts/matrix.py $(NAMES)
 
-build/venv-dist/.done: native/bundle/requirements.txt | $(DONE)/install-build
+build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install-build
 	$(PYTHON) -m venv $(@D)
 	$(@D)/bin/pip install --quiet --no-deps --require-hashes -r native/bundle/requirements.txt
 	$(@D)/bin/pip install --quiet build 'scikit-build-core>=0.10' 'auditwheel>=6.1' 'delvewheel>=1.10'

@@ -62,7 +62,8 @@ class ReportPanel(KoebePanel):
         entry = active_entry(context)
         if entry is None:
             return
-        layout.label(text=f"{entry.object_name}, island {entry.island + 1}", icon=island_icon(entry))
+        which = "" if entry.parts else f", island {entry.island + 1}"
+        layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
         draw_message(layout, entry.message)
         if entry.moved:
             draw_message(layout, entry.moved.capitalize())
@@ -83,7 +84,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     of_parts = [
         ("Parts", f"{entry.parts}"),
         ("Cuts / √Area", f"{entry.cut_length:.1f}"),
-        ("Density within", f"{entry.density:.1f}"),
+        ("Density", f"within {entry.density:.1f}"),
     ]
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),

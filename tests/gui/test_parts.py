@@ -1,0 +1,29 @@
+"""Unwrap to Parts, by its button, on a closed model: the checker on it and the parts in the UV Editor."""
+
+MODEL = """
+for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
+bpy.ops.mesh.primitive_monkey_add()
+obj = bpy.context.object
+while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
+obj.modifiers.new("Smooth", "SUBSURF").levels = 2
+bpy.ops.object.modifier_apply(modifier="Smooth")
+bpy.ops.object.shade_smooth()
+"""
+
+
+def test_the_button_cuts_a_model_into_parts(window):
+    window.run(MODEL)
+    window.workspace("UV Editing")
+    window.open_tab("VIEW_3D")
+    window.move(*window.middle("VIEW_3D"))
+    window.key("KP_1", "KP_Decimal")
+    window.click(*window.find_button("VIEW_3D", "koebe_parts"))
+    window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "
+                "and bpy.context.window_manager.koebe_uv.islands[0].parts > 1", 30.0)  # fmt: skip
+    window.run("for a in bpy.context.window_manager.windows[0].screen.areas:\n"
+               "    if a.type == 'VIEW_3D': a.spaces[0].shading.type = 'MATERIAL'\n")  # fmt: skip
+    window.move(*window.middle("IMAGE_EDITOR"))
+    window.key("Home")
+    window.picture("60_parts")
+    entry = "bpy.context.window_manager.koebe_uv.islands[0]"
+    assert window.ask(f"{entry}.flipped") == 0 and window.ask(f"{entry}.mapped")
