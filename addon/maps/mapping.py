@@ -199,10 +199,10 @@ def _failing_alone(koebe: ModuleType, ones: Iterable[IslandOutcome]) -> Iterator
         raise
     except Exception as error:
         for one in ones:
-            one.error = _foreseen(koebe, error)
+            one.error = foreseen(koebe, error)
 
 
-def _foreseen(koebe: ModuleType, error: Exception) -> Exception:
+def foreseen(koebe: ModuleType, error: Exception) -> Exception:
     """The error, if it was meant to be read; else one that says so, and where it comes from on the console."""
     if isinstance(error, (koebe.KoebeError, MapError)):
         return error

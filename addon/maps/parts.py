@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .islands import cut_into_islands
+from .mapping import foreseen
 from .outcomes import Progress, Task
 from .wording import counted
 
@@ -92,7 +93,7 @@ def cut_into_parts(
 ) -> PartsOutcome:
     """Cut the selected faces of a surface into parts. Seams stay cuts. Polygons stay whole.
 
-    Errors of the native package are the outcome's; `koebe.Cancelled` goes on.
+    Errors are the outcome's; `koebe.Cancelled` goes on.
     """
     surface = task.surface
     vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
@@ -111,8 +112,8 @@ def cut_into_parts(
         )  # fmt: skip
     except koebe.Cancelled:
         raise
-    except koebe.KoebeError as error:
-        outcome.error = error
+    except Exception as error:
+        outcome.error = foreseen(koebe, error)
         return outcome
     uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
     uv[corners.ravel()] = result.uv.reshape(-1, 2)

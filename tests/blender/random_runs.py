@@ -158,6 +158,8 @@ class RandomRun:
                     "checker_even": one([True, False]), "tube": one(["annulus", "unroll"]),
                     "placement": one(["pack", "together", "keep"]), "outer": one(["auto", "auto", "longest", "active"]),
                     "method": one(["gk", "ck"]), "max_sweeps": one([1, 50]), "upright": one([True, False])}  # fmt: skip
+        if name == "uv.koebe_parts":
+            return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5])}
         if name == "uv.koebe_checker":
             return {"layer": layer, "checker_even": one([True, False])}
         if name == "uv.koebe_distortion":
@@ -175,7 +177,7 @@ class RandomRun:
 
     def _call(self):
         name = self._one([
-            "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_checker",
+            "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_checker",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_loop", "uv.koebe_select_flipped", "uv.koebe_select_offenders",

@@ -24,9 +24,9 @@ class Touched:
     def on_error(self, key):
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
-        if self._name != "uv.koebe_uniformize":
+        if self._name not in ("uv.koebe_uniformize", "uv.koebe_parts"):
             return False
-        return key == "file: report" or self._selects(owner, what)
+        return key == "file: report" or (self._name == "uv.koebe_uniformize" and self._selects(owner, what))
 
     def when_finished(self, key):
         """Whether that may differ after an operator that finished."""
@@ -65,6 +65,9 @@ class Touched:
             self._writes_uv(owner, what) or self._selects(owner, what) or (owner, what) == ("file", "report")
             or (self._options.get("checker", True) and self._dresses(owner, what))
         )  # fmt: skip
+
+    def _parts(self, owner, what):
+        return self._uniformize(owner, what) and not self._selects(owner, what)
 
     def _checker(self, owner, what):
         return self._dresses(owner, what)

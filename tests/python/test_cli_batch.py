@@ -105,10 +105,16 @@ def batch(*words, **options):
     return koebe("batch", *words, **options)
 
 
-def start(*words, **options):
-    return subprocess.Popen(
-        [COMMAND, "batch", *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **options
-    )
+def as_from_a_terminal():
+    """A run of the tests in the background, or under nohup, ignores signals, and its children would too."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def start(*words, before=as_from_a_terminal):
+    """A started batch; `before` is called in it first."""
+    return subprocess.Popen([COMMAND, "batch", *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                            text=True, preexec_fn=before)  # fmt: skip
 
 
 def rows(folder):
@@ -421,8 +427,8 @@ def test_an_interrupt_ends_the_processes_and_leaves_what_is_done(blends, library
 
 def test_what_is_ignored_stays_ignored(blends, tmp_path):
     files = blends(z="sleep 1.5")
-    deaf = {"preexec_fn": lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)}
-    run = start(*files.words, "--output", tmp_path / "out", **deaf)
+    run = start(*files.words, "--output", tmp_path / "out",
+                before=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))  # fmt: skip
     until(lambda: files.runs("z"))
     run.send_signal(signal.SIGHUP)
     assert run.wait(timeout=20) == 0
