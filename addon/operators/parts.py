@@ -24,7 +24,7 @@ class UV_OT_koebe_parts(ModalRun, PartsProperties, bpy.types.Operator):
     changed"""
 
     bl_idname = "uv.koebe_parts"
-    bl_label = "Koebe: Unwrap to Parts"
+    bl_label = "Koebe Unwrap to Parts"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

@@ -20,7 +20,11 @@ std::vector<std::vector<Index>> edge_chains(std::vector<std::pair<Index, Index>>
         ends.push_back({edges[e].second, edges[e].first, e});
     }
     std::ranges::sort(ends, {}, [](const End& end) { return std::pair(end.vertex, end.other); });
-    const auto at = [&](Index v) { return std::ranges::equal_range(ends, v, {}, &End::vertex); };
+    // The ends at a vertex: how many, and the first.
+    const auto at = [&](Index v) {
+        const auto first = std::ranges::lower_bound(ends, v, {}, &End::vertex);
+        return std::pair(std::ranges::upper_bound(ends, v, {}, &End::vertex) - first, first);
+    };
 
     std::vector<char> walked(edges.size(), 0);
     std::vector<std::vector<Index>> chains;
@@ -28,8 +32,8 @@ std::vector<std::vector<Index>> edge_chains(std::vector<std::pair<Index, Index>>
         if (walked[first.edge]) return;
         walked[first.edge] = 1;
         std::vector<Index> chain{first.vertex, first.other};
-        for (auto next = at(chain.back()); next.size() == 2; next = at(chain.back())) {
-            const End& end = walked[next[0].edge] ? next[1] : next[0];
+        for (auto next = at(chain.back()); next.first == 2; next = at(chain.back())) {
+            const End& end = walked[next.second->edge] ? *std::next(next.second) : *next.second;
             if (walked[end.edge]) break;
             walked[end.edge] = 1;
             chain.push_back(end.other);
@@ -37,7 +41,7 @@ std::vector<std::vector<Index>> edge_chains(std::vector<std::pair<Index, Index>>
         chains.push_back(std::move(chain));
     };
     for (const End& end : ends)
-        if (at(end.vertex).size() != 2) walk(end);
+        if (at(end.vertex).first != 2) walk(end);
     for (const End& end : ends) walk(end);
     return chains;
 }

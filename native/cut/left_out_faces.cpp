@@ -44,7 +44,9 @@ void keep_partial_polygons(const std::vector<Index>& polygon, std::vector<Index>
 {
     std::map<Index, std::vector<Index>> faces;
     for (std::size_t f = 0; f < first.size(); ++f) faces[polygon[f]].push_back(static_cast<Index>(f));
-    for (const auto& [number, own] : faces) {
+    for (const auto& one : faces) {
+        const Index number = one.first;
+        const std::vector<Index>& own = one.second;
         const Index other = polygon[first[own.front()]];
         const bool whole = std::ranges::all_of(
             own, [&](Index f) { return first[f] != f && polygon[first[f]] == other && other != number; });
