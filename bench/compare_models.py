@@ -11,10 +11,10 @@ SHARED = ROOT.parent / "shared" / "meshes"
 SAMPLES = ROOT / "blend_samples"
 
 BLENDERS_OWN = {
-    "Suzanne, twice subdivided": lambda: (bpy.ops.mesh.primitive_monkey_add(), subdivide(2)),
+    "Suzanne": lambda: (bpy.ops.mesh.primitive_monkey_add(), subdivide(2)),
     "sphere": lambda: bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32),
     "torus": lambda: bpy.ops.mesh.primitive_torus_add(major_segments=96, minor_segments=32),
-    "cube, subdivided": lambda: (bpy.ops.mesh.primitive_cube_add(), subdivide(4)),
+    "cube": lambda: (bpy.ops.mesh.primitive_cube_add(), subdivide(4)),
     "cylinder": lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=64),
     "cone": lambda: bpy.ops.mesh.primitive_cone_add(vertices=64),
 }

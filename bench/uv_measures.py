@@ -7,7 +7,7 @@ Arrays: vertices (V, 3), triangles (F, 3), corner UVs (F, 3, 2). UVs count as 32
 import numpy as np
 
 RASTER = 2048  # pixels along a side, for what is covered twice
-FACTOR = 3.0  # of texel density, that counts as even
+FACTOR = 3.0  # of texel density, a length over a length, that counts as even
 
 
 def triangle_areas(points):
@@ -118,7 +118,7 @@ def measure(vertices, triangles, uv):
     turn = np.sign(np.bincount(island, signed, minlength=len(triangles)))[island]
     lost = real & (np.abs(signed) <= 1e-14 * max(np.abs(signed).sum(), 1e-300))
     kept = real & ~lost
-    logs = np.log(np.abs(signed[kept]) / area[kept])
+    logs = np.log(np.abs(signed[kept]) / area[kept]) / 2.0  # of a length over a length
     order = np.argsort(logs)
     share = np.cumsum(area[kept][order]) / area[kept].sum()
     low, high = logs[order][np.searchsorted(share, [0.05, 0.95])]
