@@ -156,7 +156,8 @@ FlatPart flat_part(const Part& part)
 
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 {
-    return crossing_boundary_edges(part.surface.loops, uv, shortest_drawn).empty();
+    return crossing_boundary_edges(part.surface.loops, uv, shortest_drawn).empty() &&
+           turned_loops(part.surface.loops, uv, shortest_drawn).empty();
 }
 
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)

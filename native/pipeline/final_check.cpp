@@ -26,7 +26,7 @@ Warning MapFaults::warning(const std::string& beginning, const std::vector<Index
     };
     add(not_finite.size(), "vertices without a place", not_finite.empty() ? 0 : original[not_finite.front()]);
     add(outside.size(), "vertices outside the disk", outside.empty() ? 0 : original[outside.front()]);
-    add(bad_circles.size(), "circles that meet another or leave the disk",
+    add(bad_circles.size(), "circles that meet another, leave the disk or run the wrong way round",
         bad_circles.empty() ? 0 : bad_circles.front());
     add(crossings.size(), "crossings of loops, at vertices", crossings.empty() ? 0 : original[crossings.front().first]);
     if (flipped.empty()) return warning;
@@ -53,7 +53,9 @@ MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>&
             faults.flipped.push_back(static_cast<Index>(f));
     for (std::size_t k = 1; k < circles.size(); ++k)
         if (!is_apart(circles, k)) faults.bad_circles.push_back(static_cast<int>(k));
-    if (faults.not_finite.empty()) faults.crossings = crossing_boundary_edges(loops, uv, 2.0 * uv_resolution);
+    if (!faults.not_finite.empty()) return faults;
+    faults.crossings = crossing_boundary_edges(loops, uv, 2.0 * uv_resolution);
+    for (const int k : turned_loops(loops, uv, 2.0 * uv_resolution)) faults.bad_circles.push_back(k);
     return faults;
 }
 

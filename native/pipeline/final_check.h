@@ -16,7 +16,7 @@ struct MapFaults {
     std::vector<Index> outside;     ///< vertices outside the closed unit disk
     std::vector<Index> flipped;     ///< faces, as they are stored, those below resolution aside
     std::vector<int>
-        bad_circles;  ///< loops whose circle is not positive and finite, leaves the disk, or meets another's
+        bad_circles;  ///< loops whose circle is not positive and finite, leaves the disk, meets another's, or is turned
     std::vector<std::pair<Index, Index>> crossings;  ///< loop edges that meet, by the vertices they start from
 
     bool any() const

@@ -42,4 +42,30 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
     return crossings;
 }
 
+std::vector<int> turned_loops(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest)
+{
+    const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
+    std::vector<double> areas, least;
+    for (const VertexLoop& loop : loops) {
+        double area = 0.0, length = 0.0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Complex a = at(loop[i]), b = at(loop[(i + 1) % loop.size()]), origin = at(loop.front());
+            area += 0.5 * std::imag(std::conj(a - origin) * (b - origin));
+            length += std::abs(b - a);
+        }
+        areas.push_back(area);
+        least.push_back(shortest * length);
+    }
+    std::vector<int> turned;
+    if (areas.empty()) return turned;
+    const double outer = *std::ranges::max_element(areas, {}, [](double area) { return std::abs(area); });
+    bool outer_seen = false;  // it is the first of its area
+    for (std::size_t k = 0; k < areas.size(); ++k)
+        if (!outer_seen && areas[k] == outer)
+            outer_seen = true;
+        else if (std::abs(areas[k]) > least[k] && (areas[k] > 0.0) == (outer > 0.0))
+            turned.push_back(static_cast<int>(k));
+    return turned;
+}
+
 }  // namespace koebe
