@@ -19,6 +19,7 @@
 namespace koebe {
 namespace {
 
+constexpr double box_slack = 1e-3;    // UV units: how far a repair may leave the part's box, a quarter of the least gap
 constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges tell nothing of a loop's course
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
@@ -156,8 +157,9 @@ FlatPart flat_part(const Part& part)
 
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 {
-    return crossing_boundary_edges(part.surface.loops, uv, shortest_drawn).empty() &&
-           turned_loops(part.surface.loops, uv, shortest_drawn).empty();
+    const PlanarPoints stored = uv.cast<float>().cast<double>();
+    return crossing_boundary_edges(part.surface.loops, stored, shortest_drawn).empty() &&
+           turned_loops(part.surface.loops, stored, shortest_drawn).empty();
 }
 
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)
@@ -166,6 +168,8 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
         return stored_flips(part.surface, 0.5 * (points.array() + 1.0));
     };
     PlanarPoints points = 2.0 * uv.array() - 1.0;
+    const Eigen::RowVector2d low = uv.colwise().minCoeff().array() - box_slack;
+    const Eigen::RowVector2d high = uv.colwise().maxCoeff().array() + box_slack;
     Index least = bad(points);
     // The middle vertex of a face with two edges on one loop may leave it at once: on the straight end of a tube that
     // face is flat.
@@ -181,7 +185,9 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
         untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, moved, context,
                  {.slide = false, .held = stay});
         const PlanarPoints in_square = (0.5 * (moved.array() + 1.0)).cwiseMax(0.0).cwiseMin(1.0);
-        if (!moved.allFinite() || !loops_apart(part, in_square)) continue;
+        const bool in_box = (in_square.colwise().minCoeff().array() >= low.array()).all() &&
+                            (in_square.colwise().maxCoeff().array() <= high.array()).all();
+        if (!moved.allFinite() || !in_box || !loops_apart(part, in_square)) continue;
         moved = 2.0 * in_square.array() - 1.0;
         const Index count = bad(moved);
         if (count >= least) continue;

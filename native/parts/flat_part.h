@@ -24,7 +24,8 @@ struct FlatPart {
 /// The kind is that of the map; a tube that cannot be opened, or has more faces turned over, becomes a disk.
 FlatPart flat_part(const Part& part);
 
-/// Whether no boundary loop crosses itself or another: then a part without flips is one to one.
+/// Whether no boundary loop crosses itself or another and one alone runs counter-clockwise, no hole being turned over,
+/// as 32-bit floats: then a part without flips is one to one.
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
 
 /// Turns flipped faces back where the part lies in the unit square: with the boundary held, and if that does not do,

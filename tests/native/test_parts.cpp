@@ -1,6 +1,7 @@
 #include "core/errors.h"
 #include "parts/dual_cut.h"
 #include "parts/evenness.h"
+#include "parts/flat_part.h"
 #include "parts/packing.h"
 #include "parts/parts.h"
 
@@ -287,6 +288,22 @@ TEST(Parts, progress_never_goes_back)
         {});
     parts_of(mesh.vertices, mesh.triangles, {}, context);
     EXPECT_GE(last, 0.9);
+}
+
+TEST(FlatPart, a_hole_that_is_turned_over_is_seen)
+{
+    const Mesh mesh = flat_ring();
+    FlatPart part;
+    part.surface = require_bordered_genus_zero(mesh.triangles, static_cast<Index>(mesh.vertices.rows()));
+    PlanarPoints uv = 0.4 * mesh.vertices.leftCols<2>().array() + 0.5;
+    EXPECT_TRUE(loops_apart(part, uv));
+    PlanarPoints turned = uv;
+    const VertexLoop& hole = part.surface.loops[1];
+    for (const Index v : hole) turned(v, 1) = 1.0 - uv(v, 1);
+    EXPECT_FALSE(loops_apart(part, turned));
+    PlanarPoints crossing = uv;
+    for (const Index v : hole) crossing(v, 0) += 0.35;
+    EXPECT_FALSE(loops_apart(part, crossing));
 }
 
 TEST(Evenness, finds_the_best_window)
