@@ -19,7 +19,7 @@
 namespace koebe {
 namespace {
 
-constexpr double box_slack = 1e-3;    // UV units: how far a repair may leave the part's box, a quarter of the least gap
+constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
 constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges tell nothing of a loop's course
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)

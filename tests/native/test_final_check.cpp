@@ -91,6 +91,19 @@ TEST(BoundaryCrossings, of_a_figure_eight_is_one)
     EXPECT_TRUE(crossing_boundary_edges({{0, 2, 1, 3}}, points, 0.0).empty());
 }
 
+TEST(BoundaryCrossings, a_hole_that_runs_as_its_rim_does_is_turned)
+{
+    PlanarPoints points(8, 2);
+    points << 0, 0, 4, 0, 4, 4, 0, 4,  // a square
+        1, 1, 2, 1, 2, 2, 1, 2;        // and one in it
+    const VertexLoop rim{0, 1, 2, 3}, rim_back{3, 2, 1, 0}, hole{7, 6, 5, 4}, turned{4, 5, 6, 7};
+    EXPECT_TRUE(turned_loops({rim, hole}, points, 0.0).empty());
+    EXPECT_TRUE(turned_loops({rim_back, turned}, points, 0.0).empty());
+    EXPECT_EQ(turned_loops({rim, turned}, points, 0.0), std::vector<int>{1});
+    EXPECT_EQ(turned_loops({hole, rim_back}, points, 0.0), std::vector<int>{0});
+    EXPECT_TRUE(turned_loops({rim, turned}, points, 1.0).empty());  // too narrow to be told from a line
+}
+
 TEST(RefinedDomain, has_the_same_metric_and_every_second_loop_vertex)
 {
     const CircleDomain domain = make_circle_domain(five_circles(), 300);
