@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV layouts side by side, coloured by texel density: grey as the median, blue denser, red sparser, full at a factor of 3."""
+"""UV layouts side by side, coloured by texel density: grey the median, blue up to 3 times as dense, red a third."""
 
 import matplotlib
 import numpy as np
