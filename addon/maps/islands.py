@@ -154,6 +154,8 @@ def _groups(keys: np.ndarray, values: np.ndarray, count: int) -> list[np.ndarray
         return [values]
     if count <= FEW:
         return [values[keys == key] for key in range(count)]
-    order = np.argsort(keys.astype(np.min_scalar_type(count)), kind="stable")  # of short numbers: in one pass
+    if (keys[1:] < keys[:-1]).any():  # those of joined objects are in order
+        short = keys.astype(np.min_scalar_type(count))  # sorted in one pass
+        values = values[np.argsort(short, kind="stable")]
     ends = np.cumsum(np.bincount(keys, minlength=count))
-    return np.split(values[order], ends[:-1])
+    return np.split(values, ends[:-1])
