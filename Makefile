@@ -85,9 +85,9 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 
 # ---------------------------------------------------------------- tests
 
-# Every runner runs, whatever became of the others, and each ends with its own closing line.
+# Two runners at once, as most use one core; each runs, whatever became of the others, and is printed when it has ended.
 test: build ## everything: native, Python, fuzzing, and the installed zip in Debian's Blender and in bpy $(BPY)
-	@$(MAKE) --no-print-directory --keep-going test-native test-python test-labs test-fuzz test-blender $(BPY:%=test-bpy-%)
+	@$(MAKE) --no-print-directory --keep-going --jobs=2 --output-sync=target test-native test-python test-labs test-fuzz test-blender $(BPY:%=test-bpy-%)
 
 test-native: native ## ctest
 	ctest --preset release

@@ -255,9 +255,12 @@ def main() -> None:
         raise SystemExit(f"no such place: {', '.join(sorted(unknown))}; there are {', '.join(PLACES)}")
     OUT.mkdir(parents=True, exist_ok=True)
     WORK.mkdir(parents=True, exist_ok=True)
-    results = json.loads(FACTS.read_text(encoding="utf-8")) if FACTS.exists() else {}
+    results: dict[str, dict[str, object]] = {}
     for name in names:
-        results[name] = tested(name)
+        facts = tested(name)
+        # Read again: places may be tested at once, each by a process of its own.
+        results = json.loads(FACTS.read_text(encoding="utf-8")) if FACTS.exists() else {}
+        results[name] = facts
         print(f"{name}: {results[name]}", flush=True)
         write_page(results)
     bad = [name for name in names if results[name].get("failed") or "not run" in results[name]]

@@ -34,11 +34,10 @@ def mapped(window, open_sample, request):
                "    bpy.ops.image.view_all(fit_view=True)\n"
                "    area.spaces.active.show_region_ui = False; area.spaces.active.show_region_toolbar = True\n"
                "area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')\n"
-               "area.spaces.active.shading.type = 'MATERIAL'\n"
                "region = next(r for r in area.regions if r.type == 'WINDOW')\n"
                "with bpy.context.temp_override(window=window, area=area, region=region):\n"
                "    bpy.ops.view3d.view_axis(type='FRONT'); bpy.ops.view3d.view_selected()")  # fmt: skip
-    window.settle()
+    window.show_textures()
     return request.param
 
 

@@ -7,8 +7,7 @@ def test_a_flat_copy_from_the_object_menu(window, open_sample):
     open_sample("vase")
     window.run("bpy.ops.uv.koebe_uniformize(tube='unroll', checker_size=48)\n"
                "bpy.context.scene.cursor.location = (1.6, 0, -1)")  # fmt: skip
-    window.run("area = next(a for a in bpy.context.window_manager.windows[0].screen.areas if a.type == 'VIEW_3D')\n"
-               "area.spaces.active.shading.type = 'MATERIAL'")  # fmt: skip
+    window.show_textures()
     assert window.press("object.koebe_flat_copy") is None
     assert window.ask(OBJECTS) == ["vase", "vase Flat"]
     window.run("import math\n"

@@ -20,8 +20,7 @@ def test_the_button_cuts_a_model_into_parts(window):
     window.click(*window.find_button("VIEW_3D", "koebe_parts"))
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "
                 "and bpy.context.window_manager.koebe_uv.islands[0].parts > 1", 30.0)  # fmt: skip
-    window.run("for a in bpy.context.window_manager.windows[0].screen.areas:\n"
-               "    if a.type == 'VIEW_3D': a.spaces[0].shading.type = 'MATERIAL'\n")  # fmt: skip
+    window.show_textures()
     window.move(*window.middle("IMAGE_EDITOR"))
     window.key("Home")
     window.picture("60_parts")

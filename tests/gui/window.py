@@ -149,6 +149,15 @@ class Window:
         self.wait(f"bpy.context.window_manager.windows[0].workspace.name == {name!r}")
         self.settle()
 
+    def show_textures(self):
+        """Show the model with its textures. Without a GPU, Material Preview takes minutes from 4.2 on."""
+        self.run("for area in bpy.context.window_manager.windows[0].screen.areas:\n"
+                 "    if area.type == 'VIEW_3D':\n"
+                 "        shading = area.spaces.active.shading\n"
+                 "        shading.type = 'MATERIAL' if bpy.app.version < (4, 2, 0) else 'SOLID'\n"
+                 "        if shading.type == 'SOLID': shading.color_type = 'TEXTURE'")  # fmt: skip
+        self.settle()
+
     def find_button(self, area, text, fraction=0.5, step=14):
         """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
         x, top, width, height = self.region(area, "UI")
