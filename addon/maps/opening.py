@@ -68,8 +68,9 @@ def _piece(island: Island, corners: np.ndarray, vertex: np.ndarray, piece: "koeb
     """A piece as an island; notes the vertex at each of its corners."""
     own = corners[piece.source_face]
     own[piece.turned] = own[piece.turned][:, [0, 2, 1]]
+    shared = (vertex[own] >= 0).any()  # a corner of another piece too
     vertex[own] = piece.triangles
-    if (vertex[own] != piece.triangles).any():
+    if shared or (vertex[own] != piece.triangles).any():
         raise MapError("it could be opened only by a cut through a polygon: triangulate its faces")
     used, face = np.unique(own), island.triangle_face[piece.source_face]
     return Island(

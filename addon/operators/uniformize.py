@@ -16,9 +16,8 @@ from .select_from_report import select_offenders
 
 
 class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operator):
-    """Unwrap surfaces with holes conformally to the unit disk: angles are kept and every hole becomes a
-    perfect circle. Cuts along seams, and where a surface has no map as it is; in Edit Mode takes the selected faces.
-    The mesh itself is not changed"""
+    """Unwrap surfaces conformally to the unit disk: angles are kept and every hole becomes a perfect circle. Cuts along
+    seams, and where it has to; in Edit Mode takes the selected faces. The mesh is not changed"""
 
     bl_idname = "uv.koebe_uniformize"
     bl_label = "Koebe Uniformize"

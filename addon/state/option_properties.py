@@ -33,7 +33,7 @@ class UniformizeProperties:
         description="How the steps of the iteration are computed. Both give the same map",
     )
     cut: BoolProperty(
-        name="Cut Where Needed",
+        name="Any Mesh",
         default=DEFAULTS.cut,
         description="Open, cut and split in the UVs, by as few edges as can be, what has no map as it is: closed "
         "surfaces, handles, edges with more than two faces, one-sided surfaces, degenerate and double faces. The mesh "
@@ -116,7 +116,7 @@ class UniformizeProperties:
     symmetry: EnumProperty(
         name="Symmetry",
         items=[
-            ("off", "Off", "As computed"),
+            ("off", "Off", "As the map comes out, symmetric up to the triangles"),
             ("auto", "Automatic", "An island that is its own mirror image gets exactly symmetric UVs, about a vertical "
              "line. The plane is found; what is not symmetric stays as it is, and the report says why"),
         ],
