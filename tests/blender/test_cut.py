@@ -291,3 +291,28 @@ def test_what_cannot_be_painted_on_is_said():
     scenes.select(obj)
     bpy.ops.uv.koebe_uniformize(checker=False)
     assert any("Unwrap to Parts" in entry.note for entry in report())
+
+
+def test_the_circles_of_a_piece_are_moved_as_any_others():
+    obj = ANY["torus"]()
+    scenes.select(obj)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    before = scenes.corner_uv(obj.data, "Koebe").copy()
+    assert bpy.ops.uv.koebe_moebius(rotation=0.5) == {"FINISHED"}
+    turned = scenes.corner_uv(obj.data, "Koebe")
+    z, w = (uv[:, 0].astype(float) - 0.5 + 1j * (uv[:, 1].astype(float) - 0.5) for uv in (before, turned))
+    assert np.abs(w - z * np.exp(0.5j)).max() < 1e-5
+    assert report()[0].moved
+    bpy.ops.uv.koebe_moebius(center=(0.4, 0.1))
+    assert (islands_of(obj) > 0.0).all()
+
+
+def test_a_part_is_turned_by_hand():
+    """Of Unwrap to Parts too: a disk is a circle domain, wherever it lies."""
+    obj = added(bpy.ops.mesh.primitive_monkey_add)
+    scenes.select(obj)
+    bpy.ops.uv.koebe_parts(checker=False)
+    before = scenes.corner_uv(obj.data, "Koebe").copy()
+    assert bpy.ops.uv.koebe_moebius(rotation=0.5) == {"FINISHED"}
+    moved = (scenes.corner_uv(obj.data, "Koebe") != before).any(axis=1)
+    assert 0 < moved.sum() < len(moved)
