@@ -101,6 +101,24 @@ def has_pins(obj: MeshObject, layer_name: str) -> bool:
         return compat.any_pin(mesh, mesh.uv_layers[layer_name])
 
 
+def vertex_weights(obj: MeshObject, group: str) -> np.ndarray | None:
+    """Weights (V,) in [0, 1] of a vertex group, 0 outside of it, or None if the object has no such group.
+
+    In Edit Mode they are those of `read_surface`.
+    """
+    found = obj.vertex_groups.get(group)
+    if found is None:
+        return None
+    index = found.index
+    with arrays(obj) as mesh:
+        weights = np.zeros(len(mesh.vertices))
+        for number, vertex in enumerate(mesh.vertices):
+            for element in vertex.groups:
+                if element.group == index:
+                    weights[number] = element.weight
+    return np.clip(weights, 0.0, 1.0)
+
+
 def active_vertex(obj: MeshObject) -> int | None:
     """Index of the active vertex of an object in Edit Mode, or None."""
     if obj.mode != "EDIT":

@@ -97,11 +97,14 @@ def _restore_select_mode(settings: bpy.types.ToolSettings, mode: tuple[bool, boo
     settings.mesh_select_mode = mode
 
 
-def edges_along(obj: MeshObject, vertices: list[int]) -> list[int | None]:
-    """Edges of an object in Edit Mode along a closed loop of vertices; None for each that is no longer there."""
+def edges_along(obj: MeshObject, vertices: list[int], closed: bool = True) -> list[int | None]:
+    """Edges of an object in Edit Mode along a path of vertices, and from its end to its start if it is closed.
+
+    None for each that is no longer there.
+    """
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()
-    pairs = zip(vertices, vertices[1:] + vertices[:1], strict=True)
+    pairs = zip(vertices, vertices[1:] + vertices[:1] if closed else vertices[1:], strict=closed)
     known = [[mesh.verts[v] for v in pair if v < len(mesh.verts)] for pair in pairs if pair[0] != pair[1]]
     edges = [mesh.edges.get(pair) if len(pair) == 2 else None for pair in known]
     return [None if edge is None else edge.index for edge in edges]

@@ -67,15 +67,23 @@ def parse(arguments: list[str]) -> Request:
     )  # fmt: skip
     parser.add_argument("--method", choices=options.METHODS, default=default.method)
     parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
+    parser.add_argument(
+        "--cut", action=argparse.BooleanOptionalAction, default=default.cut,
+        help="open, cut and split in the UVs what cannot be mapped as it is; default: yes",
+    )  # fmt: skip
     parser.add_argument("--outer", type=_outer_loop, default=default.outer, metavar="auto|longest|VERTEX")
     for name in ("--center", "--point"):
         parser.add_argument(name, type=_whole_number, metavar="VERTEX", help="of each object")
     parser.add_argument("--tolerance", type=float, default=default.tolerance)
     parser.add_argument("--max-sweeps", type=_whole_number, default=default.max_sweeps)
     parser.add_argument("--balance", choices=options.BALANCES)
+    parser.add_argument(
+        "--importance", default=default.importance, metavar="GROUP", help="vertex group that weighs the balance"
+    )
     parser.add_argument("--polish", action=argparse.BooleanOptionalAction, default=default.polish)
     parser.add_argument("--threads", type=_whole_number, default=default.threads, help="0: all cores")
     parser.add_argument("--upright", action=argparse.BooleanOptionalAction, default=default.upright)
+    parser.add_argument("--symmetry", choices=options.SYMMETRIES, default=default.symmetry)
     parser.add_argument("--tube", choices=options.TUBES, default=default.tube)
     parser.add_argument("--layer", default=default.layer, help="UV layer to write")
     parser.add_argument("--placement", choices=options.PLACEMENTS, default=default.placement)

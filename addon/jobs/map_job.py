@@ -70,6 +70,8 @@ class Job:
                 raise TransferError(
                     f"the {what} is to be the active vertex, but no vertex is active: select one {where}, in Edit Mode"
                 )
+        if options.importance:
+            self._even_importance()
         self.cancel_token = self.koebe.CancelToken()
         self.outcomes: list[SurfaceOutcome] = LATER
 
@@ -86,7 +88,23 @@ class Job:
         self.targets.append(Target.of(obj))
         mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
         center, point = (self._place(obj, wanted) for wanted in (self.options.center, self.options.point))
-        self.tasks.append(Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point))
+        importance = mesh_reading.vertex_weights(obj, self.options.importance) if self.options.importance else None
+        self.tasks.append(
+            Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
+        )
+
+    def _even_importance(self) -> None:
+        """Count from the least importance there is, an object without the group having none. Raises TransferError."""
+        known = [task.importance for task in self.tasks if task.importance is not None]
+        if not known:
+            raise TransferError(
+                f"the importance is to be the vertex group {self.options.importance!r}, but no object has one"
+            )
+        least = min(float(one.min()) for one in known) if len(known) == len(self.tasks) else 0.0
+        self.tasks = [
+            dataclasses.replace(task, importance=None if task.importance is None else task.importance - least)
+            for task in self.tasks
+        ]
 
     @staticmethod
     def _place(obj: MeshObject, wanted: str | int) -> Place:

@@ -217,7 +217,11 @@ def read_domains(koebe: ModuleType, surface: Surface, uv: np.ndarray) -> tuple[l
 
 def read_domain(koebe: ModuleType, island: Island, uv: np.ndarray) -> CircleDomain:
     """The circle domain that an island is in UVs (C, 2) of the surface's corners. Raises DomainError."""
-    old_uv = vertex_uv(island, uv)
+    return domain_in(koebe, island, vertex_uv(island, uv))
+
+
+def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDomain:
+    """The same, of the UVs (n, 2) of its vertices in 32 bits."""
     if not np.isfinite(old_uv).all():
         raise DomainError("its UVs are not finite")
     plane = old_uv.astype(np.float64)

@@ -8,6 +8,10 @@ class KnownError(Exception):
     """An error whose text is meant to be read: what is wrong, and what to do about it."""
 
 
+class MapError(KnownError):
+    """An island that cannot be mapped, beside the native package's own errors."""
+
+
 def kind_of(error: Exception | None) -> str | None:
     """The kind of a `koebe.TopologyError`; None of any other error."""
     return getattr(error, "kind", None)

@@ -6,15 +6,41 @@ from typing import Any
 import numpy as np
 
 from .errors import elements_of, kind_of
+from .opening import Opening
 from .outcomes import IslandOutcome, SurfaceOutcome, Task
 from .rounding import RESOLUTION
 from .triangles import longest_edges
-from .wording import warnings
+from .wording import cut_line, warnings
 
 
 def entries(outcome: SurfaceOutcome) -> list[dict[str, Any]]:
-    """One dict per island: `result.to_dict()` in the mesh's vertex numbers, or the error."""
-    return [_entry(outcome.task, index, one) for index, one in enumerate(outcome.islands)]
+    """One dict per island: `result.to_dict()` in the mesh's vertex numbers, or the error.
+
+    A piece of an island that was cut has the number of the cut, and the first of these has what was done.
+    """
+    numbers = {id(opening): number for number, opening in enumerate(outcome.openings)}
+    said: set[int] = set()
+    result = []
+    for index, one in enumerate(outcome.islands):
+        entry = _entry(outcome.task, index, one)
+        if one.opening is not None:
+            entry["opening"] = numbers[id(one.opening)]
+            if id(one.opening) not in said:
+                entry.update(_cuts(one.opening))
+            said.add(id(one.opening))
+        result.append(entry)
+    return result
+
+
+def _cuts(opening: Opening) -> dict[str, Any]:
+    """What was cut, in the mesh's numbers."""
+    return {
+        "cuts": [{"kind": kind, "elements": vertices.tolist()} for kind, vertices in opening.cuts],
+        "handles_cut": opening.handles,
+        "turned": opening.turned.tolist(),
+        "left_out": opening.left_out.tolist(),
+        "cut_text": cut_line(opening),
+    }
 
 
 def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
@@ -33,8 +59,16 @@ def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
     for loop in result["loops"]:
         for key in ("vertices", "off_circle"):
             loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()
+        if one.symmetry is not None:
+            continue
         if not one.unrolled:
             loop["center"] = one.turned(np.array([loop["center"]]))[0].tolist()
+    if one.symmetry is not None:
+        for loop, made in zip(result["loops"], one.symmetry.image.loops, strict=True):
+            loop["center"], loop["radius"] = [made.center.real, made.center.imag], made.radius
+        result["symmetric"] = True
+    if one.remark:
+        result["remark"] = one.remark
     result.update(one.distortion or {})
     result["unrolled"] = one.unrolled
     result["warnings"] = warnings(task, one)

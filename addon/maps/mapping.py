@@ -2,6 +2,7 @@
 """From surfaces to UV coordinates of their corners: the one function behind operator and batch."""
 
 import contextlib
+import dataclasses
 import functools
 import itertools
 import traceback
@@ -12,19 +13,24 @@ from typing import Any
 import numpy as np
 
 from . import places
+from .errors import MapError
 from .islands import cut_into_islands, whole_island
+from .opening import Opening, open_island
 from .options import Options
-from .outcomes import IslandOutcome, MapError, Progress, SurfaceOutcome, Task
+from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task
 from .packing import Placement, fit_placement, pack_disks
 from .side_by_side import Unit, side_by_side
 from .surface import Island
-from .triangles import areas, signed_areas
+from .symmetry import make_symmetric
+from .triangles import areas, flipped_triangles, signed_areas
 from .tube import unroll
 from .upright import upright_turn
+from .wording import counted
 
 # Of the largest coordinate: so far beside a line the rounding of 32-bit coordinates may leave a vertex, and a bit more.
 FLAT = 2.4e-7
 FEW = 1000  # triangles that are looked at first
+MOST_IMPORTANT = 4.0  # texel density asked for at importance 1, over that at 0: as the solver has it
 
 
 def map_surfaces(
@@ -46,6 +52,11 @@ def map_surfaces(
         for one in outcome.mapped:
             if not np.isfinite(one.uv).all():  # worked out here, on this thread
                 one.error = MapError("its UVs are not finite")
+    if options.symmetry == "auto":
+        for outcome in outcomes:
+            for one in outcome.mapped:
+                with _failing_alone(koebe, [one]):
+                    make_symmetric(koebe, one)
     return outcomes
 
 
@@ -68,10 +79,54 @@ class _Run:
         outcomes = [next(each) if whole else [] for whole in wholes]
         cut = {index: _cut(task, *one) for index, (task, one) in enumerate(zip(tasks, outcomes, strict=True))}
         cut = {index: islands for index, islands in cut.items() if islands}
-        again = self._map_all([(tasks[index], islands) for index, islands in cut.items()], _is_any)
+        again = self._map_all([(tasks[index], islands) for index, islands in cut.items()], self._is_last)
         for index, ones in zip(cut, again, strict=True):
             outcomes[index] = ones
+        if self._options.cut:
+            self._open(tasks, outcomes)
         return outcomes
+
+    def _open(self, tasks: Sequence[Task], outcomes: list[list[IslandOutcome]]) -> None:
+        """Put, in the place of each island that cannot be mapped as it is, the outcomes of its pieces."""
+        opened = [[self._opened(task, one) for one in ones] for task, ones in zip(tasks, outcomes, strict=True)]
+        named = [_names_left(task, ones, found)
+                 for task, ones, found in zip(tasks, outcomes, opened, strict=True)]  # fmt: skip
+        pieces = [[piece for one in found if one for piece in one[1]] for found in opened]
+        mapped = self._map_all([pair for pair in zip(named, pieces, strict=True) if pair[1]], _is_any)
+        each = iter(mapped)
+        for ones, found, own in zip(outcomes, opened, pieces, strict=True):
+            if not own:
+                continue
+            made = iter(next(each))
+            result: list[IslandOutcome] = []
+            for one, pair in zip(ones, found, strict=True):
+                result += [one] if pair is None else itertools.islice(made, len(pair[1]))
+                if pair is not None:
+                    for piece in result[len(result) - len(pair[1]) :]:
+                        piece.opening = pair[0]
+            ones[:] = result
+
+    def _opened(self, task: Task, one: IslandOutcome) -> tuple[Opening, list[Island]] | None:
+        """The pieces of an island that the solver has refused, or None where that cannot help."""
+        if not self._may_open(one):
+            return None
+        try:
+            return open_island(self._koebe, task.surface, one.island, self._cancel)
+        except self._koebe.Cancelled:
+            raise
+        except (MapError, MemoryError, self._koebe.SolverError) as error:
+            one.error = foreseen(self._koebe, error)
+        except self._koebe.KoebeError:  # of arrays that are no mesh: the solver has said so too
+            pass
+        return None
+
+    def _may_open(self, one: IslandOutcome) -> bool:
+        """Whether an island may be mapped once it is cut."""
+        return self._options.cut and isinstance(one.error, (self._koebe.TopologyError, self._koebe.InputError))
+
+    def _is_last(self, one: IslandOutcome) -> bool:
+        """Whether nothing more will be tried with an island."""
+        return not self._may_open(one)
 
     def _map_all(
         self, surfaces: list[tuple[Task, list[Island]]], counts: Callable[[IslandOutcome], bool]
@@ -82,8 +137,9 @@ class _Run:
             centers, points = places.centers(islands, task.center), places.points(islands, task.point)
             for island, center, point in zip(islands, centers, points, strict=True):
                 vertices = {"outer": _outer_loop(island, task.outer), "center": center, "point": point}
+                importance = None if task.importance is None else task.importance[island.source_vertex]
                 compute = functools.partial(
-                    _map_island, self._koebe, island, vertices, self._options, cancel=self._cancel
+                    _map_island, self._koebe, island, vertices, importance, self._options, cancel=self._cancel
                 )
                 units.append(Unit(len(island.triangles), compute))
         share = self._share(sum(unit.size for unit in units))
@@ -114,6 +170,18 @@ class _Run:
         return tell
 
 
+def _names_left(
+    task: Task, ones: Sequence[IslandOutcome], found: Sequence[tuple[Opening, list[Island]] | None]
+) -> Task:
+    """The task for the pieces: a place in space is theirs only if no other island has taken it."""
+    others = [one.places for one, pair in zip(ones, found, strict=True) if pair is None]
+    left: dict[str, Any] = {}
+    for name in ("center", "point"):
+        if isinstance(getattr(task, name), np.ndarray) and any(places.get(name) is not None for places in others):
+            left[name] = None
+    return dataclasses.replace(task, **left)
+
+
 def _is_mapped(one: IslandOutcome) -> bool:
     return one.error is None
 
@@ -141,12 +209,13 @@ def _map_island(
     koebe: ModuleType,
     island: Island,
     vertices: dict[str, Any],
+    importance: np.ndarray | None,
     options: Options,
     progress: Progress | None,
     cancel: Any,
 ) -> IslandOutcome:
     arguments = options.solver_arguments()
-    one = IslandOutcome(island)
+    one = IslandOutcome(island, places=vertices)
     with _failing_alone(koebe, [one]):
         _check_area(island)
         if options.tube == "unroll" and _is_tube(koebe, island):
@@ -158,6 +227,8 @@ def _map_island(
             arguments["balance"] = "none"  # which chooses the centre as well
         if vertices.get("point") is not None:
             places.check_point(island, vertices["point"])
+        if importance is not None and arguments["balance"] == "area":
+            arguments["importance"] = importance
         one.result = koebe.uniformize(
             island.vertices,
             island.triangles,
@@ -234,10 +305,14 @@ def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> Non
     """Give the mapped tubes of a surface their shapes, if they are to be rectangles."""
     tubes = [one for one in outcome.mapped if _is_unrolled(one, options)]
     with _failing_alone(koebe, tubes):
-        cases = [(one.island, one.result.uv, one.result.loops) for one in tubes]
+        cases = [(one.island, one.result.uv, one.result.loops, one.opening is not None) for one in tubes]
         for one, unrolled in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
             if unrolled is None:
                 one.error = MapError("the tube cannot be cut open along its edges: take Tube: Annulus")
+                continue
+            if one.opening is not None and len(over := flipped_triangles(unrolled[0].triangles, unrolled[1])):
+                one.remark = f"not unrolled, as {counted(len(over), 'triangle')} would be turned over"
+                _shape(one, options)
                 continue
             one.sheet, one.shape = unrolled
             one.distortion = koebe.distortion(one.sheet.vertices, one.sheet.triangles, one.shape)
@@ -256,20 +331,24 @@ def _outer_loop(island: Island, outer: str | int) -> str | int:
 def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Options) -> None:
     """Give every mapped island its placement."""
     if options.placement == "together":
-        groups = [[one for outcome in outcomes for one in outcome.mapped]]
+        groups = [[(outcome.task, one) for outcome in outcomes for one in outcome.mapped]]
     else:
-        groups = [outcome.mapped for outcome in outcomes if not (options.placement == "keep" and _keep_places(outcome))]
+        groups = [
+            [(outcome.task, one) for one in outcome.mapped]
+            for outcome in outcomes
+            if not (options.placement == "keep" and _keep_places(outcome))
+        ]
     for group in groups:
-        with _failing_alone(koebe, group):
+        with _failing_alone(koebe, [one for _, one in group]):
             _pack(group, options.margin)
 
 
-def _pack(group: list[IslandOutcome], margin: float) -> None:
+def _pack(group: list[tuple[Task, IslandOutcome]], margin: float) -> None:
     if len(group) == 1:
-        group[0].placement = Placement(scale=0.5 / _half_size(group[0]))
+        group[0][1].placement = Placement(scale=0.5 / _half_size(group[0][1]))
     elif group:
-        sizes = [_natural_radius(one.sheet, one.flat) for one in group]
-        for one, placement in zip(group, pack_disks(sizes, margin), strict=True):
+        sizes = [_natural_radius(one.sheet, one.flat, task.importance) for task, one in group]
+        for (_, one), placement in zip(group, pack_disks(sizes, margin), strict=True):
             one.placement = placement
 
 
@@ -291,7 +370,10 @@ def _keep_places(outcome: SurfaceOutcome) -> bool:
     return True
 
 
-def _natural_radius(island: Island, uv: np.ndarray) -> float:
-    """Radius of the disk at which the island's mean texel density is one."""
-    in_disk = np.abs(signed_areas(uv, island.triangles)).sum()
-    return float(np.sqrt(island.areas.sum() / in_disk))
+def _natural_radius(island: Island, uv: np.ndarray, importance: np.ndarray | None) -> float:
+    """Radius of the disk at which the island's mean texel density is one; larger where it is important."""
+    in_disk, on_surface = np.abs(signed_areas(uv, island.triangles)).sum(), island.areas
+    if importance is not None:
+        weight = importance[island.source_vertex][island.triangles].mean(axis=1)
+        on_surface = on_surface * MOST_IMPORTANT ** (2.0 * weight)
+    return float(np.sqrt(on_surface.sum() / in_disk))

@@ -81,6 +81,8 @@ def _maps_faces(island: Island, image: np.ndarray) -> bool:
     """
     number = np.random.default_rng(20101).integers(0, 2**62, size=len(image), dtype=np.int64)
     faces, sizes = _faces(island)
+    if sizes.sum() != len(faces):  # of a polygon with a corner in no triangle
+        return False
     ends = np.cumsum(sizes)
     sums = (np.add.reduceat(numbers, ends - sizes) for numbers in (number[faces], number[image[faces]]))
     one, other = (np.sort(each) for each in sums)

@@ -11,6 +11,7 @@ OUTER_LOOPS = ("auto", "longest", "active")
 BALANCES = ("none", "area")
 PLACES = ("auto", "active", "cursor")
 TUBES = ("annulus", "unroll")
+SYMMETRIES = ("off", "auto")
 PLACEMENTS = ("pack", "together", "keep")
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
@@ -42,7 +43,10 @@ class Options:
                   has it has that vertex's loop as its rim, and is not turned upright
     tolerance     change of the circles between two sweeps, in units of the disk's radius
     polish        lower the angle error at the end, circles as they are; takes many times as long
+    cut           open, cut and split in the UVs what cannot be mapped as it is; else it is refused
+    importance    name of a vertex group by which the balance is weighed, or empty
     upright       turn every island so that the world's up is up in the UV Editor, else as computed
+    symmetry      "off", or "auto": an island that is its own mirror image gets exactly symmetric UVs
     tube          what an island with two loops becomes: "annulus", or "unroll" (a rectangle with a wrap seam)
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
                   "keep" (every island goes where it was before)
@@ -53,15 +57,18 @@ class Options:
 
     method: str = "gk"
     engine: str = "condensed"
+    cut: bool = True
     outer: str | int = "auto"
     center: str | int = "auto"
     point: str | int = "auto"
     tolerance: float = 1e-6
     max_sweeps: int = 50
     balance: str = "area"
+    importance: str = ""
     polish: bool = False
     threads: int = 0
     upright: bool = True
+    symmetry: str = "off"
     tube: str = "annulus"
     layer: str = "Koebe"
     placement: str = "pack"
@@ -75,6 +82,7 @@ class Options:
         _one_of("engine", self.engine, ENGINES)
         _one_of("balance", self.balance, BALANCES)
         _one_of("tube", self.tube, TUBES)
+        _one_of("symmetry", self.symmetry, SYMMETRIES)
         _one_of("placement", self.placement, PLACEMENTS)
         for name, value, words in (
             ("outer", self.outer, OUTER_LOOPS), ("center", self.center, PLACES), ("point", self.point, PLACES),
@@ -83,6 +91,10 @@ class Options:
                 _one_of(name, value, words)
             elif value < 0:
                 raise OptionError(f"{name}: {value} is not a vertex index")
+        if self.symmetry != "off" and (self.center != "auto" or self.point != "auto"):
+            raise OptionError("symmetry excludes a centre and a rim point: both choose where the disk's centre is")
+        if self.importance and self.balance != "area":
+            raise OptionError("importance weighs the balance: set Balance to Area")
         if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
             raise OptionError(f"tolerance: {self.tolerance} is not a positive number")
         if self.max_sweeps < 1:

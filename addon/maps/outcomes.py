@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import KnownError
+from .mirror import Symmetry
+from .opening import Opening
 from .packing import Placement
 from .rounding import rounded
 from .surface import Island, Surface
-from .triangles import as_complex, as_points
+from .triangles import as_complex, as_points, signed_areas
 
 if TYPE_CHECKING:
     from koebe import UniformizeResult
@@ -23,10 +24,6 @@ Place = int | np.ndarray | None
 LATER: Any = None  # of what is not there from the start, and is not asked for before it is
 
 
-class MapError(KnownError):
-    """An island that cannot be mapped, beside the native package's own errors."""
-
-
 @dataclasses.dataclass(frozen=True)
 class Task:
     """A surface to map.
@@ -34,7 +31,7 @@ class Task:
     `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `center` and `point` are
     the vertices that go to the disk's centre and to its right end; `old_uv` (C, 2) are the UVs of the
     surface's corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
-    negative, `pinned` that UVs of the layer to write are pinned.
+    negative, `pinned` that UVs of the layer to write are pinned. `importance` (V,) in [0, 1] weighs the balance.
     """
 
     name: str
@@ -45,6 +42,7 @@ class Task:
     old_uv: np.ndarray | None = None
     center: Place = None
     point: Place = None
+    importance: np.ndarray | None = None
 
 
 @dataclasses.dataclass
@@ -54,7 +52,11 @@ class IslandOutcome:
     sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
     shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
     turn        complex number of modulus 1 by which the shape is turned about 0
-    distortion  `koebe.distortion` of the shape, where it is not that of the result
+    distortion  `koebe.distortion` of what is in the UVs, where it is not that of the result
+    places      the vertices that were asked for, by the solver's names: center, point
+    opening     what was cut to get this piece, with others, or None
+    symmetry    the island made symmetric, or None
+    remark      why something that was asked for was not done with it, or empty
     """
 
     island: Island
@@ -65,6 +67,10 @@ class IslandOutcome:
     turn: complex = 1.0
     distortion: dict[str, Any] | None = None
     placement: Placement = LATER
+    places: dict[str, Any] = dataclasses.field(default_factory=dict)
+    opening: Opening | None = None
+    symmetry: Symmetry | None = None
+    remark: str = ""
 
     @property
     def unrolled(self) -> bool:
@@ -75,6 +81,19 @@ class IslandOutcome:
     def angle_error(self) -> float:
         """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
         return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
+
+    @functools.cached_property
+    def density_ratio(self) -> float:
+        """Texel density (a length over a length) at 95 % of the area over that at 5 %."""
+        in_space, in_plane = self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles))
+        known = (in_space > 0.0) & (in_plane > 0.0)
+        if not known.any():
+            return 1.0
+        order = np.argsort(in_plane[known] / in_space[known])
+        share = np.cumsum(in_space[known][order])
+        low, high = np.searchsorted(share, np.array([0.05, 0.95]) * share[-1])
+        ratio = (in_plane[known] / in_space[known])[order]
+        return float(np.sqrt(ratio[high] / ratio[low]))
 
     def turned(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 2) of the shape after the turn."""
@@ -94,12 +113,20 @@ class IslandOutcome:
     @property
     def uv(self) -> np.ndarray:
         """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
-        return self._rounded[0]
+        return self._rounded[0] if self.symmetry is None else self.symmetry.image.uv
 
     @property
     def flipped(self) -> np.ndarray:
         """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
-        return self._rounded[1]
+        return self._rounded[1] if self.symmetry is None else self.symmetry.image.flipped
+
+    def circles(self) -> tuple[np.ndarray, np.ndarray]:
+        """Centres (k, 2) and radii (k,) of the loops' circles in the UVs; of a rectangle they mean nothing."""
+        if self.symmetry is not None:
+            domain, loops = self.symmetry.image.domain, self.symmetry.image.loops
+            centers = domain.placed(np.array([loop.center for loop in loops]))
+            return centers, domain.scale * np.array([loop.radius for loop in loops])
+        return self.placement.apply(self.turned(self.result.centers)), self.placement.scale * self.result.radii
 
 
 @dataclasses.dataclass
@@ -139,4 +166,24 @@ class SurfaceOutcome:
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
         corners = [outcome.sheet.corners for outcome in self.mapped]
         uv = [outcome.uv.take(outcome.sheet.corner_vertex, axis=0) for outcome in self.mapped]
-        return (corners[0], uv[0]) if len(uv) == 1 else (np.concatenate(corners), np.concatenate(uv))
+        openings = self.openings
+        if len(uv) == 1 and not openings:
+            return corners[0], uv[0]
+        return _with_copied(np.concatenate(corners), np.concatenate(uv), openings)
+
+    @property
+    def openings(self) -> list[Opening]:
+        """What was cut, for each island that was."""
+        return list({id(one.opening): one.opening for one in self.islands if one.opening is not None}.values())
+
+
+def _with_copied(corners: np.ndarray, uv: np.ndarray, openings: list[Opening]) -> tuple[np.ndarray, np.ndarray]:
+    """The corners and those that take their places, as far as these are mapped."""
+    copied = [opening.copied for opening in openings if len(opening.copied[0])]
+    if not copied:
+        return corners, uv
+    here, there = (np.concatenate(each) for each in zip(*copied))
+    row = np.full(int(max(corners.max(), there.max())) + 1, -1, dtype=np.int64)
+    row[corners] = np.arange(len(corners))
+    known = row[there] >= 0
+    return np.concatenate([corners, here[known]]), np.concatenate([uv, uv[row[there[known]]]])

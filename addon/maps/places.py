@@ -5,7 +5,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .outcomes import MapError, Place
+from .errors import MapError
+from .outcomes import Place
 from .surface import Island
 
 

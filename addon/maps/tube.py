@@ -12,29 +12,32 @@ from .islands import cut_into_islands
 from .surface import Island, Surface, next_corners
 from .triangles import as_complex, as_points
 
-Tube = tuple[Island, np.ndarray, Sequence[np.ndarray]]  # an island, its UVs, its outer and inner loop
+# An island, its UVs, its outer and inner loop, and whether it is a piece of one that was cut elsewhere than at seams.
+Tube = tuple[Island, np.ndarray, Sequence[np.ndarray], bool]
 
 
 def unroll(surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.ndarray] | None]:
     """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
 
-    A tube is (island, uv, loops): `uv` maps the island to the unit disk with a round hole; `loops` are its outer and
-    inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: around is along u,
-    from loop to loop is along v. Both are conformal, so angles stay. The cut runs along a short path of edges from
-    loop to loop, which ends at the back, where y is largest; a vertex on it comes out once for either side. The
-    rectangle is centred at 0 and lies in the unit disk.
+    A tube is (island, uv, loops, is_piece): `uv` maps the island to the unit disk with a round hole; `loops` are its
+    outer and inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: around
+    is along u, from loop to loop is along v. Both are conformal, so angles stay. The cut runs along a short path of
+    edges from loop to loop, which ends at the back, where y is largest; a vertex on it comes out once for either side.
+    The rectangle is centred at 0 and lies in the unit disk.
     """
     if not tubes:
         return []
     following = next_corners(surface)
     vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
     seam, selected, opened = surface.seam.copy(), np.zeros_like(surface.selected), []
-    for island, uv, loops in tubes:
+    for island, uv, loops, is_piece in tubes:
         annulus = concentric(as_complex(uv), loops[1])
         log = np.log(np.abs(annulus)) + 1j * np.angle(annulus)
         vertex[island.corners] = island.corner_vertex
         edges, first, uses = np.unique(surface.corner_edge[island.corners], return_index=True, return_counts=True)
-        inside = (uses == 2) & ~surface.seam[edges]  # to cut along a boundary cuts nothing
+        if is_piece:
+            seam[_piece_cuts(surface, island, vertex, following)] = True
+        inside = (uses == 2) & ~seam[edges]  # to cut along a boundary cuts nothing
         edges, corners = edges[inside], island.corners[first[inside]]
         ends = np.stack([vertex[corners], vertex[following[corners]]], axis=1)
         length = _wrapped_distance(log[ends[:, 0]], log[ends[:, 1]])
@@ -44,9 +47,11 @@ def unroll(surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.nda
     sheets = cut_into_islands(dataclasses.replace(surface, seam=seam, selected=selected))
     with_first_face = {int(sheet.faces[0]): sheet for sheet in sheets}
     result = []
-    for (island, _, _), (log, cut) in zip(tubes, opened, strict=True):
+    for (island, _, _, is_piece), (log, cut) in zip(tubes, opened, strict=True):
         sheet = with_first_face[int(island.faces[0])]
-        whole = cut and len(sheet.faces) == len(island.faces)  # else the path has cut off a piece
+        whole = cut and len(sheet.triangles) == len(island.triangles)  # else the path has cut off a piece
+        if whole and is_piece:
+            sheet = _turned_like(sheet, island)
         result.append((sheet, _rectangle(sheet, island, log)) if whole else None)
     return result
 
@@ -60,6 +65,28 @@ def _rectangle(sheet: Island, island: Island, log: np.ndarray) -> np.ndarray:
     points = as_points(flat)
     low, high = points.min(axis=0), points.max(axis=0)
     return (points - 0.5 * (low + high)) / (0.5 * np.linalg.norm(high - low))
+
+
+def _piece_cuts(surface: Surface, island: Island, vertex: np.ndarray, following: np.ndarray) -> np.ndarray:
+    """Edges round which the faces of a piece hang together in none or in other vertices: its boundary."""
+    corners = island.corners
+    ends = np.sort(np.stack([vertex[corners], vertex[following[corners]]], axis=1), axis=1)
+    edge = surface.corner_edge[corners]
+    order = np.argsort(edge, kind="stable")
+    edge, ends = edge[order], ends[order]
+    joined = np.zeros(len(surface.seam), dtype=bool)
+    joined[edge[1:][(edge[1:] == edge[:-1]) & (ends[1:] == ends[:-1]).all(axis=1)]] = True
+    return edge[~joined[edge]]
+
+
+def _turned_like(sheet: Island, island: Island) -> Island:
+    """The sheet of a piece, its triangles turned as those of the piece are."""
+    whole = np.empty(len(sheet.source_vertex), dtype=np.int64)
+    whole[sheet.corner_vertex] = island.corner_vertex
+    other = whole[sheet.triangles[:, 1]] != island.triangles[:, 1]
+    triangles = sheet.triangles.copy()
+    triangles[other] = triangles[other][:, [0, 2, 1]]
+    return dataclasses.replace(sheet, triangles=triangles)
 
 
 def concentric(z: np.ndarray, inner: np.ndarray) -> np.ndarray:

@@ -13,6 +13,8 @@ from .surface import Island
 if TYPE_CHECKING:
     import koebe
 
+    from .opening import Opening
+
 # What is wrong, and what an artist can do about it, by the kind of `koebe.TopologyError`.
 REASONS = {
     "closed": "the surface is closed: mark a seam or delete a face, so that it has a boundary",
@@ -23,6 +25,8 @@ REASONS = {
 }
 PINNED = "its pins are not kept: a map to a circle domain leaves nothing that a pin could hold"
 MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
+UNEVEN = "its texels are very uneven: Unwrap to Parts makes them even"
+MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %: more than that cannot be painted on
 FEW = 6  # reasons in one message, which has to fit on the screen
 # The kind of warning that the solver gives of its disk in 32 bits; it does not hold for the rectangle made of it.
 OF_THE_DISK = "below_resolution"
@@ -45,7 +49,65 @@ def result_line(outcome: SurfaceOutcome) -> str:
         words.insert(0, counted(len(results), "island"))
     if not outcome.converged:
         words.append("NOT CONVERGED")
+    edges = sum(cut_edges(opening) for opening in outcome.openings)
+    if edges:
+        words.append(f"cut along {counted(edges, 'edge')}")
+    if any(too_uneven(one) for one in outcome.mapped):
+        words.append("texels very uneven: Unwrap to Parts makes them even")
     return f"{outcome.name}: {', '.join(words)}"
+
+
+def cut_edges(opening: "Opening") -> int:
+    """How many edges were cut."""
+    return sum(len(vertices) - 1 for kind, vertices in opening.cuts if kind != "bow_tie")
+
+
+def cut_line(opening: "Opening") -> str:
+    """What was cut, turned and left out, and why, in one sentence."""
+    edges = {kind: 0 for kind, _ in opening.cuts}
+    for kind, vertices in opening.cuts:
+        edges[kind] += len(vertices) - (kind != "bow_tie")
+
+    def along(kind: str) -> str:
+        return counted(edges[kind], "edge")
+
+    words = []
+    if "opening" in edges:
+        words.append(f"{along('opening')} cut, as it is closed")
+    if "handle" in edges:
+        words.append(f"{along('handle')} cut through {counted(opening.handles, 'handle')}")
+    if "crowded_edge" in edges:
+        words.append(f"{along('crowded_edge')} with more than two faces cut")
+    if "orientation" in edges:
+        words.append(f"{along('orientation')} cut where it changes its side")
+    if "bow_tie" in edges:
+        words.append(f"faces parted in {counted(edges['bow_tie'], 'vertex', 'vertices')}")
+    if len(opening.turned):
+        words.append(f"{counted(len(opening.turned), 'face')} turned over in the UVs, as they face the other way")
+    if len(opening.left_out):
+        words.append(f"{counted(len(opening.left_out), 'face')} left out, degenerate or double")
+    return "in the UVs: " + ", ".join(words)
+
+
+def notes(outcome: SurfaceOutcome) -> list[tuple[IslandOutcome, str]]:
+    """What was done to the mapped islands beside their maps, each said once: cuts, symmetry."""
+    found: list[tuple[IslandOutcome, str]] = []
+    said: set[int] = set()
+    for one in outcome.mapped:
+        if one.opening is not None and id(one.opening) not in said:
+            said.add(id(one.opening))
+            found.append((one, cut_line(one.opening)))
+        if one.symmetry is not None:
+            moved = f"moved by {one.symmetry.moved:.1e} at most"
+            found.append((one, f"made symmetric, {counted(one.symmetry.pairs, 'pair')} of vertices, {moved}"))
+        elif one.remark:
+            found.append((one, one.remark))
+    return found
+
+
+def too_uneven(one: IslandOutcome) -> bool:
+    """Whether nobody can paint on a mapped island: texels too uneven, or faces too small for them."""
+    return bool(one.result.below_resolution) or one.density_ratio > MOST_UNEVEN
 
 
 def failure_line(outcome: SurfaceOutcome) -> str:

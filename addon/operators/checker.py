@@ -11,7 +11,7 @@ from ..blender.transaction import transaction
 from ..maps.distortion import texel_density
 from ..maps.wording import few, lines
 from ..state.option_properties import option
-from .uniformize import can_map
+from .run_operator import can_map
 
 
 class UV_OT_koebe_checker(bpy.types.Operator):

@@ -4,21 +4,17 @@
 import bpy
 
 from ..blender import edit_mode
-from ..blender.errors import TransferError
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.parts_job import PartsJob
-from ..maps.options import OptionError
 from ..maps.parts import price_of
-from ..maps.wording import few, lines
-from ..solver.errors import NativeError
 from ..state import run_report
 from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, part_options_of
-from .modal_run import ModalRun, redraw
-from .uniformize import can_map
+from .modal_run import redraw
+from .run_operator import MapOperator
 
 
-class UV_OT_koebe_parts(ModalRun, PartsProperties, bpy.types.Operator):
+class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     """Cut a surface of any kind, in the UVs alone, into disks and unrolled tubes with even texels: limbs, closed
     models, models with handles. Cuts along seams too; in Edit Mode takes the selected faces. The mesh itself is not
     changed"""
@@ -26,28 +22,11 @@ class UV_OT_koebe_parts(ModalRun, PartsProperties, bpy.types.Operator):
     bl_idname = "uv.koebe_parts"
     bl_label = "Koebe Unwrap to Parts"
     bl_options = {"REGISTER", "UNDO"}
+    options_shown = PART_OPTION_NAMES
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return can_map(cls, context)
-
-    def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for name in PART_OPTION_NAMES:
-            row = layout.row()
-            row.active = not name.startswith("checker_") or self.checker
-            row.prop(self, name)
-
-    def _job(self, context: bpy.types.Context) -> PartsJob | None:
-        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-        try:
-            price, selected_only = price_of(self.evenness), context.mode == "EDIT_MESH"
-            return PartsJob(target_objects(context), part_options_of(self), price, selected_only, refused=[])
-        except (NativeError, OptionError, TransferError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
+    def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
+        price = price_of(self.evenness)
+        return PartsJob(target_objects(context), part_options_of(self), price, selected_only, refused=[])
 
     def _finish(self, context: bpy.types.Context, job: PartsJob) -> set[str]:
         """Write what was computed, each object wholly or not at all, and say what became of it."""
@@ -61,19 +40,13 @@ class UV_OT_koebe_parts(ModalRun, PartsProperties, bpy.types.Operator):
 
     def _say(self, job: PartsJob) -> set[str]:
         failures = [outcome.problem for outcome in job.outcomes if outcome.problem]
-        failures += [text for _, text in job.refused]
-        if not job.mapped_any:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was mapped.", failures))
-            return {"CANCELLED"}
+        results: list[tuple[str, bool, list[str], list[str]]] = []
         for outcome in job.outcomes:
             if outcome.mapped:
-                self.report({"INFO"}, outcome.line())
-            found = [warning.text for result in outcome.mapped for warning in result.warnings]
-            for warning in dict.fromkeys([*found, *outcome.remarks]):
-                self.report({"WARNING"}, f"{outcome.name}: {warning}")
-        if failures:
-            self.report({"WARNING"}, "Koebe UV: not mapped. " + few(failures))
-        return {"FINISHED"}
+                found = [warning.text for result in outcome.mapped for warning in result.warnings]
+                warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
+                results.append((outcome.line(), True, [], warnings))
+        return self._tell(job, failures, results)
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_parts,))

@@ -11,8 +11,8 @@ from ..blender.mesh_object import MeshObject
 from ..blender.selection import edges_along, select_only
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
-from ..maps.offending_elements import EDGES, FACES, offending_elements
-from ..state.run_report import KoebeIslandReport, active_entry
+from ..maps.offending_elements import EDGES, FACES, VERTICES, offending_elements
+from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object
 from .modal_run import OperatorBase
 
 
@@ -104,6 +104,32 @@ class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
         return EDGES, edges
 
 
+class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the edges along which this object was cut in the UVs; where faces were only parted in
+    vertices, these. Marked as seams they stay cuts"""
+
+    bl_idname = "uv.koebe_select_cuts"
+    bl_label = "Select Cuts"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not super().poll(context):
+            return False
+        if not any(entry.cuts for entry in entries_of_object(context)):
+            cls.poll_message_set("Nothing of it was cut")
+            return False
+        return True
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        paths = [path for one in entries_of_object(bpy.context) if one.cuts for path in json.loads(one.cuts)]
+        edges = [edge for path in paths for edge in edges_along(obj, path, closed=False)]
+        if not edges:
+            return VERTICES, sorted({vertex for path in paths for vertex in path})
+        if None in edges:
+            raise TransferError(f"{obj.name}: its mesh has changed since it was mapped: the cuts are no longer there")
+        return EDGES, [edge for edge in edges if edge is not None]
+
+
 def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> bool:
     """Select what is wrong with the islands that failed, in the objects in Edit Mode; whether there is any."""
     chosen = []
@@ -117,5 +143,5 @@ def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> 
     return bool(chosen)
 
 
-CLASSES = (UV_OT_koebe_select_offenders, UV_OT_koebe_select_flipped, UV_OT_koebe_select_loop)
+CLASSES = (UV_OT_koebe_select_offenders, UV_OT_koebe_select_flipped, UV_OT_koebe_select_loop, UV_OT_koebe_select_cuts)
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

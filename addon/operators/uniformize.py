@@ -4,60 +4,28 @@
 import bpy
 
 from ..blender import edit_mode
-from ..blender.errors import TransferError
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.map_job import Job
 from ..maps import wording
-from ..maps.options import OptionError
-from ..maps.wording import few, lines
-from ..solver.errors import NativeError
 from ..state import run_report
 from ..state.option_properties import OPTION_NAMES, UniformizeProperties, options_of
-from .modal_run import ModalRun, redraw
+from .modal_run import redraw
+from .run_operator import MapOperator
 from .select_from_report import select_offenders
 
 
-def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether there is a mesh to work on, in a mode in which that can be done; else it says what to do."""
-    if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        cls.poll_message_set("Works in Object Mode and in Edit Mode")
-        return False
-    if not target_objects(context):
-        cls.poll_message_set("Select a mesh object")
-        return False
-    return True
-
-
-class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator):
-    """Unwrap surfaces with holes conformally to the unit disk: angles are kept and every hole becomes a
-    perfect circle. Cuts along seams; in Edit Mode takes the selected faces. The mesh itself is not changed"""
+class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operator):
+    """Unwrap surfaces conformally to the unit disk: angles are kept and every hole becomes a perfect circle. Cuts along
+    seams, and where it has to; in Edit Mode takes the selected faces. The mesh is not changed"""
 
     bl_idname = "uv.koebe_uniformize"
     bl_label = "Koebe Uniformize"
     bl_options = {"REGISTER", "UNDO"}
+    options_shown = OPTION_NAMES
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return can_map(cls, context)
-
-    def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for name in OPTION_NAMES:
-            row = layout.row()
-            row.active = not name.startswith("checker_") or self.checker
-            row.prop(self, name)
-
-    def _job(self, context: bpy.types.Context) -> Job | None:
-        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-        try:
-            selected_only = context.mode == "EDIT_MESH"
-            job = Job(target_objects(context), options_of(self), selected_only, refused=[])
-        except (NativeError, OptionError, TransferError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
+    def _new_job(self, context: bpy.types.Context, selected_only: bool) -> Job:
+        job = Job(target_objects(context), options_of(self), selected_only, refused=[])
         if job.options.placement == "keep":
             job.read_old_uv()
         return job
@@ -78,19 +46,15 @@ class UV_OT_koebe_uniformize(ModalRun, UniformizeProperties, bpy.types.Operator)
 
     def _say(self, job: Job) -> set[str]:
         failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
-        failures += [text for _, text in job.refused]
-        if not job.mapped_any:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was mapped.", failures))
-            return {"CANCELLED"}
+        results = []
         for outcome in job.outcomes:
             if outcome.mapped:
-                self.report({"INFO"} if outcome.converged else {"WARNING"}, wording.result_line(outcome))
-            found = [one["text"] for mapped in outcome.mapped for one in wording.warnings(outcome.task, mapped)]
-            for warning in dict.fromkeys([*found, *outcome.remarks]):
-                self.report({"WARNING"}, f"{outcome.name}: {warning}")
-        if failures:
-            self.report({"WARNING"}, "Koebe UV: not mapped. " + few(failures))
-        return {"FINISHED"}
+                found = [one["text"] for mapped in outcome.mapped for one in wording.warnings(outcome.task, mapped)]
+                said = wording.few([text for _, text in wording.notes(outcome)], "; ")
+                notes = [f"{outcome.name}: {said}"] if said else []
+                warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
+                results.append((wording.result_line(outcome), outcome.converged, notes, warnings))
+        return self._tell(job, failures, results)
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_uniformize,))

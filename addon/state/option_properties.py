@@ -32,6 +32,13 @@ class UniformizeProperties:
         default=DEFAULTS.engine,
         description="How the steps of the iteration are computed. Both give the same map",
     )
+    cut: BoolProperty(
+        name="Any Mesh",
+        default=DEFAULTS.cut,
+        description="Open, cut and split in the UVs, by as few edges as can be, what has no map as it is: closed "
+        "surfaces, handles, edges with more than two faces, one-sided surfaces, degenerate and double faces. The mesh "
+        "stays; the report names the cuts and selects them. Off: such surfaces are refused, what is wrong is selected",
+    )
     outer: EnumProperty(
         name="Outer Loop",
         items=[
@@ -87,6 +94,13 @@ class UniformizeProperties:
         default=DEFAULTS.balance,
         description="Use of the freedom that a conformal map leaves: which point becomes the centre of the disk",
     )
+    importance: StringProperty(
+        name="Importance",
+        default=DEFAULTS.importance,
+        description="Vertex group by which Balance is weighed: where its weight is 1 it asks for 4 times the texel "
+        "density of where it is 0 (4 to the power of the weight). It only moves the disk's centre: angles and circles "
+        "stay exact. Islands with a Centre are not balanced. Empty: all is as important",
+    )
     polish: BoolProperty(
         name="Polish",
         default=DEFAULTS.polish,
@@ -98,6 +112,16 @@ class UniformizeProperties:
         default=DEFAULTS.upright,
         description="Turn every island so that the world's up (+Z, or +Y for what lies flat) is up in the UV Editor. "
         "A conformal map leaves the turn of the disk open",
+    )
+    symmetry: EnumProperty(
+        name="Symmetry",
+        items=[
+            ("off", "Off", "As the map comes out, symmetric up to the triangles"),
+            ("auto", "Automatic", "An island that is its own mirror image gets exactly symmetric UVs, about a vertical "
+             "line. The plane is found; what is not symmetric stays as it is, and the report says why"),
+        ],
+        default=DEFAULTS.symmetry,
+        description="Exact symmetry of the UVs. Circles stay circles",
     )
     tube: EnumProperty(
         name="Tube",

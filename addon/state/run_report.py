@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The last run's report, island by island, kept with the window manager for the panel to show."""
 
+import contextlib
 import json
+from collections.abc import Iterator
 
 import bpy
 import numpy as np
@@ -23,7 +25,7 @@ from ..maps.offending_elements import offending_elements
 from ..maps.outcomes import IslandOutcome, SurfaceOutcome
 from ..maps.parts import PartsOutcome
 from ..maps.surface import Island
-from ..maps.wording import explain, warnings
+from ..maps.wording import UNEVEN, cut_line, explain, notes, too_uneven, warnings
 
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
@@ -51,6 +53,8 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     roundness: FloatProperty(description="Largest deviation from a circle before the last step")
     flipped: IntProperty(description="Triangles that are turned over in the UVs")
     flipped_faces: StringProperty(description="Their faces, as JSON")
+    note: StringProperty(description="What was done to the island beside its map: cut, made symmetric")
+    cuts: StringProperty(description="Vertices of the mesh along each cut, as JSON, with the first of its pieces")
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
     density: FloatProperty(description="Of parts: texel density at 95 % of the area over that at 5 %")
@@ -86,22 +90,46 @@ def record(
     refused: list[tuple[str, str]],
 ) -> None:
     """Replace the report: by outcomes that were written to a UV layer, and names and reasons of what was left out."""
-    report = report_of(context)
-    note_group(run, report)
-    report.islands.clear()
+    with _new_report(run, context, refused) as report:
+        _record_maps(report, outcomes, layer)
+
+
+def _record_maps(report: KoebeReport, outcomes: list[SurfaceOutcome], layer: str) -> None:
     for outcome in outcomes:
         if outcome.not_written:
             _record_failure(report, outcome.name, outcome.not_written)
             continue
+        said_of: dict[int, list[str]] = {}
+        for one, text in notes(outcome):
+            said_of.setdefault(id(one), []).append(text)
         for index, one in enumerate(outcome.islands):
             entry = report.islands.add()
             entry.object_name, entry.island, entry.layer = outcome.name, index, layer
             if one.error is None:
                 _record_result(entry, outcome, one)
+                said = said_of.get(id(one), [])
+                entry.note = "; ".join([*said, *([UNEVEN] if too_uneven(one) else [])])
+                if one.opening is not None and said and said[0] == cut_line(one.opening):
+                    entry.cuts = json.dumps([
+                        path
+                        for kind, vertices in one.opening.cuts
+                        for path in ([[v] for v in vertices.tolist()] if kind == "bow_tie" else [vertices.tolist()])
+                    ])
             else:
                 entry.message = explain(one.error)
                 kind, elements = offending_elements(outcome.task.surface, one)
                 entry.offenders = json.dumps([kind, elements.tolist()])
+
+
+@contextlib.contextmanager
+def _new_report(
+    run: Transaction, context: bpy.types.Context, refused: list[tuple[str, str]]
+) -> Iterator[KoebeReport]:
+    """An empty report to fill; what was left out is added to it in the end."""
+    report = report_of(context)
+    note_group(run, report)
+    report.islands.clear()
+    yield report
     for name, text in refused:
         _record_failure(report, name, text)
     # What has to be looked at comes first.
@@ -116,24 +144,19 @@ def record_parts(
     refused: list[tuple[str, str]],
 ) -> None:
     """Replace the report by the parts of objects, an entry for each object. They have no circles to be drawn."""
-    report = report_of(context)
-    note_group(run, report)
-    report.islands.clear()
-    for outcome in outcomes:
-        if outcome.problem:
-            _record_failure(report, outcome.name, outcome.problem)
-        for result in outcome.mapped:
-            entry = report.islands.add()
-            entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)
-            entry.mapped = entry.converged = True
-            entry.angle_error, entry.flipped = result.angle_error_deg["mean"], result.flipped
-            entry.density, entry.cut_length = result.density_ratio_5_95, result.cut_length
-            entry.seconds = result.seconds
-            entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
-            entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
-    for name, text in refused:
-        _record_failure(report, name, text)
-    report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
+    with _new_report(run, context, refused) as report:
+        for outcome in outcomes:
+            if outcome.problem:
+                _record_failure(report, outcome.name, outcome.problem)
+            for result in outcome.mapped:
+                entry = report.islands.add()
+                entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)
+                entry.mapped = entry.converged = True
+                entry.angle_error, entry.flipped = result.angle_error_deg["mean"], result.flipped
+                entry.density, entry.cut_length = result.density_ratio_5_95, result.cut_length
+                entry.seconds = result.seconds
+                entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
+                entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
 
 
 def _record_failure(report: KoebeReport, name: str, text: str) -> None:
@@ -150,13 +173,12 @@ def _record_result(entry: KoebeIslandReport, outcome: SurfaceOutcome, one: Islan
     entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
     entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
     entry.message = "; ".join([*(warning["text"] for warning in warnings(outcome.task, one)), *outcome.remarks])
-    centers = one.placement.apply(one.turned(result.centers))
-    for vertices, center, radius, roundness in zip(
-        result.loops, centers, result.radii, result.roundness, strict=True
+    for vertices, center, uv_radius, radius, roundness in zip(
+        result.loops, *one.circles(), result.radii, result.roundness, strict=True
     ):
         loop = entry.loops.add()
         loop.uv_center = center
-        loop.uv_radius = 0.0 if one.unrolled else one.placement.scale * float(radius)
+        loop.uv_radius = 0.0 if one.unrolled else float(uv_radius)
         loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
         loop.radius, loop.roundness = float(radius), float(roundness)
 
@@ -184,6 +206,12 @@ def active_entry(context: bpy.types.Context) -> KoebeIslandReport | None:
     if not 0 <= report.active < len(report.islands):
         return None
     return report.islands[report.active]
+
+
+def entries_of_object(context: bpy.types.Context) -> list[KoebeIslandReport]:
+    """All islands of the object whose details are shown."""
+    active = active_entry(context)
+    return [entry for entry in report_of(context).islands if active and entry.object_name == active.object_name]
 
 
 CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)

@@ -10,6 +10,7 @@ from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.parts import UV_OT_koebe_parts
+from ..operators.run_operator import draw_option
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import KoebeSettings, copy_options, copy_part_options, settings_of
@@ -33,10 +34,11 @@ class MainPanel(KoebePanel):
         layout = self.aligned_layout()
         settings = settings_of(context)
         column = layout.column()
-        for name in ("outer", "center", "point", "balance", "tube", "upright", "placement", "margin", "layer"):
-            row = column.row()
-            row.active = name != "margin" or settings.placement != "keep"
-            row.prop(settings, name)
+        for name in (
+            "cut", "outer", "center", "point", "balance", "importance", "tube", "upright", "symmetry", "placement",
+            "margin", "layer",
+        ):  # fmt: skip
+            draw_option(column, settings, name, context)
         row = column.row(heading="Checker")
         row.prop(settings, "checker", text="")
         size = row.row()

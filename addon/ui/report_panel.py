@@ -6,13 +6,14 @@ from typing import Any, Literal
 import bpy
 
 from ..operators.select_from_report import (
+    UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
     UV_OT_koebe_select_loop,
     UV_OT_koebe_select_offenders,
 )
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import copy_options, settings_of
-from ..state.run_report import KoebeIslandReport, active_entry, report_of
+from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object, report_of
 from .panel_parts import KoebePanel, draw_message
 
 MAX_LOOP_BUTTONS = 40
@@ -65,6 +66,8 @@ class ReportPanel(KoebePanel):
         which = "" if entry.parts else f", island {entry.island + 1}"
         layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
         draw_message(layout, entry.message)
+        if entry.note:
+            draw_message(layout, entry.note.capitalize())
         if entry.moved:
             draw_message(layout, entry.moved.capitalize())
         if entry.mapped:
@@ -95,6 +98,8 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         split = table.split(factor=0.45)
         split.label(text=name)
         split.label(text=value)
+    if any(one.cuts for one in entries_of_object(bpy.context)):
+        column.operator(UV_OT_koebe_select_cuts.bl_idname, icon="RESTRICT_SELECT_OFF")
     if entry.flipped:
         column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
     if not entry.loops:

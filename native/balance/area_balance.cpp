@@ -40,8 +40,20 @@ FaceScales moved(const FaceScales& scales, const Moebius& map)
 
 }  // namespace
 
-FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index most)
+VectorXd importance_factors(const Triangles& triangles, const VectorXd& importance)
 {
+    VectorXd factors(triangles.rows());
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const double sum = importance[triangles(f, 0)] + importance[triangles(f, 1)] + importance[triangles(f, 2)];
+        factors[f] = std::pow(most_important, 2.0 * sum / 3.0);
+    }
+    return factors;
+}
+
+FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index most,
+                       const VectorXd& importance)
+{
+    const VectorXd factors = importance.size() > 0 ? importance_factors(triangles, importance) : VectorXd();
     const Eigen::Index stride = std::max<Eigen::Index>(1, triangles.rows() / most);
     std::vector<Complex> centers;
     std::vector<double> log_ratio, weights;
@@ -50,7 +62,7 @@ FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, con
         const auto corner = [&](int c) { return Complex(uv(triangles(f, c), 0), uv(triangles(f, c), 1)); };
         const Eigen::RowVector3d e1 = vertices.row(triangles(f, 1)) - vertices.row(triangles(f, 0));
         const Eigen::RowVector3d e2 = vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 0));
-        const double area = 0.5 * e1.cross(e2).norm();
+        const double area = 0.5 * e1.cross(e2).norm() * (factors.size() > 0 ? factors[f] : 1.0);
         whole += area;
         if (f % stride != 0) continue;
         const double uv_area = 0.5 * std::imag(std::conj(corner(1) - corner(0)) * (corner(2) - corner(0)));

@@ -1,27 +1,13 @@
 #include "cli/landmark_file.h"
 
+#include "cli/text_file.h"
 #include "core/errors.h"
-#include "io/file_error.h"
 #include "io/text_numbers.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 namespace koebe::cli {
 namespace {
-
-std::string text_of(const std::string& path)
-{
-    std::ifstream file(std::filesystem::path(path), std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.good() && !file.eof()) throw FileError("cannot read " + path + " (" + std::strerror(errno) + ")");
-    return text;
-}
 
 [[noreturn]] void refuse(const std::string& path, int line)
 {
@@ -48,8 +34,7 @@ NamedPoint position_of(const std::vector<std::string_view>& words, std::size_t f
 
 NamedLandmarks read_landmarks(const std::string& path)
 {
-    std::string text = text_of(path);
-    std::ranges::replace(text, ',', ' ');
+    const std::string text = read_words(path);
     NamedLandmarks landmarks;
     io::TextLines lines(text);
     for (int line = 1; lines.next_line(); ++line) {

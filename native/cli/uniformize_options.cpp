@@ -20,6 +20,8 @@ void add_uniformize_options(CLI::App& app, MapRequest& request, UniformizeWords&
         ->check(one_of({"none", "area"}))
         ->capture_default_str();
     app.add_flag("--polish", request.options.polish, "lower the angle error, circles unchanged; slower");
+    app.add_flag("--cut", words.cut,
+                 "open, cut and split in the UVs what cannot be mapped as it is: any mesh, several pieces");
     add_domain_options(app, request);
     add_mesh_engine_options(app, words.mesh);
 }
@@ -32,6 +34,8 @@ void set_uniformize_options(const CLI::App& app, const UniformizeWords& words, M
     options.balance = words.balance == "none" ? Balance::none : Balance::area;
     set_outer_loop(request);
     set_mesh_engine_options(app, words.mesh, options);
+    if (words.cut && !options.mesh.schedule.empty())
+        throw CLI::ValidationError("--cut", "excludes --schedule: which loops there are follows from the cuts");
     if (options.center >= 0 && options.balance != Balance::none)
         throw CLI::ValidationError("--center", "excludes --balance: both choose the automorphism of the disk");
 }
@@ -41,6 +45,7 @@ nlohmann::ordered_json options_report(const MapRequest& request, const Uniformiz
     nlohmann::ordered_json report{{"method", words.method}, {"engine", words.engine}};
     report.update(domain_options_report(request));
     report.update({{"balance", words.balance}, {"polish", request.options.polish}});
+    if (words.cut) report["cut"] = true;
     if (request.options.engine == Engine::mesh)
         report.update({{"partners", words.mesh.partners},
                        {"schedule", words.mesh.schedule},

@@ -13,9 +13,10 @@ namespace koebe::cli {
 struct UniformizeWords {
     std::string method = "gk", engine = "condensed", balance = "none";
     MeshEngineWords mesh;
+    bool cut = false;
 };
 
-/// --method, --engine, --balance, --polish, those of add_domain_options, and those of the mesh engine.
+/// --method, --engine, --balance, --polish, --cut, those of add_domain_options, and those of the mesh engine.
 void add_uniformize_options(CLI::App& app, MapRequest& request, UniformizeWords& words);
 
 /// Sets what the words mean.

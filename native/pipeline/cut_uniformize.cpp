@@ -1,5 +1,6 @@
 #include "pipeline/cut_uniformize.h"
 
+#include "balance/area_balance.h"
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/peak_memory.h"
@@ -7,6 +8,7 @@
 #include "pipeline/cut_sheet.h"
 #include "pipeline/cut_warnings.h"
 #include "pipeline/disk_packing.h"
+#include "pipeline/domain.h"
 #include "pipeline/uniformize.h"
 
 #include <Eigen/Geometry>
@@ -115,6 +117,11 @@ private:
         }
         own.vertex_names = opened_.pieces[i].source_vertex;
         own.face_names = opened_.pieces[i].source_face;
+        if (!own.importance.empty()) {
+            own.importance.clear();
+            for (const Index v : opened_.pieces[i].source_vertex)
+                own.importance.push_back(options_.importance[static_cast<std::size_t>(v)]);
+        }
         return own;
     }
 
@@ -133,26 +140,41 @@ private:
     NamedVertex outer_, center_, point_;
 };
 
-double area_of(const SurfacePiece& piece, double unit)
+/// @param importance (V') or empty
+double area_of(const SurfacePiece& piece, double unit, const VectorXd& importance)
 {
     double area = 0.0;
-    for (const auto& face : piece.triangles.rowwise()) {
+    const VectorXd factors = importance.size() > 0 ? importance_factors(piece.triangles, importance)
+                                                   : VectorXd::Ones(piece.triangles.rows());
+    for (Eigen::Index f = 0; f < piece.triangles.rows(); ++f) {
+        const auto face = piece.triangles.row(f);
         const Eigen::RowVector3d a = piece.vertices.row(face[0]) / unit;
         const Eigen::RowVector3d ab = piece.vertices.row(face[1]) / unit - a,
                                  ac = piece.vertices.row(face[2]) / unit - a;
-        area += 0.5 * ab.cross(ac).norm();
+        area += 0.5 * ab.cross(ac).norm() * factors[f];
     }
     return area;
 }
 
-/// Radii of disks with the areas of the pieces, the least of them larger.
-std::vector<double> radii_by_area(const std::vector<SurfacePiece>& pieces)
+/// Radii of disks with the areas of the pieces, what is important larger, and the least of them larger.
+/// @param importance (V) of the mesh, or empty
+std::vector<double> radii_by_area(const std::vector<SurfacePiece>& pieces, const std::vector<double>& importance)
 {
+    double least = 1.0;
+    for (const SurfacePiece& piece : pieces)
+        for (const Index v : piece.source_vertex)
+            if (!importance.empty()) least = std::min(least, importance[static_cast<std::size_t>(v)]);
+    const auto own_importance = [&](const SurfacePiece& piece) {
+        VectorXd own(importance.empty() ? 0 : static_cast<Eigen::Index>(piece.source_vertex.size()));
+        for (Eigen::Index v = 0; v < own.size(); ++v)
+            own[v] = importance[static_cast<std::size_t>(piece.source_vertex[static_cast<std::size_t>(v)])] - least;
+        return own;
+    };
     double unit = 0.0;
     for (const SurfacePiece& piece : pieces) unit = std::max(unit, piece.vertices.cwiseAbs().maxCoeff());
     std::vector<double> radii;
     for (const SurfacePiece& piece : pieces)
-        radii.push_back(std::sqrt(area_of(piece, unit > 0.0 ? unit : 1.0) / std::numbers::pi));
+        radii.push_back(std::sqrt(area_of(piece, unit > 0.0 ? unit : 1.0, own_importance(piece)) / std::numbers::pi));
     double squares = 0.0;
     for (const double radius : radii) squares += radius * radius;
     const double mean = std::sqrt(squares / static_cast<double>(radii.size()));
@@ -189,6 +211,7 @@ CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& 
     result.engine = options.engine;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
+    require_importance(options, result.vertex_count);
     context.begin_stage("cut", 0.0, opening_share);
     OpenedSurface opened = open_surface(vertices, triangles, {.polygon = polygon}, context);
     const double opening = seconds_since(begin);
@@ -216,7 +239,7 @@ CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& 
     if (failure && std::ranges::none_of(result.pieces, &MappedPiece::mapped)) std::rethrow_exception(failure);
 
     Sheet sheet(opened.pieces);
-    std::vector<double> radii = radii_by_area(opened.pieces);
+    std::vector<double> radii = radii_by_area(opened.pieces, options.importance);
     std::vector<Circle> places;
     for (int round = 0; round < most_packings; ++round) {
         places = pack_disks(radii);

@@ -70,7 +70,34 @@ Index find_center(const Domain& domain, const UniformizeOptions& options, Index 
     return center;
 }
 
+/// Of the domain's vertices, the least one 0; empty where all are alike.
+VectorXd find_importance(const Domain& domain, const UniformizeOptions& options, Index vertex_count)
+{
+    require_importance(options, vertex_count);
+    if (options.importance.empty()) return {};
+    VectorXd own(domain.vertices.rows());
+    for (Eigen::Index v = 0; v < own.size(); ++v) own[v] = options.importance[domain.original[v]];
+    const double least = own.minCoeff();
+    if (own.maxCoeff() == least) return {};
+    return own.array() - least;
+}
+
 }  // namespace
+
+void require_importance(const UniformizeOptions& options, Index vertex_count)
+{
+    if (options.importance.empty()) return;
+    if (options.balance != Balance::area) throw InputError("importance is of the balance: ask for balance too");
+    if (options.importance.size() != static_cast<std::size_t>(vertex_count))
+        throw InputError("there must be an importance for each vertex: " + std::to_string(vertex_count) + ", not " +
+                         std::to_string(options.importance.size()));
+    std::vector<Index> bad;
+    for (Index v = 0; v < vertex_count; ++v)
+        if (!(options.importance[v] >= 0.0 && options.importance[v] <= 1.0)) bad.push_back(v);
+    if (!bad.empty())
+        throw InputError(std::to_string(bad.size()) + " vertices have an importance that is not from 0 to 1",
+                         ElementKind::vertices, bad);
+}
 
 Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
 {
@@ -87,6 +114,7 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
 
     const std::size_t outer = choose_outer_loop(domain, options);
     domain.center = find_center(domain, options, static_cast<Index>(vertices.rows()));
+    domain.importance = find_importance(domain, options, static_cast<Index>(vertices.rows()));
     if (options.point >= 0)
         domain.point = static_cast<Index>(std::ranges::find(domain.original, options.point) - domain.original.begin());
     domain.outer_rank = rank_by_lowest_vertex(domain, domain.surface.loops[outer]);
@@ -126,6 +154,7 @@ Domain core_domain(const Domain& whole, FlapCut& cut)
     core.surface = std::move(cut.core);
     core.vertices = whole.vertices(cut.vertices, Eigen::all);
     for (const Index v : cut.vertices) core.original.push_back(whole.original[v]);
+    if (whole.importance.size() > 0) core.importance = whole.importance(cut.vertices);
     core.loops = cut.loops;
     for (const VertexLoop& loop : core.loops) core.edges.push_back(loop_edges(core.vertices, loop));
     core.outer_rank = whole.outer_rank;

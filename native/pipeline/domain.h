@@ -21,6 +21,7 @@ struct Domain {
     std::vector<VertexLoop> loops;      // outer first, then by falling length on the surface
     std::vector<VectorXd> edges;        // length of the edge from each loop vertex to the next
     std::vector<char> first_corners;    // of each face, the corner that was the first of the input's; of a core: empty
+    VectorXd importance;                // of the vertices, the least one 0; empty: all alike
     double thinnest = 0.0;              // least height of a face, in steps of the canonical grid
     Index center = -1, point = -1;      // vertices that go to 0 and to 1, if any; of a core: none
     int outer_rank = 0;                 // of the outer loop among the input's, which go by their lowest vertices
@@ -31,6 +32,9 @@ bool is_polygon(const Domain& domain);
 
 /// The place of a loop of the domain among the input's loops, which are in the order of their lowest vertices.
 int rank_by_lowest_vertex(const Domain& domain, const VertexLoop& loop);
+
+/// @throws InputError importance without a balance, of another number of vertices, or not from 0 to 1
+void require_importance(const UniformizeOptions& options, Index vertex_count);
 
 /// @throws InputError, TopologyError
 Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);

@@ -100,7 +100,7 @@ std::optional<CircleMap> with_area_balanced(const DomainSolver& solver, const Ci
     const Domain& domain = solver.domain;
     double distortion = 0.0;
     const Moebius balance = least_area_distortion(
-        face_scales(domain.vertices, domain.surface.triangles, map.uv, balance_sample), distortion);
+        face_scales(domain.vertices, domain.surface.triangles, map.uv, balance_sample, domain.importance), distortion);
     return moved_by(solver, map, balance);
 }
 

@@ -21,7 +21,10 @@ struct UniformizeOptions : IterationOptions {
     Index outer_vertex = -1;  ///< with OuterLoop::vertex: a vertex of the loop to put on the unit circle
     Balance balance = Balance::none;
     Index center = -1, point = -1;  ///< vertices, one inside that goes to 0, one of the outer loop to 1; -1: none
-    bool polish = false;            ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    /// With Balance::area, of each vertex, 0 to 1: the balance takes the surface there for most_important^w times as
+    /// large in length, so that it gets more texels; empty: all alike. Equal ones change nothing.
+    std::vector<double> importance = {};
+    bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
     /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. Today one is used: the result is the same for any number

@@ -24,8 +24,9 @@ int better_outer_loop(const Domain& domain, const CircleMap& map)
 {
     std::vector<int> longest(std::min(map.circles.size(), most_candidates));
     std::iota(longest.begin(), longest.end(), 0);
-    return balanced_outer_loop(face_scales(domain.vertices, domain.surface.triangles, map.uv, sample), map.circles,
-                               longest);
+    return balanced_outer_loop(
+        face_scales(domain.vertices, domain.surface.triangles, map.uv, sample, domain.importance), map.circles,
+        longest);
 }
 
 void put_outside(int loop, Domain& whole, FlapCut& cut, std::optional<Domain>& core)

@@ -13,6 +13,7 @@
 #include "linear/dense_spd.h"
 #include "parts/parts.h"
 #include "pipeline/cut_uniformize.h"
+#include "pipeline/cut_warnings.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "report/cut_json.h"
@@ -49,6 +50,25 @@ Surface surface_with_loops(const Vertices& vertices, const Triangles& triangles,
         throw InputError("the map is for " + std::to_string(count) + " boundary loops, the mesh has " +
                          std::to_string(surface.loops.size()));
     return surface;
+}
+
+py::array_t<Index> array_of(const std::vector<Index>& numbers)
+{
+    return py::array_t<Index>(numbers.size(), numbers.data());
+}
+
+/// Pieces, cuts and faces left out, as tuples, and the number of handles.
+py::tuple opened_tuple(const OpenedSurface& opened)
+{
+    py::list pieces, cuts, left_out;
+    for (const SurfacePiece& piece : opened.pieces)
+        pieces.append(py::make_tuple(piece.vertices, piece.triangles, array_of(piece.source_vertex),
+                                     array_of(piece.source_face),
+                                     py::array_t<char>(piece.turned.size(), piece.turned.data())));
+    for (const SurfaceCut& cut : opened.cuts)
+        cuts.append(py::make_tuple(to_string(cut.kind), array_of(cut.vertices), cut_text(cut)));
+    for (const LeftOutFace& out : opened.left_out) left_out.append(py::make_tuple(out.face, out.like, out.degenerate));
+    return py::make_tuple(pieces, cuts, left_out, opened.handles);
 }
 
 /// @throws SolverError a position that is not finite
@@ -146,6 +166,7 @@ PYBIND11_MODULE(_koebe, m)
         .def_readwrite("tolerance", &UniformizeOptions::tolerance)
         .def_readwrite("max_sweeps", &UniformizeOptions::max_sweeps)
         .def_readwrite("balance", &UniformizeOptions::balance)
+        .def_readwrite("importance", &UniformizeOptions::importance)
         .def_readwrite("threads", &UniformizeOptions::threads)
         .def_readwrite("polish", &UniformizeOptions::polish);
 
@@ -192,6 +213,16 @@ PYBIND11_MODULE(_koebe, m)
                   return uniformize_with_cuts(vertices, triangles, polygon, options, context);
               });
           });
+    m.def("open_surface", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                             const std::vector<Index>& polygon, const py::object& progress, const CancelToken& cancel) {
+        return opened_tuple(without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return run_detachable<OpenedSurface>(context,
+                                                 [points = Vertices(vertices), faces = Triangles(triangles),
+                                                  options = OpenOptions{.polygon = polygon}](ExecutionContext& own) {
+                                                     return open_surface(points, faces, options, own);
+                                                 });
+        }));
+    });
     py::class_<PartsResult>(m, "PartsResult")
         .def_property_readonly("uv", [](const PartsResult& r) { return r.uv; })
         .def_property_readonly("part",

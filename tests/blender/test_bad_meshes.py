@@ -69,7 +69,7 @@ def test_the_reason_is_said_and_nothing_is_changed(kind):
     scenes.select(obj)
     before = scenes.mesh_state(obj.data)
     with pytest.raises(RuntimeError, match=rf"(?s)Bad: .*({words})"):
-        bpy.ops.uv.koebe_uniformize()
+        bpy.ops.uv.koebe_uniformize(cut=False)
     assert scenes.mesh_state(obj.data) == before
     assert len(obj.data.uv_layers) == 0
     assert len(obj.material_slots) == 0
@@ -90,7 +90,7 @@ def test_an_object_whose_scale_leaves_a_line_is_refused_and_another_done(scale):
 def test_good_objects_are_done_beside_bad_ones():
     good, bad = scenes.add_panel("Good"), scenes.add_cube("Bad")
     scenes.select(bad, good)
-    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert bpy.ops.uv.koebe_uniformize(cut=False) == {"FINISHED"}
     assert len(bad.data.uv_layers) == 0 and len(bad.material_slots) == 0
     alone = scenes.add_panel("Alone")
     bpy.ops.uv.koebe_uniformize()
@@ -137,7 +137,7 @@ def test_the_crowded_edge_is_selected_in_edit_mode():
     scenes.select(obj)
     scenes.select_faces(obj)
     with pytest.raises(RuntimeError, match="edge"):
-        bpy.ops.uv.koebe_uniformize()
+        bpy.ops.uv.koebe_uniformize(cut=False)
     assert bpy.context.mode == "EDIT_MESH"
     assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, True, False)
     vertices, edges, faces = selected(obj)
@@ -153,7 +153,7 @@ def test_the_bad_island_is_selected_and_the_good_one_done():
     obj = scenes.add_object("Both", np.vstack([vertices, corners]), together)
     scenes.select(obj)
     scenes.select_faces(obj)
-    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert bpy.ops.uv.koebe_uniformize(cut=False) == {"FINISHED"}
     assert selected(obj)[2] == list(range(len(faces), len(faces) + 6))
     assert not scenes.corner_uv(obj.data, "Koebe")[-24:].any()
     alone = scenes.add_panel("Alone")

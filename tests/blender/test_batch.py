@@ -129,7 +129,7 @@ def test_no_input_is_2(batch, tmp_path):
 def test_a_bad_mesh_is_3_with_its_reason_and_no_blend(batch, tmp_path):
     scenes.add_panel("Good")
     scenes.add_cube("Bad")
-    done = batch("--output", "out.blend", "--report", "out.json")
+    done = batch("--output", "out.blend", "--report", "out.json", "--no-cut")
     assert done.returncode == 3
     assert "Bad: " in done.stderr and "closed" in done.stderr and "Traceback" not in done.stderr
     assert outputs(tmp_path) == ["out.json"]
@@ -162,7 +162,7 @@ def test_the_output_may_replace_the_input_and_leaves_no_backup(batch, tmp_path):
 def test_a_failed_run_keeps_an_older_output(batch, tmp_path):
     (tmp_path / "out.blend").write_text("older")
     scenes.add_cube()
-    assert batch("--output", "out.blend").returncode == 3
+    assert batch("--output", "out.blend", "--no-cut").returncode == 3
     assert (tmp_path / "out.blend").read_text() == "older"
 
 

@@ -52,14 +52,14 @@ def rows(out):
 
 def test_a_folder_is_mapped_file_by_file_and_resumed(addon_name, koebe, library, tmp_path):
     out = tmp_path / "out"
-    words = (library, "--output", out, "--workers", "2", "--layer", "Mine", "--no-upright")
+    words = (library, "--output", out, "--workers", "2", "--layer", "Mine", "--no-upright", "--no-cut")
     code, printed, err = run(addon_name, tmp_path, *words)
     assert code == 3, err
     table = rows(out)
     codes = {name: row["exit_code"] for name, row in table.items()}
     assert codes == {"a.blend": 0, "closed.blend": 3, "more/b.blend": 0}
     assert table["a.blend"]["faces"] > 0 == table["a.blend"]["flipped"] and table["a.blend"]["angle_error_deg"] > 0.0
-    assert sorted(table["a.blend"]["options"]["arguments"]) == ["--layer=Mine", "--no-upright"]
+    assert sorted(table["a.blend"]["options"]["arguments"]) == ["--layer=Mine", "--no-cut", "--no-upright"]
     assert table["closed.blend"]["error"] is not None and not (out / "closed.blend").exists()
     for name in ("a", "more/b"):
         bpy.ops.wm.open_mainfile(filepath=str(out / f"{name}.blend"))
@@ -96,7 +96,7 @@ def test_a_library_has_no_one_report(addon_name, library, tmp_path):
 
 def test_killed_half_way_it_is_resumed(addon_name, koebe, library, tmp_path):
     out = tmp_path / "out"
-    words = (library, "--output", out, "--workers", "1")
+    words = (library, "--output", out, "--workers", "1", "--no-cut")
     process = start(addon_name, tmp_path, *words)
     end = time.monotonic() + 120
     while not (out / "a.json").exists() and time.monotonic() < end:

@@ -21,7 +21,7 @@ def test_every_island_is_reported_with_its_figures(koebe):
     obj = add_seamed_panel()
     bad = scenes.add_cube("Bad")
     scenes.select(obj, bad)
-    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.uv.koebe_uniformize(cut=False)
     inner, outer, closed = islands()
     assert [entry.object_name for entry in (inner, outer, closed)] == ["Panel", "Panel", "Bad"]
     assert [entry.mapped for entry in (inner, outer, closed)] == [True, True, False]
@@ -75,7 +75,7 @@ def test_offenders_are_selected_from_object_mode():
     obj = scenes.add_object("Bad", FAN, [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
     good = scenes.add_panel("Good")
     scenes.select(good, obj)
-    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.uv.koebe_uniformize(cut=False)
     bpy.context.window_manager.koebe_uv.active = 1
     assert bpy.ops.uv.koebe_select_offenders() == {"FINISHED"}
     assert bpy.context.active_object is obj and not good.select_get()
@@ -167,7 +167,7 @@ def test_an_error_about_many_objects_is_a_few_lines_and_the_report_has_all():
     cubes = [scenes.add_cube(f"Cube {index}") for index in range(40)]
     scenes.select(*cubes)
     with pytest.raises(RuntimeError) as caught:
-        bpy.ops.uv.koebe_uniformize()
+        bpy.ops.uv.koebe_uniformize(cut=False)
     lines = str(caught.value).strip().splitlines()
     assert len(lines) <= 8 and max(map(len, lines)) < 160 and "34 more" in lines[-1]
     assert [entry.object_name for entry in islands()] == [cube.name for cube in cubes]

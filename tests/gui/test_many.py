@@ -95,6 +95,7 @@ def test_hundreds_of_objects_compared_and_carried_to(window):
 
 def test_a_message_about_many_objects_fits_on_the_screen(window):
     fill(window, count=200, apart=True, closed=True)
+    window.run("bpy.context.scene.koebe_uv.cut = False")
     window.press("uv.koebe_uniformize")
     window.wait(f"not heart.computing and {ISLANDS} == 200")
     window.settle()

@@ -1,6 +1,7 @@
 #include "balance/area_balance.h"
 #include "circle_domain.h"
 #include "circles/circle_fit.h"
+#include "core/errors.h"
 #include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
@@ -82,4 +83,39 @@ TEST(AreaBalance, lowers_the_area_distortion_and_keeps_circles_and_angles)
                             inversive_distance(plain.loops[i].circle, plain.loops[j].circle),
                         1.0, 1e-9);
     }
+}
+
+/// Where the surface is to count for as much larger as an automorphism makes it, that is the even map.
+TEST(AreaBalance, gives_what_is_important_the_room_that_it_asks_for)
+{
+    const CircleDomain domain = make_circle_domain({Circle{}}, 4000);
+    const Vertices flat = lift(domain.points, Lift::plane);
+    for (const Complex a : {Complex(0.3, 0.0), Complex(-0.1, 0.25)}) {
+        const VectorXd scale = (1.0 - std::norm(a)) / (1.0 - std::conj(a) * domain.points.array()).abs2();
+        const VectorXd importance = (scale.array() / scale.minCoeff()).log() / std::log(most_important);
+        ASSERT_LE(importance.maxCoeff(), 1.0);
+        double distortion = 0.0;
+        const Moebius balance = least_area_distortion(
+            face_scales(flat, domain.triangles, planar(domain.points), 20000, importance), distortion);
+        EXPECT_LT(std::abs(balance.a - a), 2e-3) << a;
+        EXPECT_LT(distortion, 1e-2) << a;
+    }
+}
+
+TEST(AreaBalance, equal_importance_changes_no_bit)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 2000);
+    const Vertices surface = lift(domain.points, Lift::polynomial);
+    UniformizeOptions options;
+    options.balance = Balance::area;
+    const UniformizeResult plain = uniformize(surface, domain.triangles, options);
+    options.importance.assign(static_cast<std::size_t>(surface.rows()), 0.7);
+    EXPECT_EQ(uniformize(surface, domain.triangles, options).uv, plain.uv);
+    options.importance.back() = 2.0;
+    EXPECT_THROW(uniformize(surface, domain.triangles, options), InputError);
+    options.importance.assign(3, 0.5);
+    EXPECT_THROW(uniformize(surface, domain.triangles, options), InputError);
+    options = {};
+    options.importance.assign(static_cast<std::size_t>(surface.rows()), 0.7);
+    EXPECT_THROW(uniformize(surface, domain.triangles, options), InputError);  // there is no balance
 }

@@ -176,3 +176,17 @@ def test_progress_and_cancel_of_many_pieces():
     token.cancel()
     with pytest.raises(koebe.Cancelled):
         koebe.uniformize(many, faces, cut=True, cancel=token)
+
+
+def test_a_batch_cuts_too_and_knows_what_it_has_done(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "torus.obj").write_text(obj_text(*torus()))
+    (strict,) = koebe.batch(tmp_path / "in", tmp_path / "out")
+    assert strict["exit_code"] == CANNOT_BE_MAPPED and strict["error"] == "TopologyError(genus)"
+    (row,) = koebe.batch(tmp_path / "in", tmp_path / "out", cut=True)
+    assert row["exit_code"] == 0 and row["flipped"] == 0 and row["options"]["cut"] is True
+    written = (tmp_path / "out" / "torus.obj").stat().st_mtime_ns
+    koebe.batch(tmp_path / "in", tmp_path / "out", cut=True)
+    assert (tmp_path / "out" / "torus.obj").stat().st_mtime_ns == written
+    wrong = command("batch", "in", "--output", "out", "--cut", "--engine", "mesh", "--schedule", "0,1", cwd=tmp_path)
+    assert wrong.returncode == USAGE

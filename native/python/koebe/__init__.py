@@ -18,9 +18,11 @@ from ._cut_result import CutResult
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
+from ._load import load
+from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
 from ._parts import PartsResult, parts
 from ._plot import plot
-from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning, load
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning
 from ._shapes import (
     DomainAlignment,
     align_domains,
@@ -44,9 +46,13 @@ __all__ = [
     "Family",
     "InputError",
     "KoebeError",
+    "LeftOutFace",
+    "OpenedSurface",
     "OptionError",
     "PartsResult",
     "SolverError",
+    "SurfaceCut",
+    "SurfacePiece",
     "TopologyError",
     "UV_RESOLUTION",
     "UniformizeResult",
@@ -70,6 +76,7 @@ __all__ = [
     "module_distance",
     "module_error",
     "module_names",
+    "open_surface",
     "parts",
     "plot",
     "transfer",

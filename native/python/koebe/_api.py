@@ -83,6 +83,7 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     polish: bool = False,
     center: int | None = None,
     point: int | None = None,
+    importance: Any = None,
     partners: str = "fixed",
     schedule: Sequence[Sequence[int]] | None = None,
     metric: str = "first",
@@ -110,7 +111,8 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     center       a vertex inside the surface that goes to 0; not together with balance
     point        a vertex of a boundary loop that goes to 1; its loop is the one on the unit circle. Both together leave
                  no freedom (paper, section 4.3); center alone turns nothing, point alone only turns
-
+    importance   with balance='area': (V,) numbers from 0 to 1. The balance takes the surface for 4^w times as large in
+                 length where its importance is w, so that it gets more texels there. Equal ones change nothing
     cut          open, cut and split in the UVs what cannot be mapped as it is: closed surfaces, handles, edges of three
                  faces, one-sided surfaces, several components, degenerate and duplicate faces. Gives a CutResult, whose
                  uv are the corners' (F, 3, 2) in [0, 1]^2. A vertex named by outer, center, point is of one piece
@@ -134,7 +136,8 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     if flag(cut, "cut") and (schedule is not None or record_steps):
         raise OptionError("cut excludes schedule and record_steps: they are about the loops of one surface")
-    source = _source(vertices, triangles, cut)
+    source = surface_of(vertices, triangles, degenerate=cut)
+    options.importance = _importance(importance, balance, len(source.vertices))
     chosen = {
         "method": method, "engine": engine, "outer": outer if isinstance(outer, str) else int(outer),
         "tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "balance": balance,
@@ -143,8 +146,10 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
         "partners": partners, "schedule": sweep(schedule, "schedule") or None, "metric": metric, "annulus": annulus,
         "record_steps": options.mesh.record_steps,
     }  # fmt: skip
+    if importance is not None:
+        chosen["importance"] = True
     if cut:
-        polygon = np.zeros(0, np.int32) if source.polygon is None else source.polygon
+        polygon = polygons_of(None, source)
         made = _koebe.uniformize_with_cuts(source.vertices, source.triangles, polygon, options, progress, cancel)
         report = with_origin(made.report(), source, {**chosen, "cut": True})
         return CutResult(report, made.uv, np.array(made.flipped_faces), source)
@@ -153,7 +158,32 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
 
-def _source(vertices: Any, triangles: Any, degenerate: bool = False) -> Source:
+def _importance(values: Any, balance: str, count: int) -> np.ndarray:
+    """(V,) of the vertices, or none."""
+    if values is None:
+        return np.zeros(0)
+    if balance != "area":
+        raise OptionError("importance is of the balance: it needs balance='area'")
+    array = np.asarray(values)
+    if array.shape != (count,) or array.dtype.kind not in "fiu":
+        raise InputError(f"importance must be ({count},) real numbers, not {array.shape} {array.dtype}")
+    wrong = np.flatnonzero(~((array >= 0) & (array <= 1)))
+    if len(wrong):
+        raise InputError(f"{len(wrong)} vertices have an importance not from 0 to 1", wrong.tolist(), "vertices")
+    return array.astype(np.float64)
+
+
+def polygons_of(given: Any, source: Source) -> np.ndarray:
+    """(F,) int32: polygons' numbers as given, or as the mesh has them; empty where each triangle is one by itself."""
+    if given is None:
+        return np.zeros(0, np.int32) if source.polygon is None else source.polygon
+    numbers, count = np.asarray(given), len(source.triangles)
+    if numbers.shape != (count,) or numbers.dtype.kind not in "iu":
+        raise InputError(f"polygon must be ({count},) integers, not {numbers.shape} {numbers.dtype}")
+    return np.unique(numbers, return_inverse=True)[1].astype(np.int32)
+
+
+def surface_of(vertices: Any, triangles: Any, degenerate: bool = False) -> Source:
     """The surface as arrays, of a mesh of another package too."""
     if not is_mesh(vertices):
         if triangles is None:

@@ -6,13 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ._api import _source
-from ._arrays import as_points, as_triangles
-from ._meshes import is_mesh
+from ._api import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, flag, positive, token
-from ._result import AngleError, Source, Warning
-from .errors import InputError
+from ._result import AngleError, Warning
 
 
 class PartsResult:
@@ -97,29 +94,9 @@ def parts(
     chosen = _koebe.default_price if price is None else positive(price, "price")
     whole = flag(cut, "cut")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    source = _surface(vertices, triangles, whole)
-    numbers = _polygons(polygon, len(source.triangles)) if polygon is not None else source.polygon
-    if numbers is None:
-        numbers = np.zeros(0, np.int32)
+    source = surface_of(vertices, triangles, degenerate=whole)
+    numbers = polygons_of(polygon, source)
     native = _koebe.parts(source.vertices, source.triangles, chosen, whole, numbers, progress, cancel)
     report = native.report()
     report["options"] = {"price": chosen, "cut": whole}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32))
-
-
-def _polygons(polygon: Any, count: int) -> np.ndarray:
-    """Polygons' numbers from 0 on, in int32."""
-    given = np.asarray(polygon)
-    if given.shape != (count,) or given.dtype.kind not in "iu":
-        raise InputError(f"polygon must be ({count},) integers, not {given.shape} {given.dtype}")
-    return np.unique(given, return_inverse=True)[1].astype(np.int32)
-
-
-def _surface(vertices: Any, triangles: Any, any_mesh: bool) -> Source:
-    """Degenerate faces are taken where any mesh is."""
-    if is_mesh(vertices) or triangles is None or not any_mesh:
-        return _source(vertices, triangles)
-    positions = as_points(vertices, "vertices", 3)
-    if not len(positions):
-        raise InputError("the mesh has no vertices")
-    return Source(positions, as_triangles(triangles, len(positions), degenerate=True))

@@ -4,7 +4,6 @@ import copy
 import hashlib
 import json
 import os
-import zipfile
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -309,17 +308,3 @@ class UniformizeResult:
             '<div style="display:flex;gap:1em"><svg width="160" height="160" viewBox="-1.02 -1.02 2.04 2.04" '
             f'stroke="#1d4e89" stroke-width="0.012">{circles}</svg><div>{"<br/>".join(lines)}</div></div>'
         )
-
-
-def load(path: str | os.PathLike[str]) -> UniformizeResult:
-    """The result that `save` has written. Raises InputError for a file that is none, OSError for one that cannot be
-    read."""
-    try:
-        with np.load(path, allow_pickle=False) as file:
-            report = json.loads(str(file["report"]))
-            return UniformizeResult(
-                report, file["uv"], file["flipped_faces"], list(file["step_maps"]),
-                Source(file["vertices"], file["triangles"]),
-            )  # fmt: skip
-    except (KeyError, ValueError, TypeError, EOFError, zipfile.BadZipFile) as error:
-        raise InputError(f"{os.fspath(path)} is no result of koebe: {error}") from None

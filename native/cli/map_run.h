@@ -1,0 +1,101 @@
+// The road from an input file to the written map, whatever the kind of map: read, compute, write all or none, tell.
+#pragma once
+
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "cli/map_command.h"
+#include "cli/mesh_input.h"
+#include "cli/output_files.h"
+#include "cli/progress_line.h"
+#include "cli/result_line.h"
+#include "cli/standard_streams.h"
+#include "core/warning.h"
+#include "io/atomic_file.h"
+#include "quality/distortion.h"
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace koebe::cli {
+
+/// What the kinds of map differ in. The result has `seconds`, `converged`, `warnings` and `distortion`.
+template <typename Result>
+struct MapKind {
+    bool any_polygon = false;  ///< of read_mesh_input
+    /// All numbers in the result are the file's.
+    std::function<Result(const MeshInput&, ExecutionContext&)> compute;
+    std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
+    std::function<std::string(const MeshInput&, const Result&)> draw;
+    std::function<nlohmann::ordered_json(const Result&)> report;
+    std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
+};
+
+/// The files of a request, by the names that the usage has for them.
+std::vector<OutputFile> map_files(const MapRequest& request);
+
+/// A number in a printf format.
+std::string rounded(const char* format, double number);
+
+/// The result line: the file, the first words, and what all maps have.
+std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,
+                     double seconds, bool converged, const std::vector<Warning>& warnings);
+
+/// All of them on standard error, for people only: scripts find them in the JSON.
+void show_warnings(const std::vector<Warning>& warnings);
+
+/// All files are complete before the first gets its name.
+template <typename Result>
+void write_map(const MapRequest& request, const MapKind<Result>& kind, const MeshInput& input, Result& result,
+               std::chrono::steady_clock::time_point begin, ExecutionContext& context)
+{
+    using Clock = std::chrono::steady_clock;
+    const auto since = [](Clock::time_point then) {
+        return std::chrono::duration<double>(Clock::now() - then).count();
+    };
+    const auto begin_write = Clock::now();
+    std::vector<AtomicFile> files;
+    kind.write_mesh(files.emplace_back(request.output), input, result);
+    if (!request.svg.empty()) files.emplace_back(request.svg).write(kind.draw(input, result));
+    result.seconds.write = since(begin_write);
+    result.seconds.total = since(begin);
+    if (!request.json.empty()) {
+        nlohmann::ordered_json report = kind.report(result);
+        report["input"] = std::filesystem::path(request.input).filename().string();
+        if (!input.sha256.empty()) report["input_sha256"] = input.sha256;
+        report.update(request.entries);
+        files.emplace_back(request.json).write(json_text(report));
+    }
+    context.checkpoint();
+    for (AtomicFile& file : files) file.commit();
+}
+
+/// Reads, computes, writes all files or none, and prints the result line.
+/// @return an ExitCode
+template <typename Result>
+int run_map_of(const MapRequest& request, const MapKind<Result>& kind)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const CancelToken token = cancel_on_signal();
+    require_writable_files(map_files(request), !request.quiet);
+    const MeshInput input = read_mesh_input(request.input, token, kind.any_polygon);
+    Result result;
+    {
+        ProgressLine progress(request.quiet);
+        ExecutionContext context(progress.callback(), token);
+        result = kind.compute(input, context);
+        result.seconds.read = input.seconds;
+        write_map(request, kind, input, result, begin, context);
+    }
+    if (!request.quiet) {
+        print(map_line(request, kind.first_words(result), result.distortion, result.seconds.total, result.converged,
+                       result.warnings),
+              "; the files are written");
+        show_warnings(result.warnings);
+    }
+    return result.converged ? done : not_converged;
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,93 @@
+"""Any mesh cut, in its connectivity alone, into surfaces that can be mapped."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ._api import polygons_of, surface_of
+from ._native import _koebe
+from ._options import callback, token
+
+
+@dataclass(frozen=True)
+class SurfacePiece:
+    """A connected, oriented, manifold surface of genus 0 with one boundary loop at least: what `uniformize` takes.
+
+    vertices        (V', 3) float64, the input's positions
+    triangles       (F', 3) int32 into them; a face's corners are in the input's order, but for turned faces
+    source_vertex   (V',) int32, of the input
+    source_face     (F',) int32, of the input, rising
+    turned          (F',) bool, where the second and third corner have changed places
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    source_vertex: np.ndarray
+    source_face: np.ndarray
+    turned: np.ndarray
+
+
+@dataclass(frozen=True)
+class SurfaceCut:
+    """A cut.
+
+    kind       'crowded_edge', 'orientation', 'bow_tie', 'handle' or 'opening', as in CutResult
+    vertices   int32, of the input: a path along edges, the first one again at the end if it is closed; of a bow tie no
+               path, but all such vertices
+    text       a sentence for people
+    """
+
+    kind: str
+    vertices: np.ndarray
+    text: str
+
+
+@dataclass(frozen=True)
+class LeftOutFace:
+    """A face in no piece: `degenerate`, it names a vertex twice, or else the double of another one. `like` is the face
+    whose place it can take, or None."""
+
+    face: int
+    like: int | None
+    degenerate: bool
+
+
+@dataclass(frozen=True)
+class OpenedSurface:
+    """What `open_surface` gives: pieces by their lowest face, cuts, faces left out (rising), and how many handles."""
+
+    pieces: list[SurfacePiece]
+    cuts: list[SurfaceCut]
+    left_out: list[LeftOutFace]
+    handles_cut: int
+
+
+def open_surface(
+    vertices: Any,
+    triangles: Any = None,
+    *,
+    polygon: Any = None,
+    progress: Callable[[float, str], Any] | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> OpenedSurface:
+    """Open, cut and split any mesh until each piece can be mapped: what `uniformize(..., cut=True)` does first.
+
+    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both, whose polygons stay whole;
+                           triangles may name a vertex twice
+    polygon   (F,) integers: triangles of one number are one polygon and are not cut apart. None: each by itself
+    progress, cancel    as of `uniformize`
+    Handles are cut along short loops of a greedy homology basis [Erickson and Whittlesey 2005], a closed surface is
+    opened along a shortest path between vertices far apart. Raises InputError, Cancelled, or MemoryError.
+    """
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    source = surface_of(vertices, triangles, degenerate=True)
+    numbers = polygons_of(polygon, source)
+    pieces, cuts, left_out, handles = _koebe.open_surface(source.vertices, source.triangles, numbers, progress, cancel)
+    return OpenedSurface(
+        [SurfacePiece(p, t, vertex, face, turned.astype(bool)) for p, t, vertex, face, turned in pieces],
+        [SurfaceCut(*cut) for cut in cuts],
+        [LeftOutFace(face, like if like >= 0 else None, degenerate) for face, like, degenerate in left_out],
+        handles,
+    )

@@ -1,0 +1,113 @@
+"""Importance: what the balance is weighed by."""
+
+import json
+
+import koebe
+import numpy as np
+import pytest
+from cli_support import USAGE, obj_text, perforated, triangles_of
+from cli_support import koebe as command
+
+
+def panel(n=24):
+    """A bent plate with holes, as triangles."""
+    vertices, quads = perforated(n)
+    return np.asarray(vertices, dtype=float), triangles_of(quads)
+
+
+def uv_area(triangles, uv, chosen):
+    a, b, c = (uv[triangles[chosen, k]] for k in range(3))
+    one, two = b - a, c - a
+    return 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()
+
+
+def region(vertices, triangles, axis, sign):
+    """Importance 1 at the outer third on one side, and the faces there."""
+    along = sign * vertices[:, axis]
+    importance = (along > np.quantile(along, 0.7)).astype(float)
+    return importance, importance[triangles].all(axis=1)
+
+
+@pytest.mark.parametrize("value", [0.0, 0.37, 1.0])
+def test_equal_ones_change_no_bit(value):
+    vertices, triangles = panel()
+    plain = koebe.uniformize(vertices, triangles, balance="area")
+    weighed = koebe.uniformize(vertices, triangles, balance="area", importance=np.full(len(vertices), value))
+    assert np.array_equal(plain.uv, weighed.uv)
+    cut = [koebe.uniformize(*two_tents(), cut=True, balance="area", importance=w) for w in (None, np.full(10, value))]
+    assert np.array_equal(cut[0].uv, cut[1].uv)
+
+
+def two_tents():
+    """Two pyramids without bottom, apart."""
+    tent = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1.0]])
+    faces = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    return np.vstack([tent, tent + [3, 0, 0]]), np.vstack([faces, faces + 5])
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_what_is_important_gets_more_room_and_circles_stay(axis, sign):
+    vertices, triangles = panel()
+    importance, faces = region(vertices, triangles, axis, sign)
+    plain = koebe.uniformize(vertices, triangles, balance="area", outer="longest")
+    weighed = koebe.uniformize(vertices, triangles, balance="area", outer="longest", importance=importance)
+    before, after = (uv_area(triangles, result.uv, faces) for result in (plain, weighed))
+    assert after > 1.3 * before
+    off = np.concatenate(weighed.off_circle)
+    for loop, center, radius in zip(weighed.loops, weighed.centers, weighed.radii, strict=True):
+        on = np.setdiff1d(loop, off)
+        assert len(on) > 8
+        assert np.allclose(np.linalg.norm(weighed.uv[on] - center, axis=1), radius, atol=1e-9)
+    assert weighed.flipped == 0
+    assert weighed.options["importance"] is True and "importance" not in plain.options
+
+
+def test_the_map_is_as_conformal_as_the_mesh_is_fine():
+    errors = []
+    for n in (24, 48, 96):
+        vertices, triangles = panel(n)
+        importance, _ = region(vertices, triangles, 0, 1)
+        result = koebe.uniformize(vertices, triangles, balance="area", outer="longest", importance=importance)
+        errors.append(result.angle_error_deg["mean"])
+    assert errors[1] < 0.65 * errors[0] and errors[2] < 0.65 * errors[1]
+
+
+def test_an_important_piece_gets_a_larger_disk():
+    vertices, triangles = two_tents()
+    importance = np.repeat([1.0, 0.0], 5)
+    result = koebe.uniformize(vertices, triangles, cut=True, balance="area", importance=importance)
+    one, other = (piece["place"]["radius"] for piece in result.pieces)
+    assert one == pytest.approx(4.0 * other)
+
+
+def test_what_is_no_importance_is_refused():
+    vertices, triangles = panel()
+    count = len(vertices)
+    for cut in (False, True):
+        bad = (np.zeros(count - 1), *(np.full(count, value) for value in (np.nan, 1.5, -0.1)), ["a"] * count)
+        for wrong in bad:
+            with pytest.raises(koebe.InputError, match="importance"):
+                koebe.uniformize(vertices, triangles, balance="area", importance=wrong, cut=cut)
+        with pytest.raises(koebe.OptionError, match="balance"):
+            koebe.uniformize(vertices, triangles, importance=np.zeros(count), cut=cut)
+
+
+def test_the_command_takes_a_file(tmp_path):
+    vertices, triangles = panel()
+    importance, _ = region(vertices, triangles, 0, 1)
+    (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
+    (tmp_path / "w.txt").write_text("\n".join(f"{w:g}" for w in importance))
+    done = command("uniformize", "in.obj", "a.obj", "--balance", "area", "--importance", "w.txt", "--json", "r.json",
+                   cwd=tmp_path)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert json.loads((tmp_path / "r.json").read_text())["options"]["importance"] is True
+    command("uniformize", "in.obj", "b.obj", "--balance", "area", cwd=tmp_path)
+    assert (tmp_path / "a.obj").read_text() != (tmp_path / "b.obj").read_text()
+    refused = command("uniformize", "in.obj", "c.obj", "--importance", "w.txt", cwd=tmp_path)
+    assert refused.returncode == USAGE and "balance" in refused.stderr
+    for text in ("0.5 2", "x", "", "0.5"):
+        (tmp_path / "w.txt").write_text(text)
+        wrong = command("uniformize", "in.obj", "c.obj", "--balance", "area", "--importance", "w.txt", cwd=tmp_path)
+        assert wrong.returncode not in (0, USAGE) and "importance" in wrong.stderr
+    assert not (tmp_path / "c.obj").exists()
