@@ -9,7 +9,8 @@
     --size 1600x800    width and height in pixels; OUT may be a .jpg
     --samples N        Cycles samples per pixel (32)
 
-The file has one mesh, which is mapped as the operator Koebe Unwrap to Parts maps it. IN is not changed.
+The guide's pictures are those of hand and mug at 1000x500. The file has one mesh, which is mapped as the operator Koebe
+Unwrap to Parts maps it. IN is not changed.
 """
 
 import argparse
