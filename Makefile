@@ -161,8 +161,8 @@ demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.
 bench: build $(DONE)/install-blender ## time and accuracy: out/bench/
 	$(PYTHON) bench/run.py
 
-compare: native build/venv-compare/.done ## Blender's unwraps, xatlas and ours side by side: docs/comparison.md
-	build/venv-compare/bin/python bench/compare.py --write
+compare: native build/venv-compare/.done ## Blender's unwraps, xatlas and ours: docs/comparison.md; goes on where it ended, AGAIN=1 anew
+	build/venv-compare/bin/python bench/compare.py --write $(if $(AGAIN),--again)
 
 reproduce: native ## the paper's tables, rates and figures: out/reproduce/
 	$(PYTHON) bench/reproduce.py

@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Our maps beside Blender's unwraps and xatlas, on models that nobody placed a seam on: docs/comparison.md.
 
-    python bench/compare.py [--models NAME,…] [--write]     with the modules bpy and xatlas: `make compare`
+    python bench/compare.py [--models NAME,…] [--again] [--write]     with the modules bpy and xatlas: `make compare`
 
-Each map is made by a process of its own, ended after LIMIT seconds. Leaves out/compare/*.json, one a model, and a
-picture of each; --write puts the table and the pictures into docs/.
+Each map is made by a process of its own, ended after LIMIT seconds of processor time. Leaves out/compare/maps/, a file
+of figures and the UVs of each map, and out/compare/*.json and *.jpg, one a model. A map whose figures are there is
+done: a run that was ended goes on, and --again measures anew. --write puts the tables of all models that are done, and
+the pictures, into docs/.
 """
 
 import argparse
 import json
 import os
+import resource
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -20,16 +22,19 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 ROOT = Path(__file__).resolve().parent.parent
 OUT, PAGE, IMAGES = ROOT / "out" / "compare", ROOT / "docs" / "comparison.md", ROOT / "docs" / "images"
-LIMIT = 240  # seconds of one map
+MAPS = OUT / "maps"
+LIMIT = 240  # seconds of processor time of one map
 BEGIN, END = "<!-- the table of `make compare` -->", "<!-- its end -->"
 HEAD = ["unwrap", "islands", "seams / √area", "density, 5 to 95 %", "area within a factor 3", "angle error", "flips",
         "faces lost", "overlap", "seconds"]  # fmt: skip
-PICTURED = ("Suzanne", "torus", "face_five_holes")  # in docs/: of what is this project's own or Blender's
+# In docs/: of what is this project's own or Blender's.
+PICTURED = ("Suzanne", "torus", "face_five_holes", "character", "hand", "mug", "closed_head")
 
 
 def parse():
     parser = argparse.ArgumentParser(prog="compare.py", description=__doc__.splitlines()[0])
     parser.add_argument("--models", type=lambda text: text.split(","))
+    parser.add_argument("--again", action="store_true")
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--one", nargs=3, metavar=("MODEL", "UNWRAP", "FILE"), help=argparse.SUPPRESS)
     return parser.parse_args()
@@ -52,18 +57,27 @@ def map_one(model, unwrap, path):
     path.write_text(json.dumps({**facts, "faces": len(triangles)}), encoding="utf-8")
 
 
-def mapped_beside(model, unwrap, folder):
-    """The figures of one map, made in a process of its own."""
-    path = folder / f"{model}, {unwrap}.json"
-    words = [sys.executable, __file__, "--one", model, unwrap, str(path)]
-    with (OUT / "log.txt").open("ab") as log:
-        try:
-            subprocess.run(words, timeout=LIMIT, stdout=log, stderr=log, check=False)
-        except subprocess.TimeoutExpired:
-            return {"error": f"not done after {LIMIT} s"}
-    if not path.exists():
-        return {"error": "the process ended without a word"}
+def mapped_beside(model, unwrap, again):
+    """The figures of one map: those that are there, or of one that a process of its own makes."""
+    path = MAPS / f"{model}, {unwrap}.json"
+    if again or not path.exists():
+        draft = path.with_suffix(".draft.json")
+        draft.unlink(missing_ok=True)
+        words = [sys.executable, __file__, "--one", model, unwrap, str(draft)]
+        with (OUT / "log.txt").open("ab") as log:
+            code = subprocess.run(words, stdout=log, stderr=log, check=False, preexec_fn=limited).returncode
+        if not draft.exists():
+            late = code in (-9, -24)  # SIGKILL, SIGXCPU
+            facts = {"error": f"not done after {LIMIT} s" if late else "the process ended without a word"}
+            draft.write_text(json.dumps(facts), encoding="utf-8")
+        if draft.with_suffix(".npz").exists():
+            draft.with_suffix(".npz").replace(path.with_suffix(".npz"))
+        draft.replace(path)
     return json.loads(path.read_text(encoding="utf-8"))
+
+
+def limited():
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 5))
 
 
 def cells(facts):
@@ -84,6 +98,26 @@ def table(model, rows):
     return "\n".join(lines) + "\n"
 
 
+def measured(model, again):
+    """Measure a model by all unwraps, and leave its file and its picture."""
+    import compare_picture
+    from compare_unwraps import UNWRAPS
+
+    rows = {unwrap: mapped_beside(model, unwrap, again) for unwrap in UNWRAPS}
+    compare_picture.draw({unwrap: MAPS / f"{model}, {unwrap}.npz" for unwrap in UNWRAPS}, OUT / f"{model}.jpg")
+    (OUT / f"{model}.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+
+
+def write(models):
+    """Tables and pictures into docs/, of those of the models that are done."""
+    done = [model for model in models if (OUT / f"{model}.json").exists()]
+    tables = [table(model, json.loads((OUT / f"{model}.json").read_text(encoding="utf-8"))) for model in done]
+    for model in {*done} & {*PICTURED}:
+        (IMAGES / f"compare_{model}.jpg").write_bytes((OUT / f"{model}.jpg").read_bytes())
+    before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
+    PAGE.write_text(f"{before}{BEGIN}\n\n" + "\n".join(tables) + f"\n{END}{rest.split(END)[1]}", encoding="utf-8")
+
+
 def main():
     options = parse()
     if options.one:
@@ -91,25 +125,14 @@ def main():
         sys.stdout.flush()
         os._exit(0)  # the bpy module may wait for ever in its own clean-up
     import compare_models
-    import compare_picture
-    from compare_unwraps import UNWRAPS
 
-    OUT.mkdir(parents=True, exist_ok=True)
-    tables = []
-    with tempfile.TemporaryDirectory() as folder:
-        for model in options.models or compare_models.names():
-            rows = {unwrap: mapped_beside(model, unwrap, Path(folder)) for unwrap in UNWRAPS}
-            (OUT / f"{model}.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
-            tables.append(table(model, rows))
-            print(tables[-1], flush=True)
-            picture = OUT / f"{model}.jpg"
-            compare_picture.draw({unwrap: Path(folder) / f"{model}, {unwrap}.npz" for unwrap in UNWRAPS}, picture)
-            if options.write and model in PICTURED:
-                (IMAGES / f"compare_{model}.jpg").write_bytes(picture.read_bytes())
+    MAPS.mkdir(parents=True, exist_ok=True)
+    for model in options.models or compare_models.names():
+        if options.again or not (OUT / f"{model}.json").exists():
+            measured(model, options.again)
+            print(table(model, json.loads((OUT / f"{model}.json").read_text(encoding="utf-8"))), flush=True)
     if options.write:
-        page = PAGE.read_text(encoding="utf-8")
-        before, rest = page.split(BEGIN)
-        PAGE.write_text(f"{before}{BEGIN}\n\n" + "\n".join(tables) + f"\n{END}{rest.split(END)[1]}", encoding="utf-8")
+        write(compare_models.names())
     sys.stdout.flush()
     os._exit(0)
 

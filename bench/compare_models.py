@@ -18,7 +18,8 @@ BLENDERS_OWN = {
     "cylinder": lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=64),
     "cone": lambda: bpy.ops.mesh.primitive_cone_add(vertices=64),
 }
-SAMPLE_FILES = ("face_five_holes", "perforated_panel", "bowl", "vase", "suzanne_mask")
+SAMPLE_FILES = ("character", "hand", "mug", "closed_head", "face_five_holes", "perforated_panel", "bowl", "vase",
+                "suzanne_mask")  # fmt: skip
 SCANS = (
     "good/cat_8k_2.obj", "good/makehuman_body_13k_8.obj", "good/os_plane_holes.obj", "good/bear_14k_10.obj",
     "good/choi_lion5.obj", "good/choi_alex3.obj", "good/ict_head_neutral.obj", "good/mediapipe_face_3.obj",

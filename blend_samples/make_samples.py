@@ -23,8 +23,12 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.dont_write_bytecode = True
 
+import character  # noqa: E402
+import closed_head  # noqa: E402
 import face_model  # noqa: E402
+import hand  # noqa: E402
 import mesh_check  # noqa: E402
+import mug  # noqa: E402
 import scene  # noqa: E402
 import simple_shapes  # noqa: E402
 import suzanne_mask  # noqa: E402
@@ -37,6 +41,10 @@ SAMPLES = {
     "perforated_panel": (simple_shapes.perforated_panel, (0.45, -0.9, 1.3)),
     "vase": (simple_shapes.vase, (0.3, -1.0, 0.42)),
     "bowl": (simple_shapes.bowl, (0.2, -1.0, 0.45)),
+    "character": (character.character, (0.5, -1.0, 0.1)),
+    "hand": (hand.hand, (0.5, 1.0, 0.2)),
+    "mug": (mug.mug, (0.6, -1.0, 0.6)),
+    "closed_head": (closed_head.closed_head, (0.5, -1.0, 0.1)),
     "face_dense": (face_model.dense, (0.50, -1.0, -0.12)),
 }
 

@@ -37,7 +37,7 @@ def complaints(measured, expected):
     """Where measured differs from what the sample must be, one line each. The least angle of `expected` is a bound."""
     wanted = {
         "components": 1,
-        "genus": 0,
+        "genus": expected.get("genus", 0),
         "manifold": True,
         "oriented": True,
         "outward": True,
@@ -98,7 +98,7 @@ def _components(count, a, b):
 def _count_cycles(tail, head):
     """The number of closed loops of directed boundary edges; none branches on a manifold."""
     number = {int(v): i for i, v in enumerate(tail)}
-    after = np.array([number[int(v)] for v in head])
+    after = np.array([number[int(v)] for v in head], np.int64)
     return len(np.unique(_components(len(tail), np.arange(len(tail)), after)))
 
 

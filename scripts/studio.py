@@ -58,7 +58,7 @@ def plain_material(code):
 def checker_material(obj, layer):
     """The object's own checker, or one like it, whose back side is darker."""
     own = [slot.material for slot in obj.material_slots if slot.material and slot.material.name.startswith(CHECKER)]
-    return darker_behind(own[0].copy() if own else _new_checker(layer))
+    return darker_behind(own[0].copy() if own else new_checker(layer))
 
 
 def image_material(image, layer):
@@ -89,12 +89,13 @@ def darker_behind(material):
     return material
 
 
-def _new_checker(layer):
+def new_checker(layer, ink=INK):
+    """A checker by a UV layer, paper and ink."""
     material, tree = _node_material(CHECKER)
     uv, checker = tree.nodes.new("ShaderNodeUVMap"), tree.nodes.new("ShaderNodeTexChecker")
     uv.uv_map = layer
     checker.inputs["Color1"].default_value = _linear(PAPER)
-    checker.inputs["Color2"].default_value = _linear(INK)
+    checker.inputs["Color2"].default_value = _linear(ink)
     checker.inputs["Scale"].default_value = CHECKER_SIZE
     tree.links.new(uv.outputs["UV"], checker.inputs["Vector"])
     _principled(tree, checker.outputs["Color"])
@@ -110,7 +111,7 @@ def _principled(tree, color):
 
 
 def add_mesh(scene, points, corners, sizes, uv, layer, material, smooth):
-    """A mesh object whose UV layer repeats the map."""
+    """A mesh object whose UV layer repeats the map; returns its mesh."""
     faces = np.split(corners, np.cumsum(sizes)[:-1])
     mesh = bpy.data.meshes.new("drawn")
     mesh.from_pydata(points.tolist(), [], [face.tolist() for face in faces])
@@ -118,6 +119,7 @@ def add_mesh(scene, points, corners, sizes, uv, layer, material, smooth):
     mesh.polygons.foreach_set("use_smooth", [smooth] * len(sizes))
     mesh.materials.append(material)
     scene.collection.objects.link(bpy.data.objects.new("drawn", mesh))
+    return mesh
 
 
 def add_ring(scene, points, code):

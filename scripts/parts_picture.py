@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A model unwrapped to parts, and drawn: left in a checker whose ink is each part's own, right its parts in the UVs.
+
+    blender -b IN.blend --factory-startup --python-exit-code 1 -P scripts/parts_picture.py -- --output OUT.png [options]
+
+    --report FILE      the figures, as JSON
+    --blend FILE       the file with the UVs
+    --evenness X       the panel's slider, 0 to 1 (0.5)
+    --size 1600x800    width and height in pixels; OUT may be a .jpg
+    --samples N        Cycles samples per pixel (32)
+
+The guide's pictures are those of hand and mug at 1000x500. The file has one mesh, which is mapped as the operator Koebe
+Unwrap to Parts maps it. IN is not changed.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.dont_write_bytecode = True
+
+import guide_picture  # noqa: E402
+import render_uv  # noqa: E402
+import studio  # noqa: E402
+import uv_loops  # noqa: E402
+
+LAYER = "Koebe"
+INKS = ("#36656f", "#b5533c", "#6b7f3a", "#7a5b8e", "#b8862f", "#3f6ea3", "#a34e70", "#4b8a72")
+
+
+def parse():
+    """The options after "--"."""
+    parser = argparse.ArgumentParser(prog="parts_picture.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--output", type=Path, required=True)
+    parser.add_argument("--report", type=Path)
+    parser.add_argument("--blend", type=Path)
+    parser.add_argument("--evenness", type=float, default=0.5)
+    parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(1600, 800))
+    parser.add_argument("--samples", type=int, default=32)
+    return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
+
+
+def unwrapped(obj, evenness):
+    """Map the object; returns the result and each face's part."""
+    module = guide_picture.addon_module
+    options, price = module("maps.options").Options(checker=False), module("maps.parts").price_of(evenness)
+    job = module("jobs.parts_job").PartsJob([obj], options, price)
+    job.compute()
+    outcome = job.outcomes[0]
+    if outcome.problem:
+        sys.exit(f"parts_picture: {outcome.problem}")
+    job.write()
+    part = np.zeros(len(obj.data.polygons), np.int32)
+    part[outcome.task.surface.triangle_face] = outcome.result.part
+    return outcome.result, part
+
+
+def figures(result):
+    """What expected.json has bounds for, and more."""
+    return {
+        "parts": len(result.parts),
+        "triangles": len(result.part),
+        "cut_length": result.cut_length,
+        "density": result.density_ratio_5_95,
+        "angle_error": result.angle_error_deg["mean"],
+        "flipped": result.flipped,
+        "below_resolution": result.below_resolution,
+        "seconds": result.seconds,
+    }
+
+
+def draw(obj, part, options):
+    """Render model and layout in a scene of their own."""
+    vertex, uv, corners, sizes = uv_loops.read_uv_mesh(obj.data, LAYER)
+    surface = render_uv.seen_points(obj, vertex)
+    flat = np.column_stack([(uv - 0.5) * 2 * render_uv.CELL + (1.0, 0.0), np.zeros(len(uv))])
+    inks = [studio.darker_behind(studio.new_checker(LAYER, ink)) for ink in INKS]
+    scene = bpy.data.scenes.new("picture")
+    bpy.context.window.scene = scene
+    for points, smooth in ((surface, True), (flat, False)):
+        mesh = studio.add_mesh(scene, points, corners, sizes, uv, LAYER, inks[0], smooth)
+        for ink in inks[1:]:
+            mesh.materials.append(ink)
+        mesh.polygons.foreach_set("material_index", part % len(INKS))
+    studio.add_studio(scene, options.size, options.samples)
+    scene.render.image_settings.file_format = "JPEG" if options.output.suffix == ".jpg" else "PNG"
+    scene.render.image_settings.quality = 85
+    scene.render.filepath = str(options.output.absolute())
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+
+
+def main():
+    options = parse()
+    obj = next(obj for obj in bpy.context.scene.objects if obj.type == "MESH")
+    result, part = unwrapped(obj, options.evenness)
+    if options.report:
+        options.report.write_text(json.dumps(figures(result), indent=1) + "\n", encoding="utf-8")
+    if options.blend:
+        bpy.ops.wm.save_as_mainfile(filepath=str(options.blend.absolute()), copy=True)
+    draw(obj, part, options)
+
+
+if __name__ == "__main__":
+    main()
