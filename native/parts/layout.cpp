@@ -91,7 +91,7 @@ void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsO
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
     const CutSurface whole = cut_surface(vertices, piece.triangles, std::move(polygon));
     SplitEffort effort;
-    const SplitOptions prices{options.price, cut_share * options.price};
+    const SplitOptions prices{options.price, cut_share * options.price, options.threads};
     std::vector<PartPointer> parts{whole_part(whole, context, effort)};
     for (int round = 0; round < rounds; ++round) {
         parts = split_parts(whole, prices, std::move(parts), context, effort);

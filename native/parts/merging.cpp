@@ -1,4 +1,5 @@
 #include "core/connectivity.h"
+#include "parts/piece_forecast.h"
 #include "parts/splitting.h"
 
 #include <algorithm>
@@ -42,12 +43,20 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
 {
     const auto origin = common_origin(a, b);
     if (!origin) return {};
+    std::vector<Index> piece(origin->mesh.faces.size(), -1);
+    for (const Part* part : {&a, &b}) {
+        auto at = origin->mesh.faces.begin();
+        for (const Index f : part->mesh.faces) {
+            at = std::lower_bound(at, origin->mesh.faces.end(), f);
+            piece[at - origin->mesh.faces.begin()] = 0;
+        }
+    }
+    const PieceForecast forecast = forecast_pieces(origin->mesh, origin->map, piece, 1).front();
+    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
+    if (forecast.lost_area > 0.0 || saved - forecast.overflow < worth_mapping * options.part_price) return {};
     std::vector<Index> faces = a.mesh.faces;
     faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
     auto both = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, origin});
-    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
-    both->map = restricted_map(origin->mesh, origin->map, both->mesh);
-    if (both->map.lost_area > 0.0 || saved - both->map.overflow < worth_mapping * options.part_price) return {};
     map_anew(whole, *both, context, effort);
     return both->map.overflow < saved ? both : PartPointer{};
 }

@@ -11,6 +11,7 @@ namespace koebe {
 struct SplitOptions {
     double part_price = 0.0037;  ///< of a part, in overflow
     double cut_price = 0.0037;   ///< of a cut as long as the root of the area
+    int threads = 1;             ///< at most; 0: as many as the machine has. The result is the same for any number
 };
 
 struct Part {
@@ -34,7 +35,7 @@ void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, Sp
 /// The surface as one part, mapped.
 PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, SplitEffort& effort);
 
-/// Splits the costliest part by the proposal of most gain, children judged by the parent's map, until nothing pays.
+/// Splits each part by the proposal of most gain, children judged by the parent's map, until nothing pays.
 /// Children whose loops are not round there are mapped before they are judged. Every part that stays has a map of its
 /// own.
 std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
