@@ -93,9 +93,10 @@ void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsO
     SplitEffort effort;
     const SplitOptions prices{options.price, cut_share * options.price, options.threads};
     std::vector<PartPointer> parts{whole_part(whole, context, effort)};
+    RefusedMerges refused;
     for (int round = 0; round < rounds; ++round) {
         parts = split_parts(whole, prices, std::move(parts), context, effort);
-        if (parts.size() == 1 || !merge_parts(whole, prices, parts, context, effort)) break;
+        if (parts.size() == 1 || !merge_parts(whole, prices, parts, refused, context, effort)) break;
     }
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
     layout.maps += effort.maps * static_cast<double>(piece.triangles.rows()) / static_cast<double>(layout.part.size());

@@ -9,7 +9,7 @@
 namespace koebe {
 namespace {
 
-constexpr double worth_mapping = -0.5;  // of a part's price: predicted gains from which on the map is made
+constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
 
 /// The smallest part that both come from.
 std::shared_ptr<const Part> common_origin(const Part& a, const Part& b)
@@ -51,8 +51,13 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
             piece[at - origin->mesh.faces.begin()] = 0;
         }
     }
-    const PieceForecast forecast = forecast_pieces(origin->mesh, origin->map, piece, 1).front();
     const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
+    if (origin->map.measured && std::ranges::count(piece, 0) == static_cast<std::ptrdiff_t>(piece.size())) {
+        // The cut is taken back that was made there, and not made again.
+        if (!(origin->map.overflow < saved)) return {};
+        return std::make_shared<Part>(Part{origin->mesh, origin->map, origin->parent, true});
+    }
+    const PieceForecast forecast = forecast_pieces(origin->mesh, origin->map, piece, 1).front();
     if (forecast.lost_area > 0.0 || saved - forecast.overflow < worth_mapping * options.part_price) return {};
     std::vector<Index> faces = a.mesh.faces;
     faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
@@ -64,10 +69,9 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
 }  // namespace
 
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
-                 ExecutionContext& context, SplitEffort& effort)
+                 RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort)
 {
     bool any = false;
-    std::set<std::pair<PartPointer, PartPointer>> refused;
     for (bool changed = true; changed;) {
         changed = false;
         std::vector<std::pair<double, std::pair<int, int>>> order;

@@ -12,7 +12,7 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t pole_samples = 200, most_samples = 3000;  // faces
+constexpr std::size_t pole_samples = 150, most_samples = 2000;  // faces
 
 struct PieceLoop {
     Index piece;

@@ -18,8 +18,10 @@ constexpr double remaining = 0.6;          // of an uneven child's cost, after i
 constexpr double lost_cost = 0.25;         // in u: what is left of a face's cost where the parent's map says nothing
 constexpr std::size_t most_looked_at = 8;  // proposals of a part
 constexpr std::size_t most_verified = 3;   // of them
+constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
-constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged
+constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
+                                           // is so large that its cost matters
 
 struct Split {
     double gain = 0.0, border = 0.0;
@@ -110,10 +112,11 @@ Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOp
     Split best;
     for (std::size_t i = 0; i < std::min(splits.size(), most_verified); ++i) {
         Split& split = splits[i];
-        if (split.gain <= best.gain) break;
+        if (split.gain <= worth_verifying * best.gain) break;
         make_children(whole, part, split);
         for (std::size_t k = 0; k < split.children.size(); ++k)
-            if (split.forecasts[k].off_round > most_off_round) map_anew(whole, *split.children[k], context, effort);
+            if (split.forecasts[k].off_round > most_off_round && split.forecasts[k].area > options.part_price)
+                map_anew(whole, *split.children[k], context, effort);
         split.gain = gain_of(split, *part, options);
         if (split.gain > best.gain) best = std::move(split);
     }

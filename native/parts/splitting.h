@@ -4,6 +4,8 @@
 #include "parts/part_map.h"
 
 #include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace koebe {
@@ -41,10 +43,13 @@ PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, Split
 std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
                                      std::vector<PartPointer> parts, ExecutionContext& context, SplitEffort& effort);
 
+/// Pairs of neighbours that are better apart.
+using RefusedMerges = std::set<std::pair<PartPointer, PartPointer>>;
+
 /// Merges neighbours whose cut does not pay, the longest common border first: judged by the map of a part that both
 /// come from, and then mapped.
-/// @return whether any were
+/// @param refused known from an earlier call, and more of them @return whether any were
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
-                 ExecutionContext& context, SplitEffort& effort);
+                 RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort);
 
 }  // namespace koebe
