@@ -2,8 +2,8 @@
 //
 //   parts_bench RUNS MESH...
 //
-// MESH is a file; TIMES:FILE for each of its faces cut in four so many times; limb:FACES for five fingers on a plate;
-// islands:COUNT for so many small plates, whose one map is that with cuts.
+// MESH is a file; TIMES:FILE for each of its faces cut in four so many times; islands:COUNT for so many
+// small plates, whose one map is that with cuts.
 // Seconds are of the clock and, in brackets, of the processor, the least of the runs.
 #include "cli/fast_kernels.h"
 #include "core/errors.h"
@@ -20,7 +20,6 @@
 #include <ctime>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -87,34 +86,6 @@ Mesh plate(Index side, double (*height)(double, double))
     return mesh;
 }
 
-/// Five fingers: the graph of a sum of steep bumps, its vertices drawn together where it is steep.
-Mesh limbs(Index faces)
-{
-    const auto side = static_cast<Index>(std::lround(std::sqrt(0.5 * static_cast<double>(faces))));
-    Mesh mesh = plate(side, [](double, double) { return 0.0; });
-    constexpr double radius = 0.17, length = 0.9;
-    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
-        for (const auto& [x, y] : {std::pair{0.2, 0.2}, {0.8, 0.2}, {0.5, 0.5}, {0.2, 0.8}, {0.8, 0.8}}) {
-            const double dx = mesh.vertices(v, 0) - x, dy = mesh.vertices(v, 1) - y, d = std::hypot(dx, dy) / radius;
-            if (!(d < 1.0)) continue;
-            // From the rim inwards: a floor, the finger's side, its round tip.
-            const double root = 0.5, tip = 0.2, wide = 0.35;
-            double r = d, h = 0.0;
-            if (d < tip) {
-                r = wide * std::sin(0.5 * std::numbers::pi * d / tip);
-                h = length + radius * wide * std::cos(0.5 * std::numbers::pi * d / tip);
-            } else if (d < root) {
-                r = wide;
-                h = length * (root - d) / (root - tip);
-            } else {
-                r = wide + (1.0 - wide) * (d - root) / (1.0 - root);
-            }
-            mesh.vertices.row(v) << x + (d > 0.0 ? dx / d * r : 0.0), y + (d > 0.0 ? dy / d * r : 0.0), h;
-            break;
-        }
-    return mesh;
-}
-
 Mesh islands(Index count)
 {
     const Mesh one = plate(4, [](double x, double y) { return 0.3 * std::sin(3.0 * x) * std::cos(2.0 * y); });
@@ -132,7 +103,6 @@ Mesh read(const std::string& name)
 {
     const auto colon = name.find(':');
     const std::string kind = name.substr(0, colon), rest = colon == std::string::npos ? name : name.substr(colon + 1);
-    if (kind == "limb") return limbs(static_cast<Index>(std::stol(rest)));
     if (kind == "islands") return islands(static_cast<Index>(std::stol(rest)));
     PolygonMesh file = read_mesh(rest);
     Mesh mesh{{}, triangulate(file).triangles};

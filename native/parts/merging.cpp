@@ -1,4 +1,5 @@
 #include "core/connectivity.h"
+#include "core/side_by_side.h"
 #include "parts/piece_forecast.h"
 #include "parts/splitting.h"
 
@@ -10,6 +11,7 @@ namespace koebe {
 namespace {
 
 constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
+constexpr double sure = 0.5;              // of price and forecast: a gain that needs no map to be sure of
 
 /// The smallest part that both come from.
 std::shared_ptr<const Part> common_origin(const Part& a, const Part& b)
@@ -62,6 +64,10 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
     std::vector<Index> faces = a.mesh.faces;
     faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
     auto both = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, origin});
+    if (saved - forecast.overflow > sure * (options.part_price + forecast.overflow)) {
+        both->map = restricted_map(origin->mesh, origin->map, both->mesh);  // mapped when no more comes to it
+        if (both->map.overflow < saved) return both;
+    }
     map_anew(whole, *both, context, effort);
     return both->map.overflow < saved ? both : PartPointer{};
 }
@@ -92,6 +98,13 @@ bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
             break;
         }
     }
+    std::vector<Part*> unmapped;
+    for (const PartPointer& part : parts)
+        if (!part->map.measured) unmapped.push_back(part.get());
+    std::vector<SplitEffort> efforts(unmapped.size());
+    side_by_side(unmapped.size(), options.threads, context,
+                 [&](std::size_t i, ExecutionContext& own) { map_anew(whole, *unmapped[i], own, efforts[i]); });
+    for (const SplitEffort& own : efforts) effort.maps += own.maps;
     return any;
 }
 
