@@ -2,7 +2,7 @@
 
 #include "core/halfedge_mesh.h"
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -53,14 +53,20 @@ CoarseSurface coarse_surface(const CutSurface& whole, Index faces, ExecutionCont
     std::vector<Index> parent(static_cast<std::size_t>(whole.vertices.rows()));
     for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<Index>(v);
 
-    using Entry = std::pair<double, int>;  // squared length, edge; out of date where the edge has another length now
-    const auto squared_length = [&](HalfedgeMesh::EdgeHandle e) {
-        const Halfedge h = mesh.halfedge_handle(e, 0);
-        return (mesh.point(mesh.from_vertex_handle(h)) - mesh.point(mesh.to_vertex_handle(h))).sqrnorm();
+    // How far a vertex has drawn others: without it a vertex would go along a row of equal edges to its end.
+    std::vector<double> reach(parent.size(), 0.0);
+    const auto first_choice = [&](HalfedgeMesh::EdgeHandle e) {
+        const Halfedge h = mesh.halfedge_handle(e, 0), t = mesh.halfedge_handle(e, 1);
+        return reach[mesh.from_vertex_handle(h).idx()] <= reach[mesh.from_vertex_handle(t).idx()] ? h : t;
     };
+    const auto reach_after = [&](Halfedge h) {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        return reach[from.idx()] + (mesh.point(from) - mesh.point(to)).norm();
+    };
+    using Entry = std::pair<double, int>;  // reach, edge; out of date where the edge has another one now
     std::vector<Entry> entries;
     for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e)
-        entries.emplace_back(squared_length(HalfedgeMesh::EdgeHandle(e)), e);
+        entries.emplace_back(reach_after(first_choice(HalfedgeMesh::EdgeHandle(e))), e);
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>(), std::move(entries));
     auto left = static_cast<Index>(mesh.n_faces());
     for (long step = 0; left > faces && !queue.empty(); ++step) {
@@ -68,19 +74,22 @@ CoarseSurface coarse_surface(const CutSurface& whole, Index faces, ExecutionCont
         const auto [length, edge] = queue.top();
         queue.pop();
         const HalfedgeMesh::EdgeHandle e(edge);
-        if (mesh.status(e).deleted() || squared_length(e) != length) continue;
-        Halfedge h = mesh.halfedge_handle(e, 0);
+        if (mesh.status(e).deleted()) continue;
+        Halfedge h = first_choice(e);
+        if (reach_after(h) != length) continue;
         if (!may_collapse(mesh, h)) {
-            h = mesh.halfedge_handle(e, 1);
+            h = mesh.opposite_halfedge_handle(h);
             if (!may_collapse(mesh, h)) continue;
         }
         const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
         left -= mesh.is_boundary(e) ? 1 : 2;
+        double& reached = reach[to.idx()];
+        reached = std::max(reached, reach_after(h));
         mesh.collapse(h);
         parent[from.idx()] = to.idx();
         for (auto out = mesh.cvoh_iter(to); out.is_valid(); ++out) {
             const HalfedgeMesh::EdgeHandle next = mesh.edge_handle(*out);
-            queue.emplace(squared_length(next), next.idx());
+            queue.emplace(reach_after(first_choice(next)), next.idx());
         }
     }
 
