@@ -18,6 +18,8 @@ constexpr double remaining = 0.6;          // of an uneven child's cost, after i
 constexpr double lost_cost = 0.25;         // in u: what is left of a face's cost where the parent's map says nothing
 constexpr std::size_t most_looked_at = 8;  // proposals of a part
 constexpr std::size_t most_verified = 3;   // of them
+constexpr double crumb_leaves = 0.9;       // of a part's area
+constexpr double least_return = 0.5;       // of the price, in cost that is gone at once
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
@@ -66,17 +68,23 @@ void make_children(const CutSurface& whole, const PartPointer& part, Split& spli
         split.children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, part}));
 }
 
-/// By the maps of the children that have one, and the forecasts of the others.
+/// By the maps of the children that have one, and the forecasts of the others. To cut off a crumb must pay by itself, not
+/// by the hope for later splits: they would go one after the other.
 double gain_of(const Split& split, const Part& part, const SplitOptions& options)
 {
-    double gain = cost_of(part.map) - options.cut_price * split.border -
-                  options.part_price * static_cast<double>(split.forecasts.size() - 1);
+    const double price = options.cut_price * split.border +
+                         options.part_price * static_cast<double>(split.forecasts.size() - 1);
+    double left = 0.0, expected = 0.0, largest = 0.0;
     for (std::size_t k = 0; k < split.forecasts.size(); ++k) {
         const bool measured = k < split.children.size() && split.children[k]->map.positions.size() > 0;
         const double cost = measured ? cost_of(split.children[k]->map) : cost_of(split.forecasts[k]);
-        gain -= expected_cost(cost, options.part_price);
+        left += cost;
+        largest = std::max(largest, split.forecasts[k].area);
+        expected += expected_cost(cost, options.part_price);
     }
-    return gain;
+    const double before = cost_of(part.map);
+    const bool is_crumb = largest > crumb_leaves * part.mesh.area;
+    return is_crumb && before - left < least_return * price ? -price : before - expected - price;
 }
 
 /// The splits that seem to pay, the best first.
