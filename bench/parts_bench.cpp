@@ -138,8 +138,7 @@ void compare(const std::string& name, int runs)
                 result.parts.size(), result.cut_length - result.slit_length, result.slit_length,
                 result.density_ratio_5_95, 100.0 * result.even_area, result.flipped.size(),
                 result.below_resolution.size(), angle, result.angle_error_deg.mean, result.maps, one.clock,
-                one.processor, parts.clock, parts.processor, parts.clock / one.clock,
-                parts.processor / one.processor);
+                one.processor, parts.clock, parts.processor, parts.clock / one.clock, parts.processor / one.processor);
     std::fflush(stdout);
 }
 

@@ -76,9 +76,7 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
     std::exception_ptr cancelled;
     try {
         ExecutionContext own({}, {}, [&context] { context.checkpoint(); });
-        run(own, [&] {
-            context.advance(static_cast<double>(shared.done) / static_cast<double>(count));
-        });
+        run(own, [&] { context.advance(static_cast<double>(shared.done) / static_cast<double>(count)); });
         context.checkpoint();
     } catch (...) {
         cancelled = std::current_exception();

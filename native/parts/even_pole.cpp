@@ -111,8 +111,7 @@ EvenPole even_pole(const MapSample& sample, const std::vector<Circle>& circles, 
 MapSample moved(const MapSample& sample, const std::vector<Circle>& circles, const EvenPole& pole)
 {
     MapSample result = pole.turned >= 0 ? inside_out(sample, circles[pole.turned]) : sample;
-    result.u.array() +=
-        std::log(1.0 - std::norm(pole.a)) - pole_distance(result.centers, pole.a).array().log();
+    result.u.array() += std::log(1.0 - std::norm(pole.a)) - pole_distance(result.centers, pole.a).array().log();
     result.centers = Moebius{pole.a, Complex(1.0, 0.0)}(result.centers);
     return result;
 }

@@ -93,7 +93,8 @@ void join_pieces(const CutSurface& whole, std::vector<int>& label, int count)
             const Index t = whole.surface.twin[h];
             if (t == no_twin) continue;
             const Index p = piece[face_of(static_cast<Index>(h))], q = piece[face_of(t)];
-            if (p != q && largest[label_of[p]] != p) border[{p, label_of[q]}] += whole.lengths[static_cast<Eigen::Index>(h)];
+            if (p != q && largest[label_of[p]] != p)
+                border[{p, label_of[q]}] += whole.lengths[static_cast<Eigen::Index>(h)];
         }
         if (border.empty()) return;
         std::vector<std::pair<double, int>> to(area.size(), {-1.0, none});
@@ -126,9 +127,7 @@ std::vector<int> fine_labels(const CutSurface& whole, const CoarseSurface& coars
         const PartMesh both = part_mesh(whole, std::move(faces));
         std::vector<Side> sides;
         for (const Index f : both.faces)
-            sides.push_back(sure[f] != fine[f]         ? Side::free
-                            : fine[f] == pair.first ? Side::inside
-                                                    : Side::outside);
+            sides.push_back(sure[f] != fine[f] ? Side::free : fine[f] == pair.first ? Side::inside : Side::outside);
         const std::vector<int> cut = minimum_cut(both, sides);
         for (std::size_t i = 0; i < cut.size(); ++i) fine[both.faces[i]] = cut[i] ? pair.first : pair.second;
     }

@@ -17,9 +17,9 @@
 namespace koebe {
 namespace {
 
-constexpr double cut_share = 1.0;  // of a part's price, for a cut as long as the root of the area
-constexpr int rounds = 2;          // of splitting and merging
-constexpr double margin = 0.004;   // between parts, in the unit square
+constexpr double cut_share = 1.0;       // of a part's price, for a cut as long as the root of the area
+constexpr int rounds = 2;               // of splitting and merging
+constexpr double margin = 0.004;        // between parts, in the unit square
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
 
@@ -133,11 +133,13 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     std::vector<Index> polygon;
     if (!options.polygon.empty())
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
-    const CutSurface whole = cut_surface(vertices(piece.source_vertex, Eigen::all), piece.triangles, std::move(polygon));
+    const CutSurface whole =
+        cut_surface(vertices(piece.source_vertex, Eigen::all), piece.triangles, std::move(polygon));
     SplitEffort effort;
     const SplitOptions prices{options.price, cut_share * options.price, threads};
-    std::vector<PartPointer> parts = piece.triangles.rows() > large ? parts_by_coarse_surface(whole, prices, context, effort)
-                                                                    : even_parts(whole, prices, context, effort);
+    std::vector<PartPointer> parts = piece.triangles.rows() > large
+                                         ? parts_by_coarse_surface(whole, prices, context, effort)
+                                         : even_parts(whole, prices, context, effort);
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
     FlatPiece flat{std::vector<FlatPart>(parts.size()), 0.0};
     std::vector<SplitEffort> efforts(parts.size());

@@ -11,7 +11,7 @@ namespace koebe {
 namespace {
 
 constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
-constexpr double sure = 0.5;              // of price and forecast: a gain that needs no map to be sure of
+constexpr double sure = 0.5;             // of price and forecast: a gain that needs no map to be sure of
 
 /// The smallest part that both come from.
 std::shared_ptr<const Part> common_origin(const Part& a, const Part& b)

@@ -41,8 +41,8 @@ Window window_at(const PartMesh& part, const PartMap& map, double from)
     return window;
 }
 
-/// The windows of most area in one piece, apart from each other. The area of all faces in a window bounds that of a piece:
-/// most windows need no look at their pieces.
+/// The windows of most area in one piece, apart from each other. The area of all faces in a window bounds that of a
+/// piece: most windows need no look at their pieces.
 std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
 {
     std::vector<double> u;

@@ -27,9 +27,9 @@ constexpr double most_off_round = 0.12;    // radii: a child with a loop less ro
 
 struct Split {
     double gain = 0.0, border = 0.0;
-    std::vector<Index> piece;               ///< (F) of the part
-    std::vector<PieceForecast> forecasts;   ///< of each piece
-    std::vector<PartPointer> children = {}; ///< of each piece, once they are made
+    std::vector<Index> piece;                ///< (F) of the part
+    std::vector<PieceForecast> forecasts;    ///< of each piece
+    std::vector<PartPointer> children = {};  ///< of each piece, once they are made
 };
 
 double cost_of(const PartMap& map)
@@ -68,12 +68,12 @@ void make_children(const CutSurface& whole, const PartPointer& part, Split& spli
         split.children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, part}));
 }
 
-/// By the maps of the children that have one, and the forecasts of the others. To cut off a crumb must pay by itself, not
-/// by the hope for later splits: they would go one after the other.
+/// By the maps of the children that have one, and the forecasts of the others. To cut off a crumb must pay by itself,
+/// not by the hope for later splits: they would go one after the other.
 double gain_of(const Split& split, const Part& part, const SplitOptions& options)
 {
-    const double price = options.cut_price * split.border +
-                         options.part_price * static_cast<double>(split.forecasts.size() - 1);
+    const double price =
+        options.cut_price * split.border + options.part_price * static_cast<double>(split.forecasts.size() - 1);
     double left = 0.0, expected = 0.0, largest = 0.0;
     for (std::size_t k = 0; k < split.forecasts.size(); ++k) {
         const bool measured = k < split.children.size() && split.children[k]->map.positions.size() > 0;
@@ -196,9 +196,8 @@ std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions
             return a->mesh.faces.size() > b->mesh.faces.size();
         });
         std::vector<Step> steps(open.size());
-        side_by_side(open.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
-            steps[i] = take_step(whole, options, open[i], own);
-        });
+        side_by_side(open.size(), options.threads, context,
+                     [&](std::size_t i, ExecutionContext& own) { steps[i] = take_step(whole, options, open[i], own); });
         open.clear();
         for (Step& step : steps) {
             effort.maps += step.effort.maps;
