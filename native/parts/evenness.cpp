@@ -60,14 +60,15 @@ Evenness evenness(const VectorXd& u, const VectorXd& areas)
 
 double rough_overflow(const VectorXd& u, const VectorXd& areas)
 {
-    constexpr int bins = 256;
-    constexpr int width = 48;  // bins of even_range
+    constexpr int bins = 128;
+    constexpr int width = 24;  // bins of even_range
     constexpr double step = even_range / width;
     const double middle = u.dot(areas) / areas.sum(), low = middle - 0.5 * bins * step;
     std::array<double, bins + 1> area{}, moment{};  // of all bins below; moment in steps from low
-    double beyond = 0.0;                            // what the ends hold less than it is
+    constexpr double per_step = 1.0 / step;
+    double beyond = 0.0;  // what the ends hold less than it is
     for (Eigen::Index f = 0; f < u.size(); ++f) {
-        const double at = (u[f] - low) / step;
+        const double at = (u[f] - low) * per_step;
         const double held = std::clamp(at, 0.0, bins - 1e-9);
         beyond += areas[f] * std::min(std::abs(at - held) * step, cap);
         const auto bin = static_cast<std::size_t>(held);

@@ -1,7 +1,10 @@
 #include "parts/layout.h"
 
 #include "core/errors.h"
+#include "core/side_by_side.h"
 #include "cut/open_surface.h"
+#include "parts/coarse_surface.h"
+#include "parts/fine_labels.h"
 #include "parts/flat_part.h"
 #include "parts/packing.h"
 #include "parts/splitting.h"
@@ -14,9 +17,11 @@
 namespace koebe {
 namespace {
 
-constexpr double cut_share = 1.0;  // of a part's price, for a cut as long as the root of the area
-constexpr int rounds = 2;          // of splitting and merging
-constexpr double margin = 0.004;   // between parts, in the unit square
+constexpr double cut_share = 1.0;       // of a part's price, for a cut as long as the root of the area
+constexpr int rounds = 2;               // of splitting and merging
+constexpr double margin = 0.004;        // between parts, in the unit square
+constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
+constexpr Index coarse_faces = 40000;
 
 /// Within the unit cube first, as areas of huge or tiny meshes are beyond the range of a double; then of area 1.
 Vertices of_area_one(const Vertices& vertices, const Triangles& triangles)
@@ -64,50 +69,121 @@ PlanarPoints upright(const PlanarPoints& flat, Box& box)
 
 /// Into the unit square, and flips turned back there.
 /// @param flats whose kinds may change
-std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, ExecutionContext& context)
+std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, int threads, ExecutionContext& context)
 {
     std::vector<PlanarPoints> placed;
     std::vector<Box> boxes(flats.size());
     for (std::size_t k = 0; k < flats.size(); ++k) placed.push_back(upright(flats[k].points, boxes[k]));
     const PackedBoxes pack = pack_boxes(boxes, margin);
-    for (std::size_t k = 0; k < placed.size(); ++k) {
+    side_by_side(placed.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
         placed[k].rowwise() += Eigen::RowVector2d(pack.corners[k][0], pack.corners[k][1]);
         placed[k] /= pack.side;
-        repair_flips(flats[k], placed[k], context);
-        embed_safely(flats[k], placed[k], context);
+        repair_flips(flats[k], placed[k], own);
+        embed_safely(flats[k], placed[k], own);
         if (!placed[k].allFinite()) throw SolverError("the map of a part is not finite");
         placed[k] = placed[k].cwiseMax(0.0).cwiseMin(1.0);
         if (!loops_apart(flats[k], placed[k])) flats[k].one_to_one = false;
-    }
+    });
     return placed;
 }
 
+/// Split and merged, each with its map.
+std::vector<PartPointer> even_parts(const CutSurface& whole, const SplitOptions& options, ExecutionContext& context,
+                                    SplitEffort& effort)
+{
+    std::vector<PartPointer> parts{whole_part(whole, context, effort)};
+    RefusedMerges refused;
+    for (int round = 0; round < rounds; ++round) {
+        parts = split_parts(whole, options, std::move(parts), context, effort);
+        if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
+    }
+    return parts;
+}
+
+/// Where the parts of a large surface are decided on a coarse one. @return none if that has no parts
+std::vector<PartPointer> parts_by_coarse_surface(const CutSurface& whole, const SplitOptions& options,
+                                                 ExecutionContext& context, SplitEffort& effort)
+{
+    const CoarseSurface coarse = coarse_surface(whole, coarse_faces, context);
+    const CutSurface surface = cut_surface(coarse.vertices, coarse.triangles, {});
+    std::vector<int> label(coarse.face.size(), 0);
+    int count = 0;
+    for (const PartPointer& part : even_parts(surface, options, context, effort)) {
+        for (const Index f : part->mesh.faces) label[f] = count;
+        ++count;
+    }
+    std::vector<std::vector<Index>> faces(count);
+    const std::vector<int> fine = fine_labels(whole, coarse, label, count, context);
+    for (std::size_t f = 0; f < fine.size(); ++f) faces[fine[f]].push_back(static_cast<Index>(f));
+    std::erase_if(faces, [](const auto& own) { return own.empty(); });
+    std::vector<PartPointer> parts;
+    for (auto& own : faces) parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, {}}));
+    return parts;
+}
+
+struct FlatPiece {
+    std::vector<FlatPart> parts;  ///< by numbers of the piece's mesh
+    double maps = 0.0;            ///< faces mapped
+};
+
 /// The parts of a piece, flat.
-void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsOptions& options, PartsLayout& layout,
-               std::vector<FlatPart>& flats, ExecutionContext& context)
+FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const PartsOptions& options, int threads,
+                     ExecutionContext& context)
 {
     std::vector<Index> polygon;
     if (!options.polygon.empty())
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
-    const CutSurface whole = cut_surface(vertices, piece.triangles, std::move(polygon));
+    const CutSurface whole =
+        cut_surface(vertices(piece.source_vertex, Eigen::all), piece.triangles, std::move(polygon));
     SplitEffort effort;
-    const SplitOptions prices{options.price, cut_share * options.price};
-    std::vector<PartPointer> parts{whole_part(whole, context, effort)};
-    for (int round = 0; round < rounds; ++round) {
-        parts = split_parts(whole, prices, std::move(parts), context, effort);
-        if (parts.size() == 1 || !merge_parts(whole, prices, parts, context, effort)) break;
-    }
+    const SplitOptions prices{options.price, cut_share * options.price, threads};
+    std::vector<PartPointer> parts = piece.triangles.rows() > large
+                                         ? parts_by_coarse_surface(whole, prices, context, effort)
+                                         : even_parts(whole, prices, context, effort);
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
-    layout.maps += effort.maps * static_cast<double>(piece.triangles.rows()) / static_cast<double>(layout.part.size());
-    for (const PartPointer& part : parts) {
-        FlatPart flat = flat_part(*part);
-        for (Index& f : flat.faces) f = piece.source_face[f];
-        for (Index& v : flat.original) v = piece.source_vertex[v];
-        for (VertexLoop& loop : flat.loops)
+    FlatPiece flat{std::vector<FlatPart>(parts.size()), 0.0};
+    std::vector<SplitEffort> efforts(parts.size());
+    side_by_side(parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
+        if (parts[k]->map.positions.size() == 0) map_anew(whole, *parts[k], own, efforts[k]);
+        flat.parts[k] = flat_part(*parts[k]);
+        parts[k].reset();
+    });
+    for (const SplitEffort& own : efforts) effort.maps += own.maps;
+    flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
+    for (FlatPart& part : flat.parts) {
+        for (Index& f : part.faces) f = piece.source_face[f];
+        for (Index& v : part.original) v = piece.source_vertex[v];
+        for (VertexLoop& loop : part.loops)
             for (Index& v : loop) v = piece.source_vertex[v];
-        layout.slit_length += flat.slit;
-        flats.push_back(std::move(flat));
     }
+    return flat;
+}
+
+/// Large pieces one after the other on all threads, the others side by side.
+std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& vertices, const PartsOptions& options,
+                                   ExecutionContext& context)
+{
+    Eigen::Index total = 0;
+    for (const SurfacePiece& piece : opened.pieces) total += piece.triangles.rows();
+    std::vector<std::size_t> small, big;
+    for (std::size_t i = 0; i < opened.pieces.size(); ++i)
+        (8 * opened.pieces[i].triangles.rows() > total ? big : small).push_back(i);
+    std::vector<FlatPiece> flats(opened.pieces.size());
+    double done = 0.0;
+    const auto stage = [&](double faces) {
+        const double from = done;
+        done = std::min(1.0, done + faces / static_cast<double>(total));
+        context.begin_stage("split", 0.05 + 0.85 * from, 0.05 + 0.85 * done);
+    };
+    for (const std::size_t i : big) {
+        stage(static_cast<double>(opened.pieces[i].triangles.rows()));
+        flats[i] = flat_piece(opened.pieces[i], vertices, options, options.threads, context);
+    }
+    stage(static_cast<double>(total));
+    side_by_side(small.size(), options.threads, context, [&](std::size_t k, ExecutionContext& own) {
+        flats[small[k]] = flat_piece(opened.pieces[small[k]], vertices, options, 1, own);
+    });
+    return flats;
 }
 
 /// Whether a face of both has its vertices in the same cyclic order.
@@ -148,16 +224,15 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
     layout.part.assign(static_cast<std::size_t>(triangles.rows()), -1);
     layout.handles_cut = opened.handles;
     std::vector<FlatPart> flats;
-    double share = 0.0;
-    for (const SurfacePiece& piece : opened.pieces) {
-        const double until =
-            share + static_cast<double>(piece.triangles.rows()) / static_cast<double>(triangles.rows());
-        context.begin_stage("split", 0.05 + 0.85 * share, 0.05 + 0.85 * until);
-        share = until;
-        add_parts(piece, layout.vertices(piece.source_vertex, Eigen::all), options, layout, flats, context);
+    for (FlatPiece& piece : flat_pieces(opened, layout.vertices, options, context)) {
+        layout.maps += piece.maps / static_cast<double>(triangles.rows());
+        for (FlatPart& part : piece.parts) {
+            layout.slit_length += part.slit;
+            flats.push_back(std::move(part));
+        }
     }
     context.begin_stage("pack", 0.9, 1.0);
-    const std::vector<PlanarPoints> placed = packed(flats, context);
+    const std::vector<PlanarPoints> placed = packed(flats, options.threads, context);
     for (std::size_t k = 0; k < flats.size(); ++k) {
         FlatPart& flat = flats[k];
         for (std::size_t i = 0; i < flat.faces.size(); ++i) {

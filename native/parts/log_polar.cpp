@@ -85,18 +85,16 @@ LogPolar log_polar(const PartMesh& part, const PartMap& map, Complex about, int 
 {
     LogPolar polar;
     polar.hole = hole;
+    constexpr double tiny = std::numeric_limits<double>::min();
     const auto depth = [&](Complex z) {
         return std::log(std::max(std::abs(z - about) / std::abs(1.0 - std::conj(about) * z), 1e-300));
     };
-    polar.t.resize(map.u.size());
-    polar.v.resize(map.u.size());
-    for (Eigen::Index f = 0; f < map.u.size(); ++f) {
-        const Complex z = map.centers[f];
-        polar.t[f] = map.lost[f] ? -std::numeric_limits<double>::infinity() : depth(z);
-        const double slope =
-            (1.0 - std::norm(about)) / std::max(std::abs(z - about) * std::abs(1.0 - std::conj(about) * z), 1e-300);
-        polar.v[f] = map.u[f] + std::log(slope);
-    }
+    const VectorXd near = 0.5 * (map.centers.array() - about).abs2().max(tiny).log();
+    const VectorXd far = 0.5 * (1.0 - std::conj(about) * map.centers.array()).abs2().max(tiny).log();
+    polar.t = near - far;
+    polar.v = map.u.array() + std::log(1.0 - std::norm(about)) - near.array() - far.array();
+    for (Eigen::Index f = 0; f < polar.t.size(); ++f)
+        if (map.lost[f]) polar.t[f] = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < part.surface.loops.size(); ++k) {
         if (static_cast<int>(k) == map.outer || static_cast<int>(k) == hole) continue;
         double low = std::numeric_limits<double>::infinity(), high = -low;

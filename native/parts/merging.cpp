@@ -1,4 +1,6 @@
 #include "core/connectivity.h"
+#include "core/side_by_side.h"
+#include "parts/piece_forecast.h"
 #include "parts/splitting.h"
 
 #include <algorithm>
@@ -8,7 +10,8 @@
 namespace koebe {
 namespace {
 
-constexpr double worth_mapping = -0.5;  // of a part's price: predicted gains from which on the map is made
+constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
+constexpr double sure = 0.5;             // of price and forecast: a gain that needs no map to be sure of
 
 /// The smallest part that both come from.
 std::shared_ptr<const Part> common_origin(const Part& a, const Part& b)
@@ -42,12 +45,29 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
 {
     const auto origin = common_origin(a, b);
     if (!origin) return {};
+    std::vector<Index> piece(origin->mesh.faces.size(), -1);
+    for (const Part* part : {&a, &b}) {
+        auto at = origin->mesh.faces.begin();
+        for (const Index f : part->mesh.faces) {
+            at = std::lower_bound(at, origin->mesh.faces.end(), f);
+            piece[at - origin->mesh.faces.begin()] = 0;
+        }
+    }
+    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
+    if (origin->map.measured && std::ranges::count(piece, 0) == static_cast<std::ptrdiff_t>(piece.size())) {
+        // The cut is taken back that was made there, and not made again.
+        if (!(origin->map.overflow < saved)) return {};
+        return std::make_shared<Part>(Part{origin->mesh, origin->map, origin->parent, true});
+    }
+    const PieceForecast forecast = forecast_pieces(origin->mesh, origin->map, piece, 1).front();
+    if (forecast.lost_area > 0.0 || saved - forecast.overflow < worth_mapping * options.part_price) return {};
     std::vector<Index> faces = a.mesh.faces;
     faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
     auto both = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, origin});
-    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
-    both->map = restricted_map(origin->mesh, origin->map, both->mesh);
-    if (both->map.lost_area > 0.0 || saved - both->map.overflow < worth_mapping * options.part_price) return {};
+    if (saved - forecast.overflow > sure * (options.part_price + forecast.overflow)) {
+        both->map = restricted_map(origin->mesh, origin->map, both->mesh);  // mapped when no more comes to it
+        if (both->map.overflow < saved) return both;
+    }
     map_anew(whole, *both, context, effort);
     return both->map.overflow < saved ? both : PartPointer{};
 }
@@ -55,10 +75,9 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
 }  // namespace
 
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
-                 ExecutionContext& context, SplitEffort& effort)
+                 RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort)
 {
     bool any = false;
-    std::set<std::pair<PartPointer, PartPointer>> refused;
     for (bool changed = true; changed;) {
         changed = false;
         std::vector<std::pair<double, std::pair<int, int>>> order;
@@ -79,6 +98,13 @@ bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
             break;
         }
     }
+    std::vector<Part*> unmapped;
+    for (const PartPointer& part : parts)
+        if (!part->map.measured) unmapped.push_back(part.get());
+    std::vector<SplitEffort> efforts(unmapped.size());
+    side_by_side(unmapped.size(), options.threads, context,
+                 [&](std::size_t i, ExecutionContext& own) { map_anew(whole, *unmapped[i], own, efforts[i]); });
+    for (const SplitEffort& own : efforts) effort.maps += own.maps;
     return any;
 }
 

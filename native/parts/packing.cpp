@@ -8,6 +8,8 @@
 namespace koebe {
 namespace {
 
+constexpr std::size_t many = 1000;  // boxes: fewer widths are tried
+
 struct Step {
     double x, width, y;
 };
@@ -61,7 +63,8 @@ PackedBoxes pack_boxes(const std::vector<Box>& boxes, double margin)
         widest = std::max(widest, box.width);
     }
     const double least = std::max(std::sqrt(area), widest);
-    for (double width = least; width < 2.5 * least; width *= 1.02) {
+    const double factor = boxes.size() > many ? 1.1 : 1.02;
+    for (double width = least; width < 2.5 * least; width *= factor) {
         const double gap = margin * width;
         std::vector<std::array<double, 2>> corners(boxes.size());
         const double strip = std::max(width, widest + gap);

@@ -19,6 +19,7 @@ struct PartsOptions {
     bool cut =
         true;  ///< any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    int threads = 0;                  ///< at most; 0: as many as the machine has. The result is the same for any number
 };
 
 struct PartReport {

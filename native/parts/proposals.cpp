@@ -41,23 +41,43 @@ Window window_at(const PartMesh& part, const PartMap& map, double from)
     return window;
 }
 
-/// The windows of most area in one piece, apart from each other.
+/// The windows of most area in one piece, apart from each other. The area of all faces in a window bounds that of a
+/// piece: most windows need no look at their pieces.
 std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
 {
     std::vector<double> u;
     for (std::size_t f = 0; f < map.lost.size(); ++f)
         if (!map.lost[f]) u.push_back(map.u[static_cast<Eigen::Index>(f)]);
     if (u.empty()) return {};
-    std::ranges::sort(u);
-    const double low = u[u.size() / 100], high = u[u.size() - 1 - u.size() / 100];
-    std::vector<Window> all, best;
+    const auto quantile = [&](std::size_t at) {
+        std::nth_element(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(at), u.end());
+        return u[at];
+    };
+    const double low = quantile(u.size() / 100), high = quantile(u.size() - 1 - u.size() / 100);
     const double step = std::max(0.12, (high - low) / 60.0);
-    for (double from = low - 0.5; from < high; from += step) all.push_back(window_at(part, map, from));
-    std::ranges::sort(all, [](const Window& a, const Window& b) { return a.area > b.area; });
-    for (Window& window : all) {
-        if (best.size() == most_windows) break;
-        if (std::ranges::all_of(best, [&](const Window& b) { return std::abs(b.from - window.from) > apart; }))
-            best.push_back(std::move(window));
+    std::vector<Window> open, best;
+    for (double from = low - 0.5; from < high; from += step) open.push_back({from, 0.0, -1, {}});
+    std::vector<double> change(open.size() + 1, 0.0);
+    const auto first_at = [&](double from) {
+        return static_cast<std::size_t>(
+            std::clamp(std::ceil((from - open.front().from) / step), 0.0, static_cast<double>(open.size())));
+    };
+    for (Eigen::Index f = 0; f < map.u.size(); ++f) {
+        change[first_at(map.u[f] - window_share * even_range)] += part.areas[f];
+        change[first_at(map.u[f])] -= part.areas[f];
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < open.size(); ++i) open[i].area = (sum += change[i]) + 1e-9 * part.area;
+    while (!open.empty() && best.size() < most_windows) {
+        const auto largest =
+            std::ranges::max_element(open, [](const Window& a, const Window& b) { return a.area < b.area; });
+        if (!(largest->area > 0.0)) break;
+        if (largest->piece < 0) {
+            *largest = window_at(part, map, largest->from);
+            continue;
+        }
+        best.push_back(std::move(*largest));
+        std::erase_if(open, [&](const Window& w) { return std::abs(best.back().from - w.from) <= apart; });
     }
     return best;
 }

@@ -2,6 +2,8 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "core/side_by_side.h"
+#include "parts/piece_forecast.h"
 #include "parts/proposals.h"
 
 #include <algorithm>
@@ -16,12 +18,18 @@ constexpr double remaining = 0.6;          // of an uneven child's cost, after i
 constexpr double lost_cost = 0.25;         // in u: what is left of a face's cost where the parent's map says nothing
 constexpr std::size_t most_looked_at = 8;  // proposals of a part
 constexpr std::size_t most_verified = 3;   // of them
+constexpr double crumb_leaves = 0.9;       // of a part's area
+constexpr double least_return = 0.5;       // of the price, in cost that is gone at once
+constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
-constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged
+constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
+                                           // is so large that its cost matters
 
 struct Split {
     double gain = 0.0, border = 0.0;
-    std::vector<PartPointer> children;
+    std::vector<Index> piece;                ///< (F) of the part
+    std::vector<PieceForecast> forecasts;    ///< of each piece
+    std::vector<PartPointer> children = {};  ///< of each piece, once they are made
 };
 
 double cost_of(const PartMap& map)
@@ -29,10 +37,14 @@ double cost_of(const PartMap& map)
     return map.measured ? map.overflow : std::max(map.overflow - (6.0 - lost_cost) * map.lost_area, 0.0);
 }
 
-/// What is left of a child's cost in the end.
-double expected_cost(const PartMap& map, double price)
+double cost_of(const PieceForecast& forecast)
 {
-    const double cost = cost_of(map);
+    return std::max(forecast.overflow - (6.0 - lost_cost) * forecast.lost_area, 0.0);
+}
+
+/// What is left of a child's cost in the end.
+double expected_cost(double cost, double price)
+{
     return cost > 2.0 * price ? 2.0 * price + remaining * (cost - 2.0 * price) : cost;
 }
 
@@ -48,32 +60,36 @@ double border_length(const PartMesh& part, const std::vector<int>& label)
     return length;
 }
 
-std::vector<PartPointer> children_of(const CutSurface& whole, const PartPointer& part, const std::vector<int>& label)
+void make_children(const CutSurface& whole, const PartPointer& part, Split& split)
 {
-    Index count = 0;
-    const std::vector<Index> piece = connected_pieces(part->mesh, label, count);
-    std::vector<std::vector<Index>> faces(count);
-    for (std::size_t f = 0; f < piece.size(); ++f) faces[piece[f]].push_back(part->mesh.faces[f]);
-    std::vector<PartPointer> children;
-    for (auto& own : faces) {
-        auto child = std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, part});
-        child->map = restricted_map(part->mesh, part->map, child->mesh);
-        children.push_back(std::move(child));
-    }
-    return children;
+    std::vector<std::vector<Index>> faces(split.forecasts.size());
+    for (std::size_t f = 0; f < split.piece.size(); ++f) faces[split.piece[f]].push_back(part->mesh.faces[f]);
+    for (auto& own : faces)
+        split.children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, part}));
 }
 
+/// By the maps of the children that have one, and the forecasts of the others. To cut off a crumb must pay by itself,
+/// not by the hope for later splits: they would go one after the other.
 double gain_of(const Split& split, const Part& part, const SplitOptions& options)
 {
-    double gain = cost_of(part.map) - options.cut_price * split.border -
-                  options.part_price * static_cast<double>(split.children.size() - 1);
-    for (const PartPointer& child : split.children) gain -= expected_cost(child->map, options.part_price);
-    return gain;
+    const double price =
+        options.cut_price * split.border + options.part_price * static_cast<double>(split.forecasts.size() - 1);
+    double left = 0.0, expected = 0.0, largest = 0.0;
+    for (std::size_t k = 0; k < split.forecasts.size(); ++k) {
+        const bool measured = k < split.children.size() && split.children[k]->map.positions.size() > 0;
+        const double cost = measured ? cost_of(split.children[k]->map) : cost_of(split.forecasts[k]);
+        left += cost;
+        largest = std::max(largest, split.forecasts[k].area);
+        expected += expected_cost(cost, options.part_price);
+    }
+    const double before = cost_of(part.map);
+    const bool is_crumb = largest > crumb_leaves * part.mesh.area;
+    return is_crumb && before - left < least_return * price ? -price : before - expected - price;
 }
 
 /// The splits that seem to pay, the best first.
-std::vector<Split> promising_splits(const CutSurface& whole, const PartPointer& part, const SplitOptions& options,
-                                    ExecutionContext& context, SplitEffort& effort)
+std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions& options, ExecutionContext& context,
+                                    SplitEffort& effort)
 {
     std::vector<Proposal> all = proposals(part->mesh, part->map);
     std::ranges::stable_sort(all, [](const Proposal& a, const Proposal& b) { return a.area > b.area; });
@@ -85,7 +101,9 @@ std::vector<Split> promising_splits(const CutSurface& whole, const PartPointer& 
         std::vector<int> label = minimum_cut(part->mesh, proposal.sides);
         ++effort.cuts;
         if (label.empty() || std::ranges::count(seen, label) > 0) continue;
-        Split split{0.0, border_length(part->mesh, label), children_of(whole, part, label)};
+        Index count = 0;
+        Split split{0.0, border_length(part->mesh, label), connected_pieces(part->mesh, label, count), {}};
+        split.forecasts = forecast_pieces(part->mesh, part->map, split.piece, count);
         split.gain = gain_of(split, *part, options);
         seen.push_back(std::move(label));
         if (split.gain > 0.0) splits.push_back(std::move(split));
@@ -98,16 +116,20 @@ std::vector<Split> promising_splits(const CutSurface& whole, const PartPointer& 
 Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOptions& options,
                  ExecutionContext& context, SplitEffort& effort)
 {
-    std::vector<Split> splits = promising_splits(whole, part, options, context, effort);
+    std::vector<Split> splits = promising_splits(part, options, context, effort);
     Split best;
     for (std::size_t i = 0; i < std::min(splits.size(), most_verified); ++i) {
         Split& split = splits[i];
-        if (split.gain <= best.gain) break;
-        for (const PartPointer& child : split.children)
-            if (child->map.off_round > most_off_round) map_anew(whole, *child, context, effort);
+        if (split.gain <= worth_verifying * best.gain) break;
+        make_children(whole, part, split);
+        for (std::size_t k = 0; k < split.children.size(); ++k)
+            if (split.forecasts[k].off_round > most_off_round && split.forecasts[k].area > options.part_price)
+                map_anew(whole, *split.children[k], context, effort);
         split.gain = gain_of(split, *part, options);
         if (split.gain > best.gain) best = std::move(split);
     }
+    for (const PartPointer& child : best.children)
+        if (child->map.positions.size() == 0) child->map = restricted_map(part->mesh, part->map, child->mesh);
     return best;
 }
 
@@ -129,34 +151,60 @@ PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, Split
     return part;
 }
 
+namespace {
+
+/// One step for a part: its children, or itself, settled.
+struct Step {
+    std::vector<PartPointer> open;
+    PartPointer settled;
+    SplitEffort effort;
+};
+
+Step take_step(const CutSurface& whole, const SplitOptions& options, const PartPointer& part, ExecutionContext& context)
+{
+    Step step;
+    if (!part->map.measured && part->map.lost_area > surely_lost * part->mesh.area)
+        map_anew(whole, *part, context, step.effort);
+    Split split;
+    if (!part->settled && part->map.overflow > options.part_price)
+        split = best_split(whole, part, options, context, step.effort);
+    if (split.gain > 0.0) {
+        step.open = std::move(split.children);
+        return step;
+    }
+    if (!part->map.measured) {
+        map_anew(whole, *part, context, step.effort);
+        if (part->map.overflow > options.part_price) {
+            step.open.push_back(part);
+            return step;
+        }
+    }
+    part->settled = true;
+    step.settled = part;
+    return step;
+}
+
+}  // namespace
+
 std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
                                      std::vector<PartPointer> open, ExecutionContext& context, SplitEffort& effort)
 {
     std::vector<PartPointer> done;
     while (!open.empty()) {
-        const auto costliest = std::ranges::max_element(
-            open, [](const PartPointer& a, const PartPointer& b) { return a->map.overflow < b->map.overflow; });
-        std::swap(*costliest, open.back());
-        const PartPointer part = open.back();
-        open.pop_back();
-        if (!part->map.measured && part->map.lost_area > surely_lost * part->mesh.area)
-            map_anew(whole, *part, context, effort);
-        Split split;
-        if (!part->settled && part->map.overflow > options.part_price)
-            split = best_split(whole, part, options, context, effort);
-        if (split.gain > 0.0) {
-            std::ranges::move(split.children, std::back_inserter(open));
-            continue;
+        // The largest first: they take longest.
+        std::ranges::stable_sort(open, [](const PartPointer& a, const PartPointer& b) {
+            return a->mesh.faces.size() > b->mesh.faces.size();
+        });
+        std::vector<Step> steps(open.size());
+        side_by_side(open.size(), options.threads, context,
+                     [&](std::size_t i, ExecutionContext& own) { steps[i] = take_step(whole, options, open[i], own); });
+        open.clear();
+        for (Step& step : steps) {
+            effort.maps += step.effort.maps;
+            effort.cuts += step.effort.cuts;
+            std::ranges::move(step.open, std::back_inserter(open));
+            if (step.settled) done.push_back(std::move(step.settled));
         }
-        if (!part->map.measured) {
-            map_anew(whole, *part, context, effort);
-            if (part->map.overflow > options.part_price) {
-                open.push_back(part);
-                continue;
-            }
-        }
-        part->settled = true;
-        done.push_back(part);
     }
     return done;
 }

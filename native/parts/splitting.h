@@ -4,6 +4,8 @@
 #include "parts/part_map.h"
 
 #include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace koebe {
@@ -11,6 +13,7 @@ namespace koebe {
 struct SplitOptions {
     double part_price = 0.0037;  ///< of a part, in overflow
     double cut_price = 0.0037;   ///< of a cut as long as the root of the area
+    int threads = 1;             ///< at most; 0: as many as the machine has. The result is the same for any number
 };
 
 struct Part {
@@ -34,16 +37,19 @@ void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, Sp
 /// The surface as one part, mapped.
 PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, SplitEffort& effort);
 
-/// Splits the costliest part by the proposal of most gain, children judged by the parent's map, until nothing pays.
+/// Splits each part by the proposal of most gain, children judged by the parent's map, until nothing pays.
 /// Children whose loops are not round there are mapped before they are judged. Every part that stays has a map of its
 /// own.
 std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
                                      std::vector<PartPointer> parts, ExecutionContext& context, SplitEffort& effort);
 
+/// Pairs of neighbours that are better apart.
+using RefusedMerges = std::set<std::pair<PartPointer, PartPointer>>;
+
 /// Merges neighbours whose cut does not pay, the longest common border first: judged by the map of a part that both
 /// come from, and then mapped.
-/// @return whether any were
+/// @param refused known from an earlier call, and more of them @return whether any were
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
-                 ExecutionContext& context, SplitEffort& effort);
+                 RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort);
 
 }  // namespace koebe

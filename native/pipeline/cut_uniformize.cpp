@@ -4,6 +4,7 @@
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/peak_memory.h"
+#include "core/side_by_side.h"
 #include "core/topology.h"
 #include "pipeline/cut_sheet.h"
 #include "pipeline/cut_warnings.h"
@@ -28,6 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double opening_share = 0.1;  // of the progress
+constexpr double small_share = 0.1;    // of all faces: smaller pieces are mapped side by side
 constexpr double least_share = 0.1;    // dimensionless: no disk is smaller than this part of the mean one
 constexpr int most_packings = 5;  // pieces with flips, which come from rounding, are drawn twice as large each time
 
@@ -219,17 +221,33 @@ CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& 
     const double all = static_cast<double>(triangles.rows());
     double done = 0.0;
     result.converged = true;
-    std::exception_ptr failure;
+    std::vector<std::exception_ptr> failures(opened.pieces.size());
+    result.pieces.resize(opened.pieces.size());
+    std::vector<std::size_t> small;
     for (std::size_t i = 0; i < opened.pieces.size(); ++i) {
         const double faces = static_cast<double>(opened.pieces[i].triangles.rows());
+        if (faces < small_share * all) {
+            small.push_back(i);
+            continue;
+        }
         ExecutionContext own(
             [&](double fraction, const std::string& stage) {
                 context.report(opening_share + (1.0 - opening_share) * (done + fraction * faces) / all, stage);
             },
             {}, [&context] { context.checkpoint(); });
-        result.pieces.push_back(mapper.map(i, own, failure));
+        result.pieces[i] = mapper.map(i, own, failures[i]);
         done += faces;
-        const MappedPiece& piece = result.pieces.back();
+    }
+    if (!small.empty()) {
+        context.begin_stage("iterate", opening_share + (1.0 - opening_share) * done / all, 1.0);
+        side_by_side(small.size(), options.threads, context, [&](std::size_t k, ExecutionContext& own) {
+            result.pieces[small[k]] = mapper.map(small[k], own, failures[small[k]]);
+        });
+    }
+    std::exception_ptr failure;
+    for (std::size_t i = 0; i < result.pieces.size(); ++i) {
+        const MappedPiece& piece = result.pieces[i];
+        if (!failure) failure = failures[i];
         result.converged = result.converged && piece.mapped && piece.map.converged;
         result.seconds += piece.map.seconds;
         for (std::size_t f = 0; f < piece.faces.size(); ++f)

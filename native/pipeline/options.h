@@ -27,7 +27,8 @@ struct UniformizeOptions : IterationOptions {
     bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
     /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
-    int threads = 0;  ///< at most; 0: all cores. Today one is used: the result is the same for any number
+    int threads = 0;  ///< at most; 0: all cores. One surface takes one, small pieces of a cut mesh go side by side; the
+                      ///< result is the same for any number
 };
 
 }  // namespace koebe

@@ -1,6 +1,8 @@
 #include "core/errors.h"
+#include "parts/coarse_surface.h"
 #include "parts/dual_cut.h"
 #include "parts/evenness.h"
+#include "parts/fine_labels.h"
 #include "parts/flat_part.h"
 #include "parts/packing.h"
 #include "parts/parts.h"
@@ -235,6 +237,74 @@ TEST(Parts, closed_surfaces_and_handles_are_opened)
     const PartsResult opened = parts(sphere);
     expect_sound(opened, static_cast<Index>(sphere.triangles.rows()));
     EXPECT_GT(opened.even_area, 0.85);
+}
+
+TEST(Parts, any_number_of_threads_gives_the_same)
+{
+    const Mesh one = finger(8.0);
+    // Fingers of many sizes beside each other.
+    Mesh many{Vertices(12 * one.vertices.rows(), 3), Triangles(12 * one.triangles.rows(), 3)};
+    for (int i = 0; i < 12; ++i) {
+        many.vertices.middleRows(i * one.vertices.rows(), one.vertices.rows()) =
+            (1.0 + 0.3 * i) * (one.vertices.rowwise() + Eigen::RowVector3d(3.0 * i, 0.0, 0.0));
+        many.triangles.middleRows(i * one.triangles.rows(), one.triangles.rows()) =
+            one.triangles.array() + static_cast<Index>(i * one.vertices.rows());
+    }
+    for (const Mesh* mesh : {&one, static_cast<const Mesh*>(&many)}) {
+        const PartsResult alone = parts(*mesh, {.price = 0.0005, .threads = 1});
+        for (const int threads : {2, 5}) {
+            const PartsResult together = parts(*mesh, {.price = 0.0005, .threads = threads});
+            EXPECT_EQ(together.uv, alone.uv) << threads;
+            EXPECT_EQ(together.part, alone.part) << threads;
+            EXPECT_EQ(together.warnings, alone.warnings) << threads;
+        }
+    }
+}
+
+TEST(Parts, a_coarse_surface_keeps_loops_and_area)
+{
+    const Mesh mesh = finger(10.0, 48);
+    const CutSurface whole = cut_surface(mesh.vertices, mesh.triangles, {});
+    ExecutionContext context;
+    const Index faces = static_cast<Index>(mesh.triangles.rows()) / 6;
+    const CoarseSurface coarse = coarse_surface(whole, faces, context);
+    EXPECT_LE(coarse.triangles.rows(), faces);
+    EXPECT_GT(coarse.triangles.rows(), faces / 2);
+    const CutSurface surface = cut_surface(coarse.vertices, coarse.triangles, {});
+    EXPECT_EQ(surface.surface.loops.size(), 1U);
+    EXPECT_NEAR(surface.areas.sum(), whole.areas.sum(), 0.03 * whole.areas.sum());
+    for (std::size_t f = 0; f < coarse.face.size(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Index v = mesh.triangles(coarse.face[f], k);
+            EXPECT_TRUE((coarse.triangles.row(static_cast<Eigen::Index>(f)).array() == coarse.vertex_at[v]).any()) << f;
+        }
+}
+
+TEST(Parts, coarse_labels_become_fine_ones)
+{
+    const Mesh mesh = finger(10.0, 48);
+    const CutSurface whole = cut_surface(mesh.vertices, mesh.triangles, {});
+    ExecutionContext context;
+    const CoarseSurface coarse = coarse_surface(whole, static_cast<Index>(mesh.triangles.rows()) / 6, context);
+    std::vector<int> label;
+    for (const auto& face : coarse.triangles.rowwise()) {
+        const double height =
+            (coarse.vertices(face[0], 2) + coarse.vertices(face[1], 2) + coarse.vertices(face[2], 2)) / 3.0;
+        label.push_back(height < 4.0 ? 0 : height < 8.0 ? 1 : 2);
+    }
+    const std::vector<int> fine = fine_labels(whole, coarse, label, 3, context);
+    for (std::size_t f = 0; f < fine.size(); ++f) {
+        const double height = mesh.vertices(mesh.triangles.row(static_cast<Eigen::Index>(f)), 2).mean();
+        if (std::abs(height - 4.0) > 1.5 && std::abs(height - 8.0) > 1.5) {
+            EXPECT_EQ(fine[f], height < 4.0 ? 0 : height < 8.0 ? 1 : 2) << f;
+        }
+    }
+    // The borders are the girth, not the zigzag of coarse faces.
+    double border = 0.0;
+    for (std::size_t h = 0; h < whole.surface.twin.size(); ++h)
+        if (const Index t = whole.surface.twin[h]; t >= 0 && fine[t / 3] != fine[h / 3])
+            border += 0.5 * whole.lengths[static_cast<Eigen::Index>(h)];
+    EXPECT_NEAR(border, 2 * 2 * pi, 0.02 * 2 * 2 * pi);
 }
 
 TEST(Parts, polygons_stay_whole)
