@@ -1,5 +1,7 @@
 """Circles moved by Möbius maps: the UVs, the report, undo, and everything else as it was."""
 
+import cmath
+
 import bpy
 import fingerprint
 import numpy as np
@@ -52,7 +54,7 @@ def test_a_point_comes_into_the_middle_and_circles_stay_circles():
     scenes.assert_circle_domain(obj)
     assert_report_is_true(obj)
     z, a = (2.0 * before - 1.0) @ [1, 1j], 0.3 - 0.2j
-    expected = np.exp(0.5j) * (z - a) / (1.0 - a.conjugate() * z)
+    expected = cmath.rect(1.0, 0.5) * (z - a) / (1.0 - a.conjugate() * z)
     assert np.abs((2.0 * uv_of(obj) - 1.0) @ [1, 1j] - expected).max() < 1e-6
     assert str(scenes.mesh_state(obj.data, but_layer="Koebe")) == str(mesh)
     assert report().moved == "moved by hand" and report().flipped == 0
@@ -169,7 +171,7 @@ def test_frames_while_dragging_and_esc_restore_every_bit(addon, koebe):
     domain, moebius = job.domains[0], addon("maps.moebius")
     before = fingerprint.fingerprint()
     for angle in RING:
-        moved = moebius.dragged(0.2j, 0.5 * np.exp(1j * angle))
+        moved = moebius.dragged(0.2j, cmath.rect(0.5, angle))
         job.show(domain, job.image_of(domain, moved))
         assert np.abs(uv_of(obj) - domain.image(moved).uv[domain.island.corner_vertex]).max() < 2e-6
     edges = job.edges(domain)
