@@ -9,7 +9,7 @@ from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.parts_job import PartsJob
 from ..maps.options import OptionError
-from ..maps.parts import price_of
+from ..maps.parts import NO_CUTS, price_of
 from ..maps.wording import few, lines
 from ..solver.errors import NativeError
 from ..state import run_report
@@ -21,7 +21,7 @@ from .uniformize import can_map
 class UV_OT_koebe_parts(ModalRun, PartsProperties, bpy.types.Operator):
     """Cut a surface of any kind, in the UVs alone, into disks and unrolled tubes with even texels: limbs, closed
     models, models with handles. Cuts along seams too; in Edit Mode takes the selected faces. The mesh itself is not
-    changed"""
+    changed, unless its cuts are to become seams"""
 
     bl_idname = "uv.koebe_parts"
     bl_label = "Koebe Unwrap to Parts"
@@ -37,14 +37,17 @@ class UV_OT_koebe_parts(ModalRun, PartsProperties, bpy.types.Operator):
         layout.use_property_decorate = False
         for name in PART_OPTION_NAMES:
             row = layout.row()
-            row.active = not name.startswith("checker_") or self.checker
+            row.active = self.checker if name.startswith("checker_") else name != "evenness" or self.seams == "add"
             row.prop(self, name)
 
     def _job(self, context: bpy.types.Context) -> PartsJob | None:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
         try:
-            price, selected_only = price_of(self.evenness), context.mode == "EDIT_MESH"
-            return PartsJob(target_objects(context), part_options_of(self), price, selected_only, refused=[])
+            price = price_of(self.evenness) if self.seams == "add" else NO_CUTS
+            return PartsJob(
+                target_objects(context), part_options_of(self), price, context.mode == "EDIT_MESH", refused=[],
+                write_seams=self.write_seams,
+            )  # fmt: skip
         except (NativeError, OptionError, TransferError) as error:
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return None

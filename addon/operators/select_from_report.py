@@ -84,6 +84,16 @@ class UV_OT_koebe_select_flipped(ReportOperator, bpy.types.Operator):
         return FACES, json.loads(entry.flipped_faces or "[]")
 
 
+class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the edges along which the UVs of this object are cut into parts"""
+
+    bl_idname = "uv.koebe_select_cuts"
+    bl_label = "Select Cuts"
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        return EDGES, json.loads(entry.cuts or "[]")
+
+
 class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
     """Select, in Edit Mode, the edges of a boundary loop of this island: the rim of the disk or a hole"""
 
@@ -117,5 +127,7 @@ def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> 
     return bool(chosen)
 
 
-CLASSES = (UV_OT_koebe_select_offenders, UV_OT_koebe_select_flipped, UV_OT_koebe_select_loop)
+CLASSES = (
+    UV_OT_koebe_select_offenders, UV_OT_koebe_select_flipped, UV_OT_koebe_select_cuts, UV_OT_koebe_select_loop,
+)  # fmt: skip
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -6,6 +6,7 @@ from typing import Any, Literal
 import bpy
 
 from ..operators.select_from_report import (
+    UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
     UV_OT_koebe_select_loop,
     UV_OT_koebe_select_offenders,
@@ -97,6 +98,8 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         split.label(text=value)
     if entry.flipped:
         column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
+    if len(entry.cuts) > len("[]"):
+        column.operator(UV_OT_koebe_select_cuts.bl_idname, icon="RESTRICT_SELECT_OFF")
     if not entry.loops:
         return
     column.label(text="Select Loop")

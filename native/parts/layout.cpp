@@ -1,5 +1,6 @@
 #include "parts/layout.h"
 
+#include "core/connectivity.h"
 #include "core/errors.h"
 #include "cut/open_surface.h"
 #include "parts/flat_part.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace koebe {
@@ -82,6 +84,21 @@ std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, ExecutionContext&
     return placed;
 }
 
+/// (3F) half-edges of a piece that are among these edges, by vertices of the input; empty: none.
+std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std::array<Index, 2>>& edges)
+{
+    if (edges.empty()) return {};
+    std::set<std::pair<Index, Index>> chosen;
+    for (const auto& edge : edges) chosen.insert(std::minmax(edge[0], edge[1]));
+    std::vector<char> slit(static_cast<std::size_t>(piece.triangles.size()), 0);
+    for (Index h = 0; h < static_cast<Index>(slit.size()); ++h) {
+        const Index a = piece.source_vertex[origin(piece.triangles, h)];
+        const Index b = piece.source_vertex[target(piece.triangles, h)];
+        slit[h] = chosen.contains(std::minmax(a, b));
+    }
+    return slit;
+}
+
 /// The parts of a piece, flat.
 void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsOptions& options, PartsLayout& layout,
                std::vector<FlatPart>& flats, ExecutionContext& context)
@@ -89,7 +106,8 @@ void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsO
     std::vector<Index> polygon;
     if (!options.polygon.empty())
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
-    const CutSurface whole = cut_surface(vertices, piece.triangles, std::move(polygon));
+    CutSurface whole = cut_surface(vertices, piece.triangles, std::move(polygon));
+    whole.slit = chosen_slits(piece, options.slits);
     SplitEffort effort;
     const SplitOptions prices{options.price, cut_share * options.price};
     std::vector<PartPointer> parts{whole_part(whole, context, effort)};
