@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "cut/open_surface.h"
 #include "parts/flat_part.h"
+#include "parts/mirror_symmetry.h"
 #include "parts/packing.h"
 #include "parts/splitting.h"
 
@@ -99,6 +100,23 @@ std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std:
     return slit;
 }
 
+/// @param slit (3F) half-edges of the whole
+void prefer_slits(PartMesh& part, const std::vector<char>& slit)
+{
+    part.slit.resize(3 * part.faces.size(), 0);
+    for (std::size_t i = 0; i < part.faces.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (slit[3 * static_cast<std::size_t>(part.faces[i]) + k]) part.slit[3 * i + k] = 1;
+}
+
+/// @param opened (3F) half-edges of the whole, changed in place
+void note_slit(const PartMesh& part, const FlatPart& flat, std::vector<char>& opened)
+{
+    for (std::size_t h = 0; h < part.surface.twin.size(); ++h)
+        if (part.surface.twin[h] != no_twin && flat.surface.twin[h] == no_twin)
+            opened[3 * static_cast<std::size_t>(part.faces[h / 3]) + h % 3] = 1;
+}
+
 /// The parts of a piece, flat.
 void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsOptions& options, PartsLayout& layout,
                std::vector<FlatPart>& flats, ExecutionContext& context)
@@ -115,10 +133,16 @@ void add_parts(const SurfacePiece& piece, const Vertices& vertices, const PartsO
         parts = split_parts(whole, prices, std::move(parts), context, effort);
         if (parts.size() == 1 || !merge_parts(whole, prices, parts, context, effort)) break;
     }
+    const Mirror mirror = find_mirror(whole);
+    make_symmetric(whole, prices, mirror, parts, context, effort);
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
     layout.maps += effort.maps * static_cast<double>(piece.triangles.rows()) / static_cast<double>(layout.part.size());
+    std::vector<char> opened(static_cast<std::size_t>(piece.triangles.size()), 0);
     for (const PartPointer& part : parts) {
+        if (!mirror.image.empty() && part->map.kind == PartKind::tube)
+            prefer_slits(part->mesh, mirrored_slits(whole, mirror, opened));
         FlatPart flat = flat_part(*part);
+        note_slit(part->mesh, flat, opened);
         for (Index& f : flat.faces) f = piece.source_face[f];
         for (Index& v : flat.original) v = piece.source_vertex[v];
         for (VertexLoop& loop : flat.loops)
