@@ -23,7 +23,8 @@ class Cells {
 public:
     explicit Cells(const Vertices& points) : points_(points)
     {
-        for (Eigen::Index i = 0; i < points.rows(); ++i) cells_[key(cell(points.row(i)))].push_back(static_cast<Index>(i));
+        for (Eigen::Index i = 0; i < points.rows(); ++i)
+            cells_[key(cell(points.row(i)))].push_back(static_cast<Index>(i));
     }
     /// The point within the tolerance; -1: none or several.
     Index at(const Eigen::RowVector3d& place) const
@@ -66,8 +67,10 @@ std::vector<Index> numbered_groups(const CutSurface& whole, Index& count)
     std::vector<Index> group(static_cast<std::size_t>(whole.areas.size()));
     std::unordered_map<Index, Index> number;
     for (std::size_t f = 0; f < group.size(); ++f)
-        group[f] = number.try_emplace(whole.polygon.empty() ? static_cast<Index>(f) : whole.polygon[f],
-                                      static_cast<Index>(number.size())).first->second;
+        group[f] = number
+                       .try_emplace(whole.polygon.empty() ? static_cast<Index>(f) : whole.polygon[f],
+                                    static_cast<Index>(number.size()))
+                       .first->second;
     count = static_cast<Index>(number.size());
     return group;
 }
@@ -83,7 +86,8 @@ Vertices middles_of(const CutSurface& whole, const std::vector<Index>& group, In
     for (Index g = 0; g < count; ++g) {
         std::ranges::sort(corners[g]);
         corners[g].erase(std::unique(corners[g].begin(), corners[g].end()), corners[g].end());
-        for (const Index v : corners[g]) middles.row(g) += whole.vertices.row(v) / static_cast<double>(corners[g].size());
+        for (const Index v : corners[g])
+            middles.row(g) += whole.vertices.row(v) / static_cast<double>(corners[g].size());
     }
     return middles;
 }

@@ -9,9 +9,9 @@ namespace koebe {
 
 /// Faces and their mirror images. Of quadrilaterals the diagonals need not correspond: polygons do.
 struct Mirror {
-    std::vector<Index> group;   ///< (F) the polygon of each face, from 0 on
-    std::vector<Index> image;   ///< of each polygon; empty: the surface is no mirror image of itself
-    std::vector<double> side;   ///< of each polygon: its middle's signed distance from the plane
+    std::vector<Index> group;  ///< (F) the polygon of each face, from 0 on
+    std::vector<Index> image;  ///< of each polygon; empty: the surface is no mirror image of itself
+    std::vector<double> side;  ///< of each polygon: its middle's signed distance from the plane
 };
 
 /// Looks for a plane through the middle of the surface, across one of its axes or of the coordinates': every polygon's

@@ -204,8 +204,8 @@ PYBIND11_MODULE(_koebe, m)
              bool cut, const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& slits,
              const py::object& progress, const CancelToken& cancel) {
               return without_gil(progress, cancel, [&](ExecutionContext& context) {
-                  return parts_of(vertices, triangles,
-                                  {.price = price, .cut = cut, .polygon = polygon, .slits = slits}, context);
+                  return parts_of(vertices, triangles, {.price = price, .cut = cut, .polygon = polygon, .slits = slits},
+                                  context);
               });
           });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {

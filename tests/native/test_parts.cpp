@@ -458,7 +458,8 @@ TEST(Mirror, is_found_in_any_pose_and_not_where_there_is_none)
         const Vertices posed = turned ? Vertices(unit * turn.transpose()) : unit;
         const Mirror mirror = find_mirror(cut_surface(posed, mesh.triangles, polygon));
         ASSERT_EQ(mirror.image.size(), static_cast<std::size_t>(mesh.triangles.rows() / 2));
-        for (std::size_t g = 0; g < mirror.image.size(); ++g) EXPECT_EQ(mirror.image[mirror.image[g]], static_cast<Index>(g));
+        for (std::size_t g = 0; g < mirror.image.size(); ++g)
+            EXPECT_EQ(mirror.image[mirror.image[g]], static_cast<Index>(g));
     }
     Vertices bent = unit;
     bent.col(2).array() += 0.01 * (3.0 * unit.col(0).array() + unit.col(1).array()).sin();
