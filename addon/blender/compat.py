@@ -78,9 +78,32 @@ def seam_edges(mesh: bpy.types.Mesh) -> np.ndarray:
     if name is None:
         return read(mesh.edges, "use_seam", bool)
     seams = mesh.attributes.get(name)
-    if seams is None or (seams.domain, seams.data_type) != ("EDGE", "BOOLEAN"):  # something else that has the name
+    if seams is None or seam_name_taken(mesh):
         return np.zeros(len(mesh.edges), dtype=bool)
     return read(seams.data, "value", bool)
+
+
+def has_seams(mesh: bpy.types.Mesh) -> bool:
+    """Whether the mesh has somewhere to keep seams already."""
+    name = _seam_attribute()
+    return name is None or name in mesh.attributes
+
+
+def seam_name_taken(mesh: bpy.types.Mesh) -> str | None:
+    """The name under which seams are kept, if something else of the mesh has it."""
+    name = _seam_attribute()
+    if name is None or name not in mesh.attributes:
+        return None
+    found = mesh.attributes[name]
+    return None if (found.domain, found.data_type) == ("EDGE", "BOOLEAN") else name
+
+
+def set_seam_edges(mesh: bpy.types.Mesh, seams: np.ndarray, remove: bool = False) -> None:
+    """Make exactly these edges (E,) seams; with `remove` not even keep the place. Not in Edit Mode."""
+    mesh.edges.foreach_set("use_seam", seams)
+    name = _seam_attribute()
+    if remove and name is not None and name in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[name])
 
 
 @functools.cache

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One run on Blender objects that cuts them into even parts: read, compute, write."""
 
+import bpy
+
+from ..blender import map_writing, seams
+from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
+from ..blender.transaction import Transaction
 from ..maps.options import Options
 from ..maps.outcomes import LATER, Progress
 from ..maps.parts import PartsOutcome, cut_into_parts
@@ -18,10 +23,12 @@ class PartsJob(Job):
         price: float,
         selected_only: bool = False,
         refused: list[tuple[str, str]] | None = None,
+        write_seams: bool = False,
     ) -> None:
         """Read the objects. @param options of which layer and checker count. Raises as `Job`."""
         super().__init__(objects, options, selected_only, refused)
         self.price = price
+        self.write_seams = write_seams
         self.outcomes: list[PartsOutcome] = LATER  # type: ignore[assignment]
 
     def compute(self, progress: Progress | None = None) -> None:
@@ -40,3 +47,13 @@ class PartsJob(Job):
             )
             done += share
         self.outcomes = outcomes
+
+    def _write_one(
+        self, run: Transaction, outcome: PartsOutcome, plan: map_writing.Plan, material: bpy.types.Material | None
+    ) -> None:
+        super()._write_one(run, outcome, plan, material)  # type: ignore[arg-type]
+        if self.write_seams and outcome.cuts is not None:
+            try:
+                seams.mark_seams(run, plan.obj, outcome.cuts)
+            except TransferError as error:  # the map is there all the same
+                outcome.remarks.append(f"its cuts are no seams. {error}")

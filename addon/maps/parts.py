@@ -10,6 +10,8 @@ import numpy as np
 from .islands import cut_into_islands
 from .mapping import foreseen
 from .outcomes import Progress, Task
+from .seams import cut_edges, inner_seams, tube_slits
+from .surface import Surface, next_corners
 from .wording import counted
 
 if TYPE_CHECKING:
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 
 # The price of a part at the dial's ends: as few parts as there can be, and texels as even as they can be.
 HIGHEST, LOWEST = 0.03, 0.0003
+# More than any unevenness costs: no cut is made but those without which there would be no map.
+NO_CUTS = 1e3
 
 
 def price_of(evenness: float) -> float:
@@ -29,6 +33,7 @@ class PartsOutcome:
     """What became of one surface.
 
     corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
+    cuts         (E,) bool, edges of the surface along which the UVs are cut
     not_written  why nothing of it could be written, or None
     remarks      what to say of the object beside its parts
     """
@@ -38,6 +43,7 @@ class PartsOutcome:
     uv: np.ndarray
     result: "PartsResult | None" = None
     error: Exception | None = None
+    cuts: np.ndarray | None = None
     not_written: str | None = None
     remarks: list[str] = dataclasses.field(default_factory=list)
 
@@ -93,30 +99,53 @@ def cut_into_parts(
 ) -> PartsOutcome:
     """Cut the selected faces of a surface into parts. Seams stay cuts. Polygons stay whole.
 
+    A seam that makes a disk of a tube is where that tube is unrolled. Where it is not mapped as a tube after all, it
+    is a cut as the others are.
+
     Errors are the outcome's; `koebe.Cancelled` goes on.
     """
     surface = task.surface
+    outcome = PartsOutcome(task, np.zeros(0, dtype=np.int32), np.zeros((0, 2), dtype=np.float32))
+    slits = tube_slits(surface, cut_into_islands(surface))
+    try:
+        if slits.any():
+            _map(koebe, outcome, surface, slits, price, progress, cancel)
+            assert outcome.cuts is not None
+            if not (inner_seams(surface) & ~outcome.cuts).any():
+                return outcome
+        _map(koebe, outcome, surface, np.zeros_like(slits), price, progress, cancel)
+    except koebe.Cancelled:
+        raise
+    except Exception as error:
+        outcome.error = foreseen(koebe, error)
+    return outcome
+
+
+def _map(
+    koebe: ModuleType,
+    outcome: PartsOutcome,
+    surface: Surface,
+    slits: np.ndarray,
+    price: float,
+    progress: Progress | None,
+    cancel: Any,
+) -> None:
+    """Fill the outcome. @param slits (E,) bool, seams that are cut only where a tube is opened."""
     vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
     positions, count = [], 0
-    for island in cut_into_islands(surface):
+    for island in cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~slits)):
         vertex_of_corner[island.corners] = island.corner_vertex + count
         positions.append(island.vertices)
         count += len(island.vertices)
     chosen = surface.selected[surface.triangle_face]
     corners = surface.triangle_corners[chosen]
-    outcome = PartsOutcome(task, np.zeros(0, dtype=np.int32), np.zeros((0, 2), dtype=np.float32))
-    try:
-        result = koebe.parts(
-            np.concatenate(positions), vertex_of_corner[corners], price=price, polygon=surface.triangle_face[chosen],
-            progress=progress, cancel=cancel,
-        )  # fmt: skip
-    except koebe.Cancelled:
-        raise
-    except Exception as error:
-        outcome.error = foreseen(koebe, error)
-        return outcome
+    on_slit = np.flatnonzero(slits[surface.corner_edge] & np.repeat(surface.selected, surface.face_size))
+    ends = np.stack([on_slit, next_corners(surface)[on_slit]], axis=1)
+    result = koebe.parts(
+        np.concatenate(positions), vertex_of_corner[corners], price=price, polygon=surface.triangle_face[chosen],
+        slits=vertex_of_corner[ends], progress=progress, cancel=cancel,
+    )  # fmt: skip
     uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
     uv[corners.ravel()] = result.uv.reshape(-1, 2)
     outcome.result, outcome.corners = result, np.unique(corners)
-    outcome.uv = uv[outcome.corners]
-    return outcome
+    outcome.uv, outcome.cuts = uv[outcome.corners], cut_edges(surface, uv)

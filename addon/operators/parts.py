@@ -7,7 +7,7 @@ from ..blender import edit_mode
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.parts_job import PartsJob
-from ..maps.parts import price_of
+from ..maps.parts import NO_CUTS, price_of
 from ..state import run_report
 from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, part_options_of
 from .modal_run import redraw
@@ -17,7 +17,7 @@ from .run_operator import MapOperator
 class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     """Cut a surface of any kind, in the UVs alone, into disks and unrolled tubes with even texels: limbs, closed
     models, models with handles. Cuts along seams too; in Edit Mode takes the selected faces. The mesh itself is not
-    changed"""
+    changed, unless its cuts are to become seams"""
 
     bl_idname = "uv.koebe_parts"
     bl_label = "Koebe Unwrap to Parts"
@@ -25,8 +25,11 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     options_shown = PART_OPTION_NAMES
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
-        price = price_of(self.evenness)
-        return PartsJob(target_objects(context), part_options_of(self), price, selected_only, refused=[])
+        price = price_of(self.evenness) if self.seams == "add" else NO_CUTS
+        return PartsJob(
+            target_objects(context), part_options_of(self), price, selected_only, refused=[],
+            write_seams=self.write_seams,
+        )  # fmt: skip
 
     def _finish(self, context: bpy.types.Context, job: PartsJob) -> set[str]:
         """Write what was computed, each object wholly or not at all, and say what became of it."""

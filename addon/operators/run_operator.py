@@ -16,6 +16,7 @@ from .modal_run import ModalRun
 NEEDS = {  # options that matter with others alone
     "margin": lambda options: options.placement != "keep",
     "importance": lambda options: options.balance == "area",
+    "evenness": lambda options: options.seams == "add",
     "checker_size": lambda options: options.checker,
     "checker_even": lambda options: options.checker,
 }

@@ -115,13 +115,17 @@ class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not super().poll(context):
             return False
-        if not any(entry.cuts for entry in entries_of_object(context)):
+        if not any(entry.cuts or entry.cut_edges for entry in entries_of_object(context)):
             cls.poll_message_set("Nothing of it was cut")
             return False
         return True
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
-        paths = [path for one in entries_of_object(bpy.context) if one.cuts for path in json.loads(one.cuts)]
+        entries = entries_of_object(bpy.context)
+        of_parts = [edge for one in entries if one.cut_edges for edge in json.loads(one.cut_edges)]
+        if of_parts:
+            return EDGES, of_parts
+        paths = [path for one in entries if one.cuts for path in json.loads(one.cuts)]
         edges = [edge for path in paths for edge in edges_along(obj, path, closed=False)]
         if not edges:
             return VERTICES, sorted({vertex for path in paths for vertex in path})

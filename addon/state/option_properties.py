@@ -197,10 +197,30 @@ EVENNESS = FloatProperty(
 )
 
 
+SEAMS = EnumProperty(
+    name="Seams",
+    items=[
+        ("add", "Keep and Add", "Cut along the seams, and further where that makes the texels more even"),
+        ("only", "Only These", "Cut along the seams alone: no further cut but what handles and closed surfaces need"),
+    ],
+    default="add",
+    description="What the seams of the mesh are to the cuts. A tube with a seam along it is unrolled there",
+)
+
+WRITE_SEAMS = BoolProperty(
+    name="Write Seams",
+    default=False,
+    description="Mark the cuts as seams of the mesh, to be edited by hand and taken up by the next run. "
+    "Off: the mesh itself stays as it is",
+)
+
+
 class PartsProperties:
     """What the artist can choose of a surface that is cut into parts, beside the options of all maps that it has."""
 
     evenness: EVENNESS
+    seams: SEAMS
+    write_seams: WRITE_SEAMS
     layer: option("layer")
     checker: option("checker")
     checker_size: option("checker_size")
@@ -214,6 +234,8 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     """The scene's settings, shown in the panel."""
 
     evenness: EVENNESS
+    seams: SEAMS
+    write_seams: WRITE_SEAMS
 
 
 def settings_of(context: bpy.types.Context) -> KoebeSettings:

@@ -58,6 +58,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
     density: FloatProperty(description="Of parts: texel density at 95 % of the area over that at 5 %")
+    cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
     corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
@@ -155,6 +156,8 @@ def record_parts(
                 entry.angle_error, entry.flipped = result.angle_error_deg["mean"], result.flipped
                 entry.density, entry.cut_length = result.density_ratio_5_95, result.cut_length
                 entry.seconds = result.seconds
+                if outcome.cuts is not None and outcome.cuts.any():
+                    entry.cut_edges = json.dumps(np.flatnonzero(outcome.cuts).tolist())
                 entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
                 entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
 

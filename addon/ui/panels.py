@@ -53,6 +53,8 @@ class MainPanel(KoebePanel):
         copy_options(settings, run.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE"))
         parts = layout.column(align=True)
         parts.prop(settings, "evenness", text="Parts")
+        parts.prop(settings, "seams")
+        parts.prop(settings, "write_seams")
         copy_part_options(settings, parts.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
         draw_judges(layout.column(), context, settings)
         fill = layout.row(align=True)

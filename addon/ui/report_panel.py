@@ -98,7 +98,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         split = table.split(factor=0.45)
         split.label(text=name)
         split.label(text=value)
-    if any(one.cuts for one in entries_of_object(bpy.context)):
+    if any(one.cuts or one.cut_edges for one in entries_of_object(bpy.context)):
         column.operator(UV_OT_koebe_select_cuts.bl_idname, icon="RESTRICT_SELECT_OFF")
     if entry.flipped:
         column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")

@@ -29,7 +29,7 @@ struct Spread {
     double distortion() const { return std::sqrt(variance + weight_of_the_mean * mean * mean); }
 };
 
-FaceScales moved(const FaceScales& scales, const Moebius& map)
+FaceScales scales_after(const FaceScales& scales, const Moebius& map)
 {
     FaceScales result = scales;
     result.centers = map(scales.centers);
@@ -104,7 +104,7 @@ Moebius least_area_distortion(const FaceScales& scales, double& distortion)
         double gain = 0.0;
         for (int halving = 0; halving < most_halvings && gain <= 0.0; ++halving, move *= 0.5) {
             const Moebius map{move, Complex(1.0, 0.0)};
-            FaceScales next = moved(now, map);
+            FaceScales next = scales_after(now, map);
             const Spread next_spread(next);
             gain = distortion - next_spread.distortion();
             if (gain <= 0.0) continue;

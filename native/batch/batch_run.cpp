@@ -57,7 +57,7 @@ std::string end_of_text(const fs::path& path)
     return text;
 }
 
-std::string rounded(double seconds)
+std::string tenths(double seconds)
 {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.1f s", seconds);
@@ -440,7 +440,7 @@ private:
         if (error.is_object())
             line << ", " << error_name(error) << ": " << error.value("reason", "");
         else if (const Json seconds = summary_row(report)["seconds"]; seconds.is_number())
-            line << ", " << rounded(seconds.get<double>());
+            line << ", " << tenths(seconds.get<double>());
         options_.tell(line.str());
     }
 

@@ -10,7 +10,8 @@ set_target_properties(koebe_core PROPERTIES
 
 # The sources in fourteen heaps, which takes a quarter of the time: most of it goes into headers. Which heap, a file's name
 # tells, so that a new file moves no other. Two files of one heap may not have a name twice in nameless namespaces: then
-# the compiler says so, and one of them is to be compiled by itself, by the property SKIP_UNITY_BUILD_INCLUSION.
+# the compiler says so, and one of them is to be compiled by itself, by the property SKIP_UNITY_BUILD_INCLUSION. A name
+# there that a header has too would hide that one, silently: tests/python/test_native_rooms.py looks for such names.
 get_target_property(all koebe_core SOURCES)
 foreach(source IN LISTS all)
   string(MD5 hash ${source})

@@ -78,7 +78,7 @@ private:
     double scale_ = 1.0;
 };
 
-Mesh to_mesh(const Vertices& vertices, const Triangles& triangles, const UnitCube& cube)
+Mesh cgal_mesh(const Vertices& vertices, const Triangles& triangles, const UnitCube& cube)
 {
     Mesh mesh;
     mesh.reserve(vertices.rows(), 3 * triangles.rows() / 2 + 1, triangles.rows());
@@ -189,7 +189,7 @@ FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& tri
     const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
     const SilentCgal silent;
     const UnitCube cube(vertices);
-    Mesh mesh = to_mesh(vertices, surface.triangles, cube);
+    Mesh mesh = cgal_mesh(vertices, surface.triangles, cube);
     std::vector<Index> label(surface.triangles.rows(), -1);
     for (const Index k : chosen_ranks(surface, loops)) {
         if (!has_extent(vertices, surface.loops[k]))

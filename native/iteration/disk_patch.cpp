@@ -32,7 +32,7 @@ double smallest_angle(const VectorXcd& z, const Triangles& triangles)
 
 /// Coordinates to 26 binary digits. Which triangles a mesh gets hangs on the last bits of its points, those of a circle
 /// most of all; so meshing starts from points without last bits, or the unit of length would show in the result.
-VectorXcd rounded(const VectorXcd& points)
+VectorXcd on_grid(const VectorXcd& points)
 {
     constexpr double digits = 1 << 26;
     return points.unaryExpr([](const Complex& z) {
@@ -71,7 +71,7 @@ DiskPatch::DiskPatch(const Vertices& loop, const DiskPatchOptions& options)
 
 void DiskPatch::mesh(const VectorXcd& rim)
 {
-    const VectorXcd polygon = rounded(rim);
+    const VectorXcd polygon = on_grid(rim);
     PlanarMesh patch =
         planar_patch(polygon, {.longest = options_.longest_edge * mean_edge(polygon), .gradation = options_.gradation});
     triangles_ = std::move(patch.triangles);

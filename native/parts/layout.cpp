@@ -1,17 +1,20 @@
 #include "parts/layout.h"
 
+#include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/side_by_side.h"
 #include "cut/open_surface.h"
 #include "parts/coarse_surface.h"
 #include "parts/fine_labels.h"
 #include "parts/flat_part.h"
+#include "parts/mirror_symmetry.h"
 #include "parts/packing.h"
 #include "parts/splitting.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace koebe {
@@ -126,6 +129,59 @@ struct FlatPiece {
     double maps = 0.0;            ///< faces mapped
 };
 
+/// (3F) half-edges of a piece that are among these edges, by vertices of the input; empty: none.
+std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std::array<Index, 2>>& edges)
+{
+    if (edges.empty()) return {};
+    std::set<std::pair<Index, Index>> chosen;
+    for (const auto& edge : edges) chosen.insert(std::minmax(edge[0], edge[1]));
+    std::vector<char> slit(static_cast<std::size_t>(piece.triangles.size()), 0);
+    for (Index h = 0; h < static_cast<Index>(slit.size()); ++h) {
+        const Index a = piece.source_vertex[origin(piece.triangles, h)];
+        const Index b = piece.source_vertex[target(piece.triangles, h)];
+        slit[h] = chosen.contains(std::minmax(a, b));
+    }
+    return slit;
+}
+
+/// @param slit (3F) half-edges of the whole
+void prefer_slits(PartMesh& part, const std::vector<char>& slit)
+{
+    part.slit.resize(3 * part.faces.size(), 0);
+    for (std::size_t i = 0; i < part.faces.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (slit[3 * static_cast<std::size_t>(part.faces[i]) + k]) part.slit[3 * i + k] = 1;
+}
+
+/// @param opened (3F) half-edges of the whole, changed in place
+void note_slit(const PartMesh& part, const FlatPart& flat, std::vector<char>& opened)
+{
+    for (std::size_t h = 0; h < part.surface.twin.size(); ++h)
+        if (part.surface.twin[h] != no_twin && flat.surface.twin[h] == no_twin)
+            opened[3 * static_cast<std::size_t>(part.faces[h / 3]) + h % 3] = 1;
+}
+
+/// The parts, flat, side by side; of a mirror image one after the other, as each slit follows those before it.
+/// @param parts let go of, one by one
+std::vector<FlatPart> flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
+                                 int threads, ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<FlatPart> flats(parts.size());
+    std::vector<SplitEffort> efforts(parts.size());
+    std::vector<char> opened(whole.surface.twin.size(), 0);
+    const bool in_turn = !mirror.image.empty();
+    side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
+        Part& part = *parts[k];
+        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k]);
+        if (in_turn && part.map.kind == PartKind::tube) prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
+        flats[k] = flat_part(part);
+        if (in_turn) note_slit(part.mesh, flats[k], opened);
+        parts[k].reset();
+    });
+    for (const SplitEffort& own : efforts) effort.maps += own.maps;
+    return flats;
+}
+
 /// The parts of a piece, flat.
 FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const PartsOptions& options, int threads,
                      ExecutionContext& context)
@@ -133,22 +189,17 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     std::vector<Index> polygon;
     if (!options.polygon.empty())
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
-    const CutSurface whole =
-        cut_surface(vertices(piece.source_vertex, Eigen::all), piece.triangles, std::move(polygon));
+    CutSurface whole = cut_surface(vertices(piece.source_vertex, Eigen::all), piece.triangles, std::move(polygon));
+    whole.slit = chosen_slits(piece, options.slits);
     SplitEffort effort;
     const SplitOptions prices{options.price, cut_share * options.price, threads};
-    std::vector<PartPointer> parts = piece.triangles.rows() > large
-                                         ? parts_by_coarse_surface(whole, prices, context, effort)
-                                         : even_parts(whole, prices, context, effort);
+    const bool is_large = piece.triangles.rows() > large;
+    std::vector<PartPointer> parts =
+        is_large ? parts_by_coarse_surface(whole, prices, context, effort) : even_parts(whole, prices, context, effort);
+    const Mirror mirror = is_large ? Mirror{} : find_mirror(whole);
+    make_symmetric(whole, prices, mirror, parts, context, effort);
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
-    FlatPiece flat{std::vector<FlatPart>(parts.size()), 0.0};
-    std::vector<SplitEffort> efforts(parts.size());
-    side_by_side(parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
-        if (parts[k]->map.positions.size() == 0) map_anew(whole, *parts[k], own, efforts[k]);
-        flat.parts[k] = flat_part(*parts[k]);
-        parts[k].reset();
-    });
-    for (const SplitEffort& own : efforts) effort.maps += own.maps;
+    FlatPiece flat{flat_parts(whole, mirror, parts, threads, context, effort), 0.0};
     flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
     for (FlatPart& part : flat.parts) {
         for (Index& f : part.faces) f = piece.source_face[f];

@@ -21,7 +21,7 @@ namespace {
 constexpr double least_edge = 1e-11;  // disk units: shorter ones are lost in the rounding of a map
 constexpr double deep_hole = 1e-7;    // disk units: round a smaller one a map is only precise about 0
 
-double triangle_area(Complex a, Complex b, Complex c) { return 0.5 * std::imag(std::conj(b - a) * (c - a)); }
+double area_in_plane(Complex a, Complex b, Complex c) { return 0.5 * std::imag(std::conj(b - a) * (c - a)); }
 
 /// Values of lost faces from their neighbours' where those have any, and all smoothed a little.
 void smooth(const PartMesh& part, VectorXd& u, std::vector<char>& lost)
@@ -66,7 +66,7 @@ void measure(const PartMesh& part, const Corner& corner, double floor, PartMap& 
     for (Index f = 0; f < count; ++f) {
         const auto [a, b, c] = corner(f);
         map.centers[f] = (a + b + c) / 3.0;
-        const double area = triangle_area(a, b, c);
+        const double area = area_in_plane(a, b, c);
         const double longest = std::max({std::abs(a - b), std::abs(b - c), std::abs(c - a)});
         map.lost[f] = !(area > 0.0) || !(part.areas[f] > 0.0) || !(longest > floor);
         map.u[f] = map.lost[f] ? 0.0 : 0.5 * std::log(area / part.areas[f]);

@@ -84,6 +84,9 @@ PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
     part.area = part.areas.sum();
     if (!whole.polygon.empty())
         for (const Index f : faces) part.polygon.push_back(whole.polygon[f]);
+    if (!whole.slit.empty())
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) part.slit.push_back(whole.slit[h]);
     part.faces = std::move(faces);
     return part;
 }

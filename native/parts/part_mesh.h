@@ -16,6 +16,7 @@ struct CutSurface {
     VectorXd areas;              ///< (F)
     VectorXd lengths;            ///< (3F) of each half-edge
     std::vector<Index> polygon;  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    std::vector<char> slit;      ///< (3F) 1 where tubes are to be opened; empty: nowhere in particular
 };
 
 /// (F) areas of faces. @param vertices of a size that its square does not overflow
@@ -32,6 +33,7 @@ struct PartMesh {
     Surface surface;
     VectorXd areas;              ///< (F) in the unit of the whole
     std::vector<Index> polygon;  ///< (F) as of the whole
+    std::vector<char> slit;      ///< (3F) as of the whole
     double area = 0.0;
 };
 

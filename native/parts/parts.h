@@ -8,6 +8,7 @@
 #include "parts/part_map.h"
 #include "quality/distortion.h"
 
+#include <array>
 #include <vector>
 
 namespace koebe {
@@ -19,6 +20,8 @@ struct PartsOptions {
     bool cut =
         true;  ///< any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    /// Edges, by their vertices, along which a tube is opened where they lead from one of its loops to the other.
+    std::vector<std::array<Index, 2>> slits = {};
     int threads = 0;                  ///< at most; 0: as many as the machine has. The result is the same for any number
 };
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double price_of_turning = 2.0;  // of the angle that a slit's edge spans, against its length on the strip
+constexpr double chosen_share = 1e-4;     // of an edge's cost where the caller wants the slit
 
 /// The difference of two angles in (-pi, pi].
 double turn(double from, double to)
@@ -57,8 +58,9 @@ std::vector<char> slit_edges(const Part& part, double& length)
         for (const Index h : leaving[v]) {
             const Index w = target(triangles, h);
             const Complex a = part.map.strip[v], b = part.map.strip[w];
+            const double share = !part.mesh.slit.empty() && part.mesh.slit[h] ? chosen_share : 1.0;
             const double cost =
-                d + std::abs(b.real() - a.real()) + price_of_turning * std::abs(turn(a.imag(), b.imag()));
+                d + share * (std::abs(b.real() - a.real()) + price_of_turning * std::abs(turn(a.imag(), b.imag())));
             if (cost >= distance[w]) continue;
             distance[w] = cost;
             arrived[w] = h;

@@ -103,8 +103,8 @@ void refine(PlanarRegion& region, const SizeField& size, std::vector<Complex>& i
     }
 }
 
-PlanarMesh to_arrays(const PlanarRegion& region, const std::vector<VectorXcd>& polygons,
-                     const std::vector<Complex>& interior)
+PlanarMesh planar_arrays(const PlanarRegion& region, const std::vector<VectorXcd>& polygons,
+                         const std::vector<Complex>& interior)
 {
     PlanarMesh mesh;
     std::vector<Complex> points;
@@ -204,8 +204,8 @@ PlanarMesh mesh_of_unit_size(const std::vector<VectorXcd>& polygons, Index bound
         refine(region, size, interior, boundary_count);
     }
     for (int round = 0; round < options.smoothing && !interior.empty(); ++round)
-        smooth(to_arrays(PlanarRegion(polygons, interior), polygons, interior), size, interior);
-    PlanarMesh mesh = to_arrays(PlanarRegion(polygons, interior), polygons, interior);
+        smooth(planar_arrays(PlanarRegion(polygons, interior), polygons, interior), size, interior);
+    PlanarMesh mesh = planar_arrays(PlanarRegion(polygons, interior), polygons, interior);
     split_chords(mesh, boundary_count);
     return mesh;
 }

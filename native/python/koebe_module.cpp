@@ -232,9 +232,11 @@ PYBIND11_MODULE(_koebe, m)
     m.attr("default_price") = PartsOptions{}.price;
     m.def("parts",
           [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles, double price,
-             bool cut, const std::vector<Index>& polygon, const py::object& progress, const CancelToken& cancel) {
+             bool cut, const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& slits,
+             const py::object& progress, const CancelToken& cancel) {
               return without_gil(progress, cancel, [&](ExecutionContext& context) {
-                  return parts_of(vertices, triangles, {.price = price, .cut = cut, .polygon = polygon}, context);
+                  return parts_of(vertices, triangles, {.price = price, .cut = cut, .polygon = polygon, .slits = slits},
+                                  context);
               });
           });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double picture_size = 10000.0;  // picture units
 
-std::string whole_number(double t) { return std::to_string(std::lround(picture_size * std::clamp(t, 0.0, 1.0))); }
+std::string pixels(double t) { return std::to_string(std::lround(picture_size * std::clamp(t, 0.0, 1.0))); }
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::string parts_svg(const PlanarPoints& corner_uv, const std::vector<Index>& p
         std::string& path = paths[static_cast<std::size_t>(part[f])];
         for (int k = 0; k < 3; ++k) {
             const auto corner = corner_uv.row(3 * static_cast<Eigen::Index>(f) + k);
-            path += (k == 0 ? "M" : "L") + whole_number(corner[0]) + " " + whole_number(1.0 - corner[1]);
+            path += (k == 0 ? "M" : "L") + pixels(corner[0]) + " " + pixels(1.0 - corner[1]);
         }
         path += "z";
     }

@@ -159,7 +159,8 @@ class RandomRun:
                     "placement": one(["pack", "together", "keep"]), "outer": one(["auto", "auto", "longest", "active"]),
                     "method": one(["gk", "ck"]), "max_sweeps": one([1, 50]), "upright": one([True, False])}  # fmt: skip
         if name == "uv.koebe_parts":
-            return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5])}
+            return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5]),
+                    "seams": one(["add", "only"]), "write_seams": one([True, False])}  # fmt: skip
         if name == "uv.koebe_checker":
             return {"layer": layer, "checker_even": one([True, False])}
         if name == "uv.koebe_distortion":
@@ -180,8 +181,8 @@ class RandomRun:
             "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_checker",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
-            "uv.koebe_compare_shapes", "uv.koebe_select_loop", "uv.koebe_select_flipped", "uv.koebe_select_offenders",
-            "uv.koebe_reset",
+            "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
+            "uv.koebe_select_offenders", "uv.koebe_reset",
         ])  # fmt: skip
         options, fault = self._options(name), None
         if self._random.random() < 0.5:

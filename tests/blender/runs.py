@@ -129,6 +129,8 @@ RUNS = {
     "parts": (states.many, "uv.koebe_parts", {}),
     "parts of what is worn": (states.worn, "uv.koebe_parts", {"evenness": 0.2, "checker": False}),
     "parts in Edit Mode": (states.edited, "uv.koebe_parts", {}),
+    "parts with seams": (states.many, "uv.koebe_parts", {"write_seams": True, "evenness": 1.0}),
+    "parts with seams in Edit Mode": (states.edited, "uv.koebe_parts", {"write_seams": True, "evenness": 1.0}),
     "checker on": (states.many, "uv.koebe_checker", {}),
     "checker off": (states.worn, "uv.koebe_checker", {}),
     "checker on in Edit Mode": (states.edited, "uv.koebe_checker", {}),

@@ -159,7 +159,9 @@ def test_one_vertex_that_is_no_number_is_selected_alone():
 
 
 @pytest.mark.parametrize("make", [hide, hide_in_viewports, hide_its_collection])
-@pytest.mark.parametrize("button", ["koebe_select_loop", "koebe_select_flipped", "koebe_select_offenders"])
+@pytest.mark.parametrize("button", [
+    "koebe_select_loop", "koebe_select_flipped", "koebe_select_cuts", "koebe_select_offenders",
+])  # fmt: skip
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_a_button_on_a_hidden_object_changes_nothing(make, button, mode):
     obj, other = states.plain("Seen no more"), states.plain("Other")

@@ -128,3 +128,140 @@ def test_several_objects_one_of_them_bad():
     assert unwrap() == {"FINISHED"}
     told = {entry.object_name: entry.mapped for entry in bpy.context.window_manager.koebe_uv.islands}
     assert told == {good.name: True, "Line": False} and "Koebe" in good.data.uv_layers
+
+
+# ---------------------------------------------------------------- cuts as seams, and seams as cuts
+
+
+def add_finger(around=16, rings=30):
+    """A tube that is open below, with a round tip."""
+    angle = 2.0 * np.pi * np.arange(around) / around
+    profile = [(1.0, 0.4 * k) for k in range(rings)]
+    profile += [(np.cos(t), 0.4 * (rings - 1) + np.sin(t)) for t in np.linspace(0, np.pi / 2, 6)[1:-1]]
+    vertices = [(r * np.cos(a), r * np.sin(a), h) for r, h in profile for a in angle]
+    faces = [
+        (k * around + i, k * around + (i + 1) % around, (k + 1) * around + (i + 1) % around, (k + 1) * around + i)
+        for k in range(len(profile) - 1) for i in range(around)
+    ]  # fmt: skip
+    last = (len(profile) - 1) * around
+    vertices.append((0.0, 0.0, 0.4 * (rings - 1) + 1.0))
+    faces += [(last + i, last + (i + 1) % around, len(vertices) - 1) for i in range(around)]
+    obj = scenes.add_object("Finger", vertices, faces)
+    scenes.select(obj)
+    return obj
+
+
+def seams_of(obj):
+    return np.flatnonzero(scenes.read(obj.data.edges, "use_seam", bool))
+
+
+def cuts_of(obj):
+    """Edges whose faces lie apart in the UVs."""
+    uv, places = scenes.corner_uv(obj.data, "Koebe"), {}
+    for face in obj.data.polygons:
+        loops = list(face.loop_indices)
+        for here, there in zip(loops, [*loops[1:], loops[0]]):
+            at = {obj.data.loops[i].vertex_index: tuple(uv[i]) for i in (here, there)}
+            places.setdefault(obj.data.loops[here].edge_index, set()).add(tuple(sorted(at.items())))
+    return np.array(sorted(edge for edge, sides in places.items() if len(sides) > 1), dtype=int)
+
+
+def last_run():
+    (entry,) = bpy.context.window_manager.koebe_uv.islands
+    return entry
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+@pytest.mark.parametrize("model", [*MODELS, "finger"])
+def test_cuts_become_seams_and_the_next_run_cuts_along_them(model, mode):
+    obj = add_finger() if model == "finger" else MODELS[model]()
+    scenes.select(obj)
+    bpy.ops.object.mode_set(mode=mode)
+    if mode == "EDIT":
+        bpy.ops.mesh.select_all(action="SELECT")
+    assert unwrap(checker=False) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(seams_of(obj)) == 0, "the mesh was changed without being asked"
+    bpy.ops.object.mode_set(mode=mode)
+    assert unwrap(checker=False, write_seams=True) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    first, cuts = last_run().parts, cuts_of(obj)
+    assert (seams_of(obj) == cuts).all() and len(seams_of(obj)) == len(cuts)
+    for seams in ("add", "only"):
+        assert unwrap(checker=False, seams=seams) == {"FINISHED"}
+        assert set(cuts) <= set(cuts_of(obj)), seams
+        assert seams == "add" or (last_run().parts == first and set(cuts) == set(cuts_of(obj)))
+        assert (signed_areas(obj) > 0.0).all()
+
+
+def test_a_finger_keeps_its_parts_and_its_slit_over_runs():
+    obj = add_finger()
+    unwrap(write_seams=True)
+    entry = last_run()
+    assert entry.parts == 2
+    seams, angle = seams_of(obj), entry.angle_error
+    for _ in range(3):
+        unwrap(write_seams=True)
+        assert (seams_of(obj) == seams).all() and last_run().parts == 2
+        assert last_run().angle_error == pytest.approx(angle, abs=0.2), "the tube is no rectangle any more"
+
+
+def test_a_seam_that_was_deleted_is_no_cut_with_only_these():
+    obj = add_finger()
+    unwrap(write_seams=True)
+    heights = np.array([[obj.data.vertices[v].co.z for v in edge.vertices] for edge in obj.data.edges])
+    level = np.flatnonzero(np.ptp(heights, axis=1) < 1e-6)
+    removed = set(seams_of(obj)) & set(level)
+    assert removed, "the loop between the tube and its tip"
+    for edge in removed:
+        obj.data.edges[edge].use_seam = False
+    kept = set(seams_of(obj))
+    assert unwrap(seams="only") == {"FINISHED"}
+    assert set(cuts_of(obj)) == kept and last_run().parts == 1
+    assert unwrap(seams="add") == {"FINISHED"}
+    assert kept <= set(cuts_of(obj))
+
+
+def test_a_tube_is_unrolled_along_its_seam():
+    """Not along a path of our own: the back, where the artist wants it."""
+    bpy.ops.mesh.primitive_cylinder_add(vertices=24, depth=6.0, end_fill_type="NOTHING")
+    obj = bpy.context.object
+    scenes.select(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=3)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    sides = [{tuple(np.round(obj.data.vertices[v].co[:2], 4)) for v in edge.vertices} for edge in obj.data.edges]
+    for place in (sides[0] if len(sides[0]) == 1 else sides[1]), next(s for s in reversed(sides) if len(s) == 1):
+        chosen = [i for i, side in enumerate(sides) if side == place]
+        for i, edge in enumerate(obj.data.edges):
+            edge.use_seam = i in chosen
+        assert unwrap() == {"FINISHED"}
+        assert cuts_of(obj).tolist() == sorted(chosen)
+        (entry,) = bpy.context.window_manager.koebe_uv.islands
+        assert entry.density < 1.5 and entry.angle_error < 1.0
+
+
+def test_writing_seams_is_one_undo_step():
+    import states
+
+    states.new_file()
+    obj = add_finger()
+    bpy.ops.ed.undo_push(message="made")
+    obj.data.edges[5].use_seam = True
+    bpy.ops.ed.undo_push(message="marked")
+    unwrap(write_seams=True)
+    bpy.ops.ed.undo_push(message="unwrapped")
+    assert len(seams_of(bpy.data.objects["Finger"])) > 5
+    bpy.ops.ed.undo()
+    assert seams_of(bpy.data.objects["Finger"]).tolist() == [5]
+    bpy.ops.ed.redo()
+    assert len(seams_of(bpy.data.objects["Finger"])) > 5
+
+
+def test_the_cuts_can_be_selected():
+    obj = add_finger()
+    unwrap()
+    assert bpy.ops.uv.koebe_select_cuts() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.flatnonzero(scenes.read(obj.data.edges, "select", bool)).tolist() == cuts_of(obj).tolist()

@@ -3,6 +3,7 @@
 import bpy
 
 SELECTION = ("verts flags", "edges flags", "faces flags", "history", "active face")
+SEAMS = ("seam", "edges", "attribute .uv_seam EDGE BOOLEAN", "attribute uv_seam EDGE BOOLEAN")
 SLOTS = ("slots", "behind the slots", "custom", "active_material_index")
 
 
@@ -67,7 +68,8 @@ class Touched:
         )  # fmt: skip
 
     def _parts(self, owner, what):
-        return self._uniformize(owner, what) and not self._selects(owner, what)
+        seams = owner in self._meshes and self._options.get("write_seams") and what in SEAMS
+        return seams or (self._uniformize(owner, what) and not self._selects(owner, what))
 
     def _checker(self, owner, what):
         return self._dresses(owner, what)
@@ -114,7 +116,7 @@ class Touched:
             return True  # Edit Mode is another representation: what is in it is compared where it is not changed
         return what == "mode" or what.startswith("selected in ")
 
-    _select_loop = _select_flipped = _select_offenders = _select
+    _select_loop = _select_cuts = _select_flipped = _select_offenders = _select
 
     def _reset(self, owner, what):
         return owner == "file" and what.endswith(" settings")

@@ -4,16 +4,21 @@
 #include "parts/evenness.h"
 #include "parts/fine_labels.h"
 #include "parts/flat_part.h"
+#include "parts/mirror_symmetry.h"
 #include "parts/packing.h"
 #include "parts/parts.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <random>
+#include <set>
 
 using namespace koebe;
 
@@ -413,6 +418,122 @@ TEST(DualCut, is_shortest_at_the_waist)
     const std::vector<int> label = minimum_cut(part, sides);
     ASSERT_EQ(label.size(), all.size());
     for (std::size_t f = 0; f < label.size(); ++f) EXPECT_EQ(label[f], f < 12U * 32U) << f;
+}
+
+/// A trunk with two arms, open at its neck: a grid of squares on boxes, each vertex rounded a little. Mirrored exactly:
+/// the half x > 0 is made, and its image with the faces in another order.
+Mesh figure()
+{
+    // Voxels of the right half: the trunk, 3 wide of 6, and an arm that leaves it sideways.
+    const auto solid = [](int x, int y, int z) {
+        x = x < 0 ? -1 - x : x;
+        const bool trunk = x < 3 && y >= 0 && y < 5 && z >= 0 && z < 12;
+        const bool arm = x >= 3 && x < 22 && y >= 1 && y < 4 && z >= 8 && z < 11;
+        return trunk || arm;
+    };
+    std::map<std::array<int, 3>, Index> number;
+    std::vector<std::array<int, 3>> places;
+    std::vector<std::array<Index, 4>> quads;
+    const auto vertex = [&](int x, int y, int z) {
+        const auto [it, isnew] = number.try_emplace({x, y, z}, static_cast<Index>(places.size()));
+        if (isnew) places.push_back({x, y, z});
+        return it->second;
+    };
+    for (int x = -22; x < 22; ++x)
+        for (int y = 0; y < 5; ++y)
+            for (int z = 0; z < 12; ++z) {
+                if (!solid(x, y, z)) continue;
+                if (!solid(x + 1, y, z))
+                    quads.push_back({vertex(x + 1, y, z), vertex(x + 1, y + 1, z), vertex(x + 1, y + 1, z + 1),
+                                     vertex(x + 1, y, z + 1)});
+                if (!solid(x - 1, y, z))
+                    quads.push_back(
+                        {vertex(x, y, z), vertex(x, y, z + 1), vertex(x, y + 1, z + 1), vertex(x, y + 1, z)});
+                if (!solid(x, y + 1, z))
+                    quads.push_back({vertex(x, y + 1, z), vertex(x, y + 1, z + 1), vertex(x + 1, y + 1, z + 1),
+                                     vertex(x + 1, y + 1, z)});
+                if (!solid(x, y - 1, z))
+                    quads.push_back(
+                        {vertex(x, y, z), vertex(x + 1, y, z), vertex(x + 1, y, z + 1), vertex(x, y, z + 1)});
+                if (!solid(x, y, z + 1) && z + 1 < 12)  // the neck is open
+                    quads.push_back({vertex(x, y, z + 1), vertex(x + 1, y, z + 1), vertex(x + 1, y + 1, z + 1),
+                                     vertex(x, y + 1, z + 1)});
+                if (!solid(x, y, z - 1))
+                    quads.push_back(
+                        {vertex(x, y, z), vertex(x, y + 1, z), vertex(x + 1, y + 1, z), vertex(x + 1, y, z)});
+            }
+    Mesh mesh{Vertices(places.size(), 3), Triangles(2 * quads.size(), 3)};
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        const auto [x, y, z] = places[v];
+        const double wide = 1.0 + 0.15 * std::sin(0.7 * std::abs(x) + 0.4 * z);  // of both sides alike
+        mesh.vertices.row(v) << x, 2.5 + (y - 2.5) * wide, z + 0.1 * std::sin(0.9 * y);
+    }
+    for (std::size_t q = 0; q < quads.size(); ++q) {  // the same diagonal on both sides: not mirrored
+        const auto& c = quads[q];
+        mesh.triangles.row(2 * q) << c[0], c[1], c[2];
+        mesh.triangles.row(2 * q + 1) << c[0], c[2], c[3];
+    }
+    return mesh;
+}
+
+/// The cut edges, by their ends' places. @param turned x is turned over
+std::set<std::array<long, 6>> cut_places(const Mesh& mesh, const PartsResult& result, bool turned)
+{
+    std::map<std::pair<Index, Index>, std::set<std::array<double, 4>>> sides;
+    for (Index f = 0; f < static_cast<Index>(mesh.triangles.rows()); ++f)
+        for (int k = 0; k < 3; ++k) {
+            Index a = 3 * f + k, b = 3 * f + (k + 1) % 3;
+            if (mesh.triangles.data()[a] > mesh.triangles.data()[b]) std::swap(a, b);
+            sides[{mesh.triangles.data()[a], mesh.triangles.data()[b]}].insert(
+                {result.uv(a, 0), result.uv(a, 1), result.uv(b, 0), result.uv(b, 1)});
+        }
+    std::set<std::array<long, 6>> cuts;
+    for (const auto& [edge, places] : sides) {
+        if (places.size() < 2) continue;
+        std::array<std::array<long, 3>, 2> ends{};
+        for (int i = 0; i < 2; ++i) {
+            const auto p = mesh.vertices.row(i == 0 ? edge.first : edge.second);
+            ends[i] = {std::lround((turned ? -1e6 : 1e6) * p[0]), std::lround(1e6 * p[1]), std::lround(1e6 * p[2])};
+        }
+        if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
+        cuts.insert({ends[0][0], ends[0][1], ends[0][2], ends[1][0], ends[1][1], ends[1][2]});
+    }
+    return cuts;
+}
+
+TEST(Parts, a_mirror_image_of_itself_is_cut_alike_on_both_sides)
+{
+    Mesh mesh = figure();
+    PartsOptions options;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) options.polygon.push_back(static_cast<Index>(f / 2));
+    for (const double price : {0.0003, 0.0037, 0.01}) {
+        options.price = price;
+        const PartsResult result = parts(mesh, options);
+        expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
+        const auto cuts = cut_places(mesh, result, false);
+        EXPECT_GT(cuts.size(), 20U) << price;
+        EXPECT_EQ(cuts, cut_places(mesh, result, true)) << price;
+    }
+}
+
+TEST(Mirror, is_found_in_any_pose_and_not_where_there_is_none)
+{
+    Mesh mesh = figure();
+    std::vector<Index> polygon;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) polygon.push_back(static_cast<Index>(f / 2));
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+    const Vertices unit = mesh.vertices / std::sqrt(face_areas(mesh.vertices, mesh.triangles).sum());
+    for (const bool turned : {false, true}) {
+        const Vertices posed = turned ? Vertices(unit * turn.transpose()) : unit;
+        const Mirror mirror = find_mirror(cut_surface(posed, mesh.triangles, polygon));
+        ASSERT_EQ(mirror.image.size(), static_cast<std::size_t>(mesh.triangles.rows() / 2));
+        for (std::size_t g = 0; g < mirror.image.size(); ++g)
+            EXPECT_EQ(mirror.image[mirror.image[g]], static_cast<Index>(g));
+    }
+    Vertices bent = unit;
+    bent.col(2).array() += 0.01 * (3.0 * unit.col(0).array() + unit.col(1).array()).sin();
+    EXPECT_TRUE(find_mirror(cut_surface(bent, mesh.triangles, polygon)).image.empty());
 }
 
 TEST(Packing, boxes_lie_apart_in_the_square)

@@ -66,3 +66,19 @@ def test_every_source_is_built():
 def test_every_source_of_a_room_with_a_list_of_its_own_is_built(room):
     built = (NATIVE / room / "CMakeLists.txt").read_text(encoding="utf-8")
     assert {path.name for path in (NATIVE / room).glob("*.cpp")} == set(re.findall(r"\b\w+\.cpp\b", built))
+
+
+def hidden_names(text):
+    """Functions in nameless namespaces of a source."""
+    inside = "".join(re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", text, re.MULTILINE | re.DOTALL))
+    return set(re.findall(r"^(?:\w[\w:<>,&* ]*[ &*])(\w+)\(", inside, re.MULTILINE))
+
+
+def test_no_hidden_function_has_the_name_of_a_public_one():
+    # The wheels' library is compiled several sources at once: there it would hide the public one from other sources, and
+    # the call would take it wherever the numbers can be converted.
+    headers = [path.read_text(encoding="utf-8") for path in NATIVE.rglob("*.h")]
+    public = set(re.findall(r"^(?:inline |constexpr )*\w[\w:<>,&* ]*[ &*](\w+)\(", "\n".join(headers), re.MULTILINE))
+    assert {"triangle_area", "uniformize", "flipped_faces"} <= public
+    hidden = {path.name: hidden_names(path.read_text(encoding="utf-8")) & public for path in NATIVE.rglob("*.cpp")}
+    assert not {name: names for name, names in hidden.items() if names}

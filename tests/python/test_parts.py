@@ -161,3 +161,24 @@ def test_exit_codes_of_the_command(tmp_path):
     flat = command("parts", source, target)
     assert flat.returncode == CANNOT_BE_MAPPED and flat.stderr.startswith("InputError: ")
     assert not target.exists()
+
+
+def test_a_tube_is_opened_along_the_slit_that_is_asked_for():
+    """Up one side of the finger's tube, whichever: the UVs lie apart there and nowhere else but at the tip."""
+    around, top = 24, 40
+    for column in (0, 7, 19):
+        path = column + around * np.arange(top)
+        result = koebe.parts(VERTICES, TRIANGLES, slits=np.stack([path[:-1], path[1:]], axis=1))
+        assert [part["kind"] for part in result.parts] == ["tube", "disk"]
+        tube = np.flatnonzero(result.part == 0)
+        places = {}
+        for vertex, uv in zip(TRIANGLES[tube].ravel(), result.uv[tube].reshape(-1, 2).tolist(), strict=True):
+            places.setdefault(vertex, set()).add(tuple(uv))
+        twice = sorted(vertex for vertex, uv in places.items() if len(uv) > 1)
+        assert twice == [vertex for vertex in path if vertex in places]
+
+
+@pytest.mark.parametrize("slits", [[[0, 1, 2]], [[0.0, 1.0]], [[0, len(VERTICES)]], [[-1, 0]], "ab"])
+def test_slits_that_are_no_edges_are_an_error(slits):
+    with pytest.raises(koebe.InputError, match="slits"):
+        koebe.parts(VERTICES, TRIANGLES, slits=slits)

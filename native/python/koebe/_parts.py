@@ -76,6 +76,7 @@ def parts(
     price: float | None = None,
     cut: bool = True,
     polygon: Any = None,
+    slits: Any = None,
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> PartsResult:
@@ -88,6 +89,8 @@ def parts(
               is laid out by itself. False: only what `uniformize` takes
     polygon   (F,) integers: triangles of one number are one polygon and stay together. None: each by itself, or as the
               mesh has them
+    slits     (E, 2) vertices of edges along which a tube is opened where they lead from one of its loops to the other.
+              None: along a short, straight path
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
     """
@@ -96,7 +99,20 @@ def parts(
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles, degenerate=whole)
     numbers = polygons_of(polygon, source)
-    native = _koebe.parts(source.vertices, source.triangles, chosen, whole, numbers, progress, cancel)
+    edges = np.zeros((0, 2), np.int32) if slits is None else _edges(slits, len(source.vertices))
+    native = _koebe.parts(source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), progress, cancel)
     report = native.report()
     report["options"] = {"price": chosen, "cut": whole}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32))
+
+
+def _edges(slits: Any, count: int) -> np.ndarray:
+    """Vertices of edges, in int32."""
+    given = np.asarray(slits)
+    if given.size == 0:
+        return np.zeros((0, 2), np.int32)
+    if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
+        raise InputError(f"slits must be (E, 2) integers, not {given.shape} {given.dtype}")
+    if given.min() < 0 or given.max() >= count:
+        raise InputError(f"slits name a vertex that is not among the {count}")
+    return given.astype(np.int32)

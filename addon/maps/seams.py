@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams and the cuts of a layout: edges that UVs are cut along, and seams along which a tube is unrolled."""
+
+import numpy as np
+
+from .surface import Island, Surface, next_corners
+
+
+def cut_edges(surface: Surface, uv: np.ndarray) -> np.ndarray:
+    """Whether the UVs (C, 2) of the faces at each edge (E,) lie apart there, of the selected faces alone."""
+    following = next_corners(surface)
+    corners = np.flatnonzero(np.repeat(surface.selected, surface.face_size))
+    corners = corners[np.argsort(surface.corner_edge[corners], kind="stable")]
+    ends = np.stack([corners, following[corners]], axis=1)
+    turned = surface.corner_vertex[ends[:, 0]] > surface.corner_vertex[ends[:, 1]]
+    ends[turned] = ends[turned][:, ::-1]
+    edge, places = surface.corner_edge[corners], uv[ends].reshape(-1, 4)
+    apart = (edge[1:] == edge[:-1]) & (places[1:] != places[:-1]).any(axis=1)
+    cut = np.zeros(len(surface.seam), dtype=bool)
+    cut[edge[1:][apart]] = True
+    return cut
+
+
+def inner_seams(surface: Surface) -> np.ndarray:
+    """The seams (E,) that have selected faces on both sides."""
+    chosen = np.repeat(surface.selected, surface.face_size)
+    return surface.seam & (np.bincount(surface.corner_edge[chosen], minlength=len(surface.seam)) > 1)
+
+
+def tube_slits(surface: Surface, islands: list[Island]) -> np.ndarray:
+    """The seams (E,) that make disks of islands which would be tubes without them.
+
+    An island that is a disk has such a path if both its sides lie in the island's boundary, and something else between
+    them at either end. Of several the longest is taken.
+    """
+    found = np.zeros(len(surface.seam), dtype=bool)
+    if not surface.seam.any():
+        return found
+    following = next_corners(surface)
+    for island in islands:
+        boundary = _boundary_of_disk(surface, island, following)
+        paths = _paths_with_both_sides(surface.corner_edge[boundary], surface.corner_vertex[boundary])
+        if paths:
+            longest = max(paths, key=lambda path: _length(surface, boundary[path], following))  # noqa: B023
+            found[surface.corner_edge[boundary[longest]]] = True
+    return found
+
+
+def _length(surface: Surface, corners: np.ndarray, following: np.ndarray) -> float:
+    """Of the edges that begin at these corners."""
+    ends = surface.corner_vertex[np.stack([corners, following[corners]])]
+    return float(np.linalg.norm(np.diff(surface.positions[ends], axis=0), axis=-1).sum())
+
+
+def _boundary_of_disk(surface: Surface, island: Island, following: np.ndarray) -> np.ndarray:
+    """The corners whose edges bound an island, in order; none unless it is a disk."""
+    none = np.zeros(0, dtype=np.int64)
+    edges = surface.corner_edge[island.corners]
+    if not surface.seam[edges].any():
+        return none
+    _, inverse, times = np.unique(edges, return_inverse=True, return_counts=True)
+    if times.max() > 2:
+        return none
+    on_boundary = surface.seam[edges] | (times[inverse] == 1)
+    corners = island.corners[on_boundary]
+    count_edges = (len(island.corners) + len(corners)) // 2
+    if not len(corners) or len(island.source_vertex) - count_edges + len(island.faces) != 1:
+        return none
+    local = dict(zip(island.corners.tolist(), island.corner_vertex.tolist(), strict=True))
+    leaving = {local[c]: c for c in corners.tolist()}
+    order = [int(corners[0])]
+    while len(order) <= len(corners):
+        corner = leaving.get(local[int(following[order[-1]])])
+        if corner is None or corner == order[0]:
+            break
+        order.append(corner)
+    return np.array(order) if len(order) == len(leaving) == len(corners) else none
+
+
+def _paths_with_both_sides(edges: np.ndarray, vertices: np.ndarray) -> list[list[int]]:
+    """Places of the paths in a closed boundary whose edges are in it twice, run through in both directions.
+
+    edges, vertices  (n,) along the boundary; a vertex is where its edge begins
+    """
+    n = len(edges)
+    first: dict[int, int] = {}
+    partner = [-1] * n
+    for here, edge in enumerate(edges.tolist()):
+        there = first.setdefault(edge, here)
+        if there != here and vertices[there] == vertices[(here + 1) % n]:
+            partner[here], partner[there] = there, here
+    paths: list[list[int]] = []
+    for start in range(n):
+        if partner[start] < 0 or partner[start - 1] == (partner[start] + 1) % n:
+            continue
+        path = [start]
+        while len(path) < n and partner[(path[-1] + 1) % n] == (partner[path[-1]] - 1) % n:
+            path.append((path[-1] + 1) % n)
+        near, far = (path[-1] + 1) % n, (partner[start] + 1) % n
+        if near != partner[path[-1]] and far != start and partner[path[-1]] not in path:
+            paths.append(path)
+    return paths
