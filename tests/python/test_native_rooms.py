@@ -75,8 +75,8 @@ def hidden_names(text):
 
 
 def test_no_hidden_function_has_the_name_of_a_public_one():
-    # The wheels' library is compiled several sources at once: there it would hide the public one from other sources, and
-    # the call would take it wherever the numbers can be converted.
+    # The wheels' library is compiled several sources at once: there it would hide the public one from the others, and
+    # be called wherever the numbers can be converted.
     headers = [path.read_text(encoding="utf-8") for path in NATIVE.rglob("*.h")]
     public = set(re.findall(r"^(?:inline |constexpr )*\w[\w:<>,&* ]*[ &*](\w+)\(", "\n".join(headers), re.MULTILINE))
     assert {"triangle_area", "uniformize", "flipped_faces"} <= public

@@ -53,10 +53,12 @@ MAPS = {
 
 def facts_of(result):
     chosen = np.linspace(0, len(result.uv) - 1, SHOWN).astype(int)
+    off_circle = [vertex for loop in result.to_dict()["loops"] for vertex in loop["off_circle"]]
     return {
         "centers": np.asarray(result.centers).tolist(),
         "radii": np.asarray(result.radii).tolist(),
         "points": result.uv[chosen].tolist(),
+        "off circle": result.uv[off_circle].tolist(),
         "flipped": result.flipped,
         "converged": result.converged,
         "steps": result.steps,
@@ -66,7 +68,7 @@ def facts_of(result):
 def difference(found, expected):
     """The largest difference of a circle or a point, in the unit disk."""
     return max(np.abs(np.array(found[name]) - np.array(expected[name])).max(initial=0.0)
-               for name in ("centers", "radii", "points"))  # fmt: skip
+               for name in ("centers", "radii", "points", "off circle"))  # fmt: skip
 
 
 def pytest_generate_tests(metafunc):

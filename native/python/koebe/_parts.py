@@ -10,6 +10,7 @@ from ._api import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, flag, positive, token
 from ._result import AngleError, Warning
+from .errors import InputError
 
 
 class PartsResult:
