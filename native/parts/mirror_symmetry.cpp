@@ -16,7 +16,7 @@ namespace koebe {
 namespace {
 
 constexpr double tolerance = 1e-5;  // of the root of the area
-constexpr double worth = 1.25;      // of what the parts cost: symmetric ones may cost so much
+constexpr double worth = 1.5;       // of what the parts cost: symmetric ones may cost so much
 
 /// Points of the unit cube by cells as wide as the tolerance.
 class Cells {
