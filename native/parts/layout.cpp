@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "core/side_by_side.h"
 #include "cut/open_surface.h"
+#include "parts/closed_surface.h"
 #include "parts/coarse_surface.h"
 #include "parts/fine_labels.h"
 #include "parts/flat_part.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -91,10 +93,11 @@ std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, int threads, Exec
 }
 
 /// Split and merged, each with its map.
-std::vector<PartPointer> even_parts(const CutSurface& whole, const SplitOptions& options, ExecutionContext& context,
-                                    SplitEffort& effort)
+/// @param first faces of the parts to begin with; empty: one of all
+std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::vector<Index>> first,
+                                    const SplitOptions& options, ExecutionContext& context, SplitEffort& effort)
 {
-    std::vector<PartPointer> parts{whole_part(whole, context, effort)};
+    std::vector<PartPointer> parts = first_parts(whole, std::move(first), context, effort);
     RefusedMerges refused;
     for (int round = 0; round < rounds; ++round) {
         parts = split_parts(whole, options, std::move(parts), context, effort);
@@ -111,7 +114,7 @@ std::vector<PartPointer> parts_by_coarse_surface(const CutSurface& whole, const 
     const CutSurface surface = cut_surface(coarse.vertices, coarse.triangles, {});
     std::vector<int> label(coarse.face.size(), 0);
     int count = 0;
-    for (const PartPointer& part : even_parts(surface, options, context, effort)) {
+    for (const PartPointer& part : even_parts(surface, {}, options, context, effort)) {
         for (const Index f : part->mesh.faces) label[f] = count;
         ++count;
     }
@@ -173,7 +176,9 @@ std::vector<FlatPart> flat_parts(const CutSurface& whole, const Mirror& mirror, 
     side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
         Part& part = *parts[k];
         if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k]);
-        if (in_turn && part.map.kind == PartKind::tube) prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
+        const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
+        if (in_turn && part.map.kind == PartKind::tube && !chosen)
+            prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
         flats[k] = flat_part(part);
         if (in_turn) note_slit(part.mesh, flats[k], opened);
         parts[k].reset();
@@ -189,13 +194,18 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     std::vector<Index> polygon;
     if (!options.polygon.empty())
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
-    CutSurface whole = cut_surface(vertices(piece.source_vertex, Eigen::all), piece.triangles, std::move(polygon));
+    const bool is_large = piece.triangles.rows() > large;
+    const Vertices own = vertices(piece.source_vertex, Eigen::all);
+    std::optional<CutSurface> closed = is_large ? std::nullopt : closed_surface(piece, own, polygon);
+    std::vector<std::vector<Index>> first;
+    if (closed) first = halves(*closed);
+    CutSurface whole =
+        first.empty() ? cut_surface(own, piece.triangles, std::move(polygon)) : *std::exchange(closed, std::nullopt);
     whole.slit = chosen_slits(piece, options.slits);
     SplitEffort effort;
     const SplitOptions prices{options.price, cut_share * options.price, threads};
-    const bool is_large = piece.triangles.rows() > large;
-    std::vector<PartPointer> parts =
-        is_large ? parts_by_coarse_surface(whole, prices, context, effort) : even_parts(whole, prices, context, effort);
+    std::vector<PartPointer> parts = is_large ? parts_by_coarse_surface(whole, prices, context, effort)
+                                              : even_parts(whole, std::move(first), prices, context, effort);
     const Mirror mirror = is_large ? Mirror{} : find_mirror(whole);
     make_symmetric(whole, prices, mirror, parts, context, effort);
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });

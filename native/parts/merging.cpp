@@ -39,12 +39,25 @@ std::map<std::pair<int, int>, double> borders(const CutSurface& whole, const std
     return result;
 }
 
+/// Both as one part, if that is the better: parts of the two halves of a closed surface, which have no common origin.
+PartPointer merged_halves(const CutSurface& whole, const Part& a, const Part& b, double saved,
+                          ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<Index> faces = a.mesh.faces;
+    faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
+    if (faces.size() == static_cast<std::size_t>(whole.areas.size())) return {};  // closed
+    auto both = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}});
+    map_anew(whole, *both, context, effort);
+    return both->map.overflow < saved ? both : PartPointer{};
+}
+
 /// Both as one part, if that is the better.
 PartPointer merged(const CutSurface& whole, const SplitOptions& options, const Part& a, const Part& b, double border,
                    ExecutionContext& context, SplitEffort& effort)
 {
+    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
     const auto origin = common_origin(a, b);
-    if (!origin) return {};
+    if (!origin) return merged_halves(whole, a, b, saved, context, effort);
     std::vector<Index> piece(origin->mesh.faces.size(), -1);
     for (const Part* part : {&a, &b}) {
         auto at = origin->mesh.faces.begin();
@@ -53,7 +66,6 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
             piece[at - origin->mesh.faces.begin()] = 0;
         }
     }
-    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
     if (origin->map.measured && std::ranges::count(piece, 0) == static_cast<std::ptrdiff_t>(piece.size())) {
         // The cut is taken back that was made there, and not made again.
         if (!(origin->map.overflow < saved)) return {};

@@ -209,7 +209,9 @@ void make_symmetric(const CutSurface& whole, const SplitOptions& options, const 
     std::vector<PartPointer> chosen;
     for (const double side : {1.0, -1.0}) {
         std::vector<PartPointer> mirrored;
-        for (std::vector<Index>& faces : mirrored_faces(whole, mirror, parts, side)) {
+        std::vector<std::vector<Index>> sets = mirrored_faces(whole, mirror, parts, side);
+        if (sets.size() == 1 && whole.surface.loops.empty()) continue;  // closed
+        for (std::vector<Index>& faces : sets) {
             PartPointer& part = known[faces];
             if (!part) {
                 part = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}});

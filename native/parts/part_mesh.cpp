@@ -33,11 +33,17 @@ VectorXd face_areas(const Vertices& vertices, const Triangles& triangles)
 
 CutSurface cut_surface(const Vertices& vertices, const Triangles& triangles, std::vector<Index> polygon)
 {
+    return cut_surface(vertices, require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows())),
+                       std::move(polygon));
+}
+
+CutSurface cut_surface(const Vertices& vertices, Surface surface, std::vector<Index> polygon)
+{
     CutSurface whole;
-    whole.surface = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
+    whole.surface = std::move(surface);
     whole.vertices = vertices;
     whole.areas = face_areas(whole.vertices, whole.surface.triangles);
-    whole.lengths.resize(triangles.size());
+    whole.lengths.resize(whole.surface.triangles.size());
     for (Index h = 0; h < static_cast<Index>(whole.lengths.size()); ++h)
         whole.lengths[h] = length_of(whole.vertices.row(origin(whole.surface.triangles, h)) -
                                      whole.vertices.row(target(whole.surface.triangles, h)));

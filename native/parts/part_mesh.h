@@ -8,8 +8,8 @@
 
 namespace koebe {
 
-/// What is cut: a connected, oriented, manifold surface of genus 0 with boundary, in a unit in which all surfaces that
-/// are cut together have area 1.
+/// What is cut: a connected, oriented, manifold surface of genus 0, in a unit in which all surfaces that are cut
+/// together have area 1. With boundary, unless it is cut in two before anything else (closed_surface.h).
 struct CutSurface {
     Vertices vertices;
     Surface surface;
@@ -21,6 +21,8 @@ struct CutSurface {
 
 /// (F) areas of faces. @param vertices of a size that its square does not overflow
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles);
+
+CutSurface cut_surface(const Vertices& vertices, Surface surface, std::vector<Index> polygon);
 
 /// @throws TopologyError as require_bordered_genus_zero
 CutSurface cut_surface(const Vertices& vertices, const Triangles& triangles, std::vector<Index> polygon);

@@ -22,7 +22,7 @@ struct PartsOptions {
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
     /// Edges, by their vertices, along which a tube is opened where they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
-    int threads = 0;                  ///< at most; 0: as many as the machine has. The result is the same for any number
+    int threads = 0;  ///< at most; 0: as many as the machine has. The result is the same for any number
 };
 
 struct PartReport {

@@ -142,13 +142,19 @@ void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, Sp
     effort.maps += static_cast<double>(part.mesh.faces.size()) / static_cast<double>(whole.areas.size());
 }
 
-PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, SplitEffort& effort)
+std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
+                                     ExecutionContext& context, SplitEffort& effort)
 {
-    std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
-    std::iota(faces.begin(), faces.end(), 0);
-    auto part = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}});
-    map_anew(whole, *part, context, effort);
-    return part;
+    if (faces.empty()) {
+        faces.emplace_back(static_cast<std::size_t>(whole.areas.size()));
+        std::iota(faces.front().begin(), faces.front().end(), 0);
+    }
+    std::vector<PartPointer> parts;
+    for (auto& own : faces) {
+        parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, {}}));
+        map_anew(whole, *parts.back(), context, effort);
+    }
+    return parts;
 }
 
 namespace {

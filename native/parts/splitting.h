@@ -34,8 +34,9 @@ struct SplitEffort {
 /// Maps a part anew.
 void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort);
 
-/// The surface as one part, mapped.
-PartPointer whole_part(const CutSurface& whole, ExecutionContext& context, SplitEffort& effort);
+/// Parts of these faces, mapped; of all, as one, if there are none.
+std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
+                                     ExecutionContext& context, SplitEffort& effort);
 
 /// Splits each part by the proposal of most gain, children judged by the parent's map, until nothing pays.
 /// Children whose loops are not round there are mapped before they are judged. Every part that stays has a map of its

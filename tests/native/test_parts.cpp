@@ -244,6 +244,36 @@ TEST(Parts, closed_surfaces_and_handles_are_opened)
     EXPECT_GT(opened.even_area, 0.85);
 }
 
+TEST(Parts, a_closed_surface_is_cut_along_closed_curves_alone)
+{
+    // Round at both ends, and six times as long as wide: two caps and a tube. No vertex ends a cut but those of the
+    // slit.
+    std::vector<std::pair<double, double>> profile;
+    for (int i = 0; i <= 40; ++i)
+        profile.emplace_back(i == 0 || i == 40 ? 0.0 : std::sin(pi * i / 40), -6.0 * std::cos(pi * i / 40));
+    const Mesh mesh = revolved(profile, 48);
+    const PartsResult result = parts(mesh, {});
+    expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
+    std::map<std::pair<Index, Index>, std::set<Index>> sides;
+    for (Index f = 0; f < static_cast<Index>(mesh.triangles.rows()); ++f)
+        for (int k = 0; k < 3; ++k)
+            sides[std::minmax(mesh.triangles(f, k), mesh.triangles(f, (k + 1) % 3))].insert(result.part[f]);
+    std::map<Index, int> cuts;
+    for (const auto& [edge, own] : sides)
+        if (own.size() > 1) ++cuts[edge.first], ++cuts[edge.second];
+    EXPECT_GT(cuts.size(), 40U);
+    for (const auto& [vertex, count] : cuts) EXPECT_EQ(count, 2) << vertex;
+    std::map<PartKind, int> kinds;
+    for (const PartReport& part : result.parts) ++kinds[part.kind];
+    EXPECT_EQ(kinds[PartKind::disk], 2);
+    EXPECT_EQ(kinds[PartKind::tube], 1);
+    double around = 0.0;  // of the borders alone: what is left of all cuts is the tube's slit
+    for (const auto& [edge, own] : sides)
+        if (own.size() > 1) around += (mesh.vertices.row(edge.first) - mesh.vertices.row(edge.second)).norm();
+    around /= std::sqrt(face_areas(mesh.vertices, mesh.triangles).sum());
+    EXPECT_NEAR(result.cut_length, around + result.slit_length, 1e-6);
+}
+
 TEST(Parts, any_number_of_threads_gives_the_same)
 {
     const Mesh one = finger(8.0);
