@@ -52,7 +52,8 @@ def package(platform: str) -> Path:
 
 def debian_blender() -> tuple[Command, dict[str, str]]:
     run(ROOT / "scripts" / "install.sh", "build", "blender")
-    return ["scripts/blender_tests.sh", "blender"], {"PACKAGE": str(package("linux-x64"))}
+    path = f"/usr/bin:{os.environ['PATH']}"  # Debian's Blender takes the modules of the first python3
+    return ["scripts/blender_tests.sh", "blender"], {"PACKAGE": str(package("linux-x64")), "PATH": path}
 
 
 def bpy(version: str) -> tuple[Command, dict[str, str]]:

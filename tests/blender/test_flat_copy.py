@@ -147,6 +147,6 @@ def test_a_file_that_cannot_be_written_is_said(tmp_path):
     assert list(tmp_path.iterdir()) == []
     folder = tmp_path / "cut.svg"
     folder.mkdir()
-    with pytest.raises(RuntimeError, match="cut.svg: Is a directory"):
+    with pytest.raises(RuntimeError, match="cut.svg: (Is a directory|Access denied|Permission denied)"):
         bpy.ops.uv.koebe_flat_svg(filepath=str(folder))
     assert list(tmp_path.iterdir()) == [folder]
