@@ -1,6 +1,5 @@
 """Hundreds of islands and of objects: the panel stays short and quick, and a message fits on the screen."""
 
-from test_shapes import scroll_down
 from window import ROOT
 
 SECONDS = 0.05  # of the main thread to draw the window once, more than without
@@ -82,11 +81,11 @@ def test_hundreds_of_objects_compared_and_carried_to(window):
     window.run("for o in bpy.context.view_layer.objects: o.select_set(True)")
     window.settle()
     window.picture("42_many_objects")
-    scroll_down(window)
+    window.scroll_down()
     x, top, width, height = window.region("VIEW_3D", "UI")
     window.click(x + 60, top + height - 14)  # the folded panel's title, the last line
     window.picture("43_many_shapes")
-    scroll_down(window)
+    window.scroll_down()
     window.picture("44_many_shapes_end")
     drawing = window.run(DRAW)
     print(f"drawing the window {before:.3f} s, with 200 shapes {drawing:.3f} s")

@@ -80,6 +80,7 @@ def test_u_menu_in_edit_mode_and_the_uv_editor(window, open_sample):
     window.key("Home")
     window.picture("10_uv_editor")
     assert window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT"
+    window.scroll_down("IMAGE_EDITOR")
     window.click(*window.find_button("IMAGE_EDITOR", "koebe_select_loop(loop=1"))
     window.picture("11_loop_selected")
     assert window.ask(LAST + ".bl_idname") == "UV_OT_koebe_select_loop"

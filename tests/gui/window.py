@@ -158,6 +158,14 @@ class Window:
                  "        if shading.type == 'SOLID': shading.color_type = 'TEXTURE'")  # fmt: skip
         self.settle()
 
+    def scroll_down(self, area="VIEW_3D"):
+        """To the end of an area's sidebar."""
+        x, top, _, height = self.region(area, "UI")
+        self.move(x + 4, top + height // 2)
+        for _ in range(30):
+            xdotool("click", 5)
+        self.settle()
+
     def find_button(self, area, text, fraction=0.5, step=14):
         """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
         x, top, width, height = self.region(area, "UI")
