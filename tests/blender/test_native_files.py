@@ -62,7 +62,9 @@ def home(addon_name, tmp_path):
 
 
 def libraries(folder):
-    return [path for path in folder.rglob("*") if any(end in path.name for end in LIBRARIES)]
+    # By os.walk, which bears with folders that go away meanwhile.
+    files = [Path(root) / name for root, _, names in os.walk(folder) for name in names]
+    return [path for path in files if any(end in path.name for end in LIBRARIES)]
 
 
 def native_library(module):
