@@ -86,7 +86,8 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 # ---------------------------------------------------------------- tests
 
 # Two runners at once, as most use one core; each runs, whatever became of the others, and is printed when it has ended.
-test: build ## everything: native, Python, fuzzing, and the installed zip in Debian's Blender and in bpy $(BPY)
+# What they need is installed before, by one process: two would wait for apt's lock, and fail.
+test: build $(DONE)/install-fuzz $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done) ## everything: native, Python, fuzzing, and the installed zip in Debian's Blender and in bpy $(BPY)
 	@$(MAKE) --no-print-directory --keep-going --jobs=2 --output-sync=target test-native test-python test-labs test-fuzz test-blender $(BPY:%=test-bpy-%)
 
 test-native: native ## ctest
