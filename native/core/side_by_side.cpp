@@ -85,6 +85,7 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
     for (std::thread& other : others) other.join();
     if (cancelled) std::rethrow_exception(cancelled);
     if (shared.error) std::rethrow_exception(shared.error);
+    context.advance(1.0);  // the last piece may have been another thread's
 }
 
 }  // namespace koebe

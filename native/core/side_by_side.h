@@ -12,7 +12,8 @@ namespace koebe {
 /// Calls work(i, context) once for each i < count, on the calling thread and others beside it, in no order that is
 /// promised. The work must not share what it changes; then its results are the same for any number of threads.
 ///
-/// The contexts of the work report no progress; `context` does, from the calling thread, as a share of what is done.
+/// The contexts of the work report no progress; `context` does, from the calling thread, as a share of what is done: 1
+/// at the end.
 /// @param threads at most; 0: as many as the machine has @param context as run_detachable gives it: one without a poll
 /// callback, whose checkpoint any thread may reach
 /// @throws Cancelled, and of what the work throws that of the lowest i; no more work is begun then
