@@ -31,7 +31,7 @@ ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 .NOTPARALLEL:
 .SECONDARY:
 .PHONY: help build native wheel package dist matrix lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-farms test-asan \
-        test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures reliability samples clean distclean
+        test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -78,7 +78,7 @@ matrix: dist ## the zips of `make dist` tested in every Blender that can be had 
 	$(PYTHON) scripts/matrix.py $(NAMES)
 
 build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install-build
-	$(PYTHON) -m venv $(@D)
+	$(PYTHON) -m venv --clear $(@D)
 	$(@D)/bin/pip install --quiet --no-deps --require-hashes -r native/bundle/requirements.txt
 	$(@D)/bin/pip install --quiet build 'scikit-build-core>=0.10' 'auditwheel>=6.1' 'delvewheel>=1.10'
 	@touch $@
@@ -171,8 +171,12 @@ reproduce: native ## the paper's tables, rates and figures: out/reproduce/
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python bench/addon_overhead.py
 
-figures: native ## measure the figures of README.md and docs/ and write them there
+figures: native $(DONE)/install-blender ## measure the figures of README.md and docs/ and write them there; the guide's drawn pictures
 	$(PYTHON) bench/doc_figures.py
+	scripts/guide_pictures.sh drawn
+
+guide-pictures: test-gui ## the guide's pictures of the window
+	scripts/guide_pictures.sh window
 
 reliability: native ## random surfaces, SURFACES=100 of each kind, every answer checked: docs/reliability.md
 	$(PYTHON) bench/reliability.py --surfaces $(SURFACES) --write
@@ -192,23 +196,23 @@ $(VENV)/.done: | $(DONE)/install-build
 	@touch $@
 
 build/venv-lint/.done: Makefile | $(DONE)/install-build
-	$(PYTHON) -m venv $(@D)
+	$(PYTHON) -m venv --clear $(@D)
 	$(@D)/bin/pip install --quiet $(LINTERS)
 	@touch $@
 
 build/venv-labs/.done: Makefile | $(DONE)/install-build
-	/usr/bin/python3 -m venv $(@D)
+	/usr/bin/python3 -m venv --clear $(@D)
 	$(@D)/bin/pip install --quiet $(LABS)
 	@touch $@
 
 build/venv-compare/.done: Makefile | $(DONE)/install-build $(DONE)/install-blender
-	/usr/bin/python3 -m venv $(@D)
+	/usr/bin/python3 -m venv --clear $(@D)
 	$(@D)/bin/pip install --quiet $(COMPARED)
 	@touch $@
 
 build/venv-bpy-%/.done: | $(DONE)/install-build $(DONE)/install-blender
 	@echo "Installing bpy $* (about 350 MB) into $(@D)"
-	/usr/bin/python3 -m venv $(@D)
+	/usr/bin/python3 -m venv --clear $(@D)
 	$(@D)/bin/pip install --quiet 'bpy==$*.*' pytest
 	@touch $@
 

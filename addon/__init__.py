@@ -31,13 +31,22 @@ def _parts() -> tuple[ModuleType, ...]:
         uniformize,
     )
     from .state import moved_circles, option_properties, run_report, shape_report
-    from .ui import circle_overlay, circle_tool, distortion_legend, menus, panels, preferences, preset_menu
+    from .ui import (
+        circle_overlay,
+        circle_tool,
+        distortion_legend,
+        menus,
+        outline_overlay,
+        panels,
+        preferences,
+        preset_menu,
+    )
 
     return (
         option_properties, run_report, moved_circles, shape_report,
         uniformize, parts, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture,
         option_presets, moebius, symmetrize, flat_copy,
-        distortion_legend, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
+        distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 
 

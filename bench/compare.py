@@ -13,6 +13,7 @@ import argparse
 import json
 import os
 import resource
+import statistics
 import subprocess
 import sys
 from pathlib import Path
@@ -27,6 +28,7 @@ LIMIT = 240  # seconds of processor time of one map
 BEGIN, END = "<!-- the table of `make compare` -->", "<!-- its end -->"
 HEAD = ["unwrap", "islands", "seams / √area", "density, 5 to 95 %", "area within a factor 3", "angle error", "flips",
         "faces lost", "overlap", "seconds"]  # fmt: skip
+SUMMARY = ["unwrap", "models done", *HEAD[1:6], "models with flips", "with faces lost", "with overlap", "seconds"]
 # In docs/: of what is this project's own or Blender's.
 PICTURED = ("Suzanne", "torus", "face_five_holes", "character", "hand", "mug", "closed_head")
 
@@ -98,6 +100,24 @@ def table(model, rows):
     return "\n".join(lines) + "\n"
 
 
+def summary(rows_of):
+    """All models in one table: medians, and how many maps have a fault. @param rows_of model -> unwrap -> figures"""
+    lines = [f"### {len(rows_of)} models", "", "| " + " | ".join(SUMMARY) + " |", "|" + " --- |" * len(SUMMARY)]
+    for unwrap in next(iter(rows_of.values())):
+        done = [rows[unwrap] for rows in rows_of.values() if "error" not in rows[unwrap]]
+        islands, seams, spread, even, angle, seconds = (
+            statistics.median(facts[key] for facts in done)
+            for key in ("islands", "seams", "spread", "even", "angle", "seconds")
+        )
+        faulty = [
+            sum(facts[key] > most for facts in done) for key, most in (("flips", 0), ("lost", 0), ("overlap", 0.001))
+        ]
+        cells = [unwrap, len(done), f"{islands:,.0f}", f"{seams:.1f}", f"{spread:.1f}", f"{100.0 * even:.0f} %",
+                 f"{angle:.1f}°", *faulty, f"{seconds:.2f}"]  # fmt: skip
+        lines.append("| " + " | ".join(map(str, cells)) + " |")
+    return "\n".join(lines) + "\n"
+
+
 def measured(model, again):
     """Measure a model by all unwraps, and leave its file and its picture."""
     import compare_picture
@@ -111,7 +131,8 @@ def measured(model, again):
 def write(models):
     """Tables and pictures into docs/, of those of the models that are done."""
     done = [model for model in models if (OUT / f"{model}.json").exists()]
-    tables = [table(model, json.loads((OUT / f"{model}.json").read_text(encoding="utf-8"))) for model in done]
+    rows_of = {model: json.loads((OUT / f"{model}.json").read_text(encoding="utf-8")) for model in done}
+    tables = [summary(rows_of), *(table(model, rows) for model, rows in rows_of.items())]
     for model in {*done} & {*PICTURED}:
         (IMAGES / f"compare_{model}.jpg").write_bytes((OUT / f"{model}.jpg").read_bytes())
     before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)

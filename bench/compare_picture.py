@@ -30,8 +30,11 @@ def draw_one(axis, data):
         logs = np.log(np.abs(uv_measures.signed_areas(uv)) / uv_measures.triangle_areas(points))
     area = uv_measures.triangle_areas(points)
     order = np.argsort(logs)
-    middle = logs[order][np.searchsorted(np.cumsum(area[order]), area.sum() / 2.0)]
-    shade = np.clip(np.nan_to_num((logs - middle) / np.log(9.0), nan=-1.0, neginf=-1.0, posinf=1.0), -1.0, 1.0)
+    median = logs[order][np.searchsorted(np.cumsum(area[order]), area.sum() / 2.0)]
+    shade = np.clip(np.nan_to_num((logs - median) / np.log(9.0), nan=-1.0, neginf=-1.0, posinf=1.0), -1.0, 1.0)
     axis.add_collection(PolyCollection(uv, array=shade, cmap="coolwarm_r", clim=(-1.0, 1.0), edgecolors="face",
                                        linewidths=0.15))  # fmt: skip
-    axis.autoscale()
+    low, high = uv.reshape(-1, 2).min(axis=0), uv.reshape(-1, 2).max(axis=0)
+    middle, half = (low + high) / 2.0, 0.52 * max((high - low).max(), 1e-9)  # a square, so that the titles are in line
+    axis.set_xlim(middle[0] - half, middle[0] + half)
+    axis.set_ylim(middle[1] - half, middle[1] + half)

@@ -232,6 +232,7 @@ def tested(name: str) -> dict[str, object]:
     if not lines:
         return {**facts, "not run": "no test was run: " + text.strip().rsplit("\n", 1)[-1]}
     failed, passed, skipped = (int(number or 0) for number in lines[-1].groups())
+    failed += sum(int(number) for number in re.findall(r"(\d+) errors?\b", lines[-1][0]))  # before a test, or after it
     return {**facts, "passed": passed, "failed": failed, "skipped": skipped}
 
 

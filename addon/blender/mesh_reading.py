@@ -93,6 +93,16 @@ def read_layer(obj: MeshObject, layer_name: str) -> np.ndarray:
         return compat.corner_uv(mesh.uv_layers[layer_name])
 
 
+def read_layout(obj: MeshObject, layer_name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Vertex (C,) and edge (C,) of each corner, the next one (C,) of its face, and its UVs (C, 2) in a layer."""
+    mesh = obj.data
+    vertex, edge = compat.corner_indices(mesh)
+    start, size = (compat.read_indices(mesh.polygons, name) for name in ("loop_start", "loop_total"))
+    following = np.arange(1, len(vertex) + 1, dtype=np.int32)
+    following[start + size - 1] = start
+    return vertex, edge, following, read_layer(obj, layer_name)
+
+
 def has_pins(obj: MeshObject, layer_name: str) -> bool:
     """Whether UVs of that layer are pinned; in Edit Mode as of `read_surface`."""
     if layer_name not in obj.data.uv_layers:

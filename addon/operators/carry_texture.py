@@ -16,6 +16,7 @@ from ..state.run_report import report_of
 from ..state.shape_report import shapes_of
 from .modal_run import redraw
 from .shape_operator import ShapeOperator, in_object_mode
+from .tooltip import tooltip
 
 
 class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
@@ -24,6 +25,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_carry_texture"
     bl_label = "Koebe Carry Texture"
+    bl_description = tooltip(__doc__)
 
     layer: option("layer")
     fit_holes: BoolProperty(

@@ -11,6 +11,7 @@ from ..maps.wording import few
 from ..state.shape_report import shapes_of
 from .modal_run import redraw
 from .shape_operator import ShapeOperator, in_object_mode
+from .tooltip import tooltip
 
 
 class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
@@ -19,6 +20,7 @@ class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_compare_shapes"
     bl_label = "Koebe Compare Shapes"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER"}
 
     @classmethod

@@ -12,6 +12,7 @@ from ..blender.transaction import Transaction, transaction
 from ..jobs import native_package
 from ..maps.wording import counted, few, lines
 from ..solver.errors import NativeError
+from .tooltip import tooltip
 
 
 class MESH_OT_koebe_fill_holes(bpy.types.Operator):
@@ -20,6 +21,7 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
 
     bl_idname = "mesh.koebe_fill_holes"
     bl_label = "Koebe Fill Holes"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     which: bpy.props.EnumProperty(

@@ -15,6 +15,7 @@ from ..jobs.flat_job import Flat, read_flat
 from ..maps.flat_svg import flat_svg
 from ..maps.wording import few, lines
 from .modal_run import OperatorBase
+from .tooltip import tooltip
 
 GAP = 0.05  # of a layout's width, between two objects
 LAYER = "UV layer whose layout it is; without a name the active one"
@@ -52,6 +53,7 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
 
     bl_idname = "object.koebe_flat_copy"
     bl_label = "Koebe Flat Copy"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     layer: StringProperty(name="UV Layer", description=LAYER)
@@ -94,6 +96,7 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
 
     bl_idname = "uv.koebe_flat_svg"
     bl_label = "Koebe Flat SVG"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER"}
 
     filename_ext = ".svg"

@@ -8,6 +8,18 @@ import bpy
 
 from ..solver.worker import Worker
 
+# What the status line calls the stages of a computation.
+STAGES = {
+    "topology": "reading the surface",
+    "metric": "measuring the surface",
+    "cut": "cutting the surface open",
+    "factor": "preparing the equations",
+    "iterate": "making the holes round",
+    "finish": "finishing the map",
+    "polish": "polishing the angles",
+    "split": "cutting into parts",
+    "pack": "packing the parts",
+}
 POLL_SECONDS = 0.05  # how often a running computation is looked at: Esc acts within this and one checkpoint
 SHOW_SECONDS = 0.25  # how often its progress is shown: each time Blender puts the whole window together again
 # While a computation runs the view may be moved; everything else could change what is being mapped.
@@ -94,7 +106,8 @@ class ModalRun(OperatorBase):
         context.workspace.status_text_set(None)
 
     def _show_progress(self, context: bpy.types.Context) -> None:
-        text = f"Koebe UV: {100 * self._worker.fraction:.0f} %  {self._worker.stage}      Esc: Cancel"
+        stage = STAGES.get(self._worker.stage, self._worker.stage)
+        text = f"Koebe UV: {100 * self._worker.fraction:.0f} % done, {stage}      Esc: Cancel"
         now = time.monotonic()
         if text != self._shown and now >= self._shown_at + SHOW_SECONDS:
             context.workspace.status_text_set(text)

@@ -24,6 +24,7 @@ from ..solver.errors import NativeError
 from ..state import moved_circles
 from ..state.run_report import report_of
 from .modal_run import redraw
+from .tooltip import tooltip
 
 NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to take hold of a hole, to be no drag, to come to rest in the middle
 HINTS = {
@@ -38,9 +39,11 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
     turn it. Angles are kept and circles stay circles; nothing is computed anew"""
 
     shown: ClassVar[np.ndarray | None] = None  # edges (e, 2) of what is dragged, complex, in the UVs
+    held: ClassVar[tuple[str, np.ndarray] | None] = None  # its object's name and its corners (c,)
 
     bl_idname = "uv.koebe_moebius"
     bl_label = "Koebe Move Circles"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     object_name: StringProperty(
@@ -193,7 +196,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self._tidy(context)
 
     def _tidy(self, context: bpy.types.Context) -> None:
-        UV_OT_koebe_moebius.shown = None
+        UV_OT_koebe_moebius.shown = UV_OT_koebe_moebius.held = None
         context.workspace.status_text_set(None)
         redraw(context)
 
@@ -217,6 +220,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         if self._entry is not None:
             moved_circles.begin(self._entry, domain)
         self._edges = self._job.edges(domain)
+        UV_OT_koebe_moebius.held = self._job.name, domain.island.corners
         self._back = edit_mode.leave(self._run, context)
         self._live = context.mode == "OBJECT"  # else only the circles move until the end
         if self._live:

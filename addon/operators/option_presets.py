@@ -10,7 +10,7 @@ from bl_operators.presets import AddPresetBase
 from ..blender import edit_mode
 from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
-from ..state.option_properties import OPTION_NAMES, settings_of
+from ..state.option_properties import SETTING_NAMES, settings_of
 
 FOLDER = "koebe_uv"  # of the presets, within the user's
 
@@ -33,7 +33,7 @@ class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
     def add(self, context: bpy.types.Context, path: str) -> None:
         """Write the file, which may replace another, as a whole or not at all. `AddPresetBase` calls this."""
         settings = settings_of(context)
-        lines = [f"bpy.context.scene.koebe_uv.{name} = {getattr(settings, name)!r}\n" for name in OPTION_NAMES]
+        lines = [f"bpy.context.scene.koebe_uv.{name} = {getattr(settings, name)!r}\n" for name in SETTING_NAMES]
         temporary = f"{path}.part"
         try:
             with open(temporary, "w", encoding="utf-8") as file:
@@ -54,7 +54,7 @@ class UV_OT_koebe_reset(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         with transaction() as run:
             note_group(run, settings_of(context))
-            for name in OPTION_NAMES:
+            for name in SETTING_NAMES:
                 settings_of(context).property_unset(name)
             edit_mode.undo_all(context)
             return {"FINISHED"}

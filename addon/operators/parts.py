@@ -12,15 +12,16 @@ from ..state import run_report
 from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, part_options_of
 from .modal_run import redraw
 from .run_operator import MapOperator
+from .tooltip import tooltip
 
 
 class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
-    """Cut a surface of any kind, in the UVs alone, into disks and unrolled tubes with even texels: limbs, closed
-    models, models with handles. Cuts along seams too; in Edit Mode takes the selected faces. The mesh itself is not
-    changed, unless its cuts are to become seams"""
+    """Cut a surface of any kind into disks and unrolled tubes with even texels: limbs, closed models, handles. In the
+    UVs alone: the mesh stays, but for its seams if they are to be written. In Edit Mode takes the selected faces"""
 
     bl_idname = "uv.koebe_parts"
     bl_label = "Koebe Unwrap to Parts"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
     options_shown = PART_OPTION_NAMES
 

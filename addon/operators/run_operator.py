@@ -22,10 +22,15 @@ NEEDS = {  # options that matter with others alone
 }
 
 
+def is_used(options: Any, name: str) -> bool:
+    """Whether an option matters, as others are chosen."""
+    return name not in NEEDS or NEEDS[name](options)
+
+
 def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bpy.types.Context) -> None:
     """A row for an option, grey where it does not matter."""
     row = layout.row()
-    row.active = name not in NEEDS or NEEDS[name](options)
+    row.active = is_used(options, name)
     obj = context.active_object
     if name == "importance" and obj is not None and obj.type == "MESH":
         row.prop_search(options, name, obj, "vertex_groups")

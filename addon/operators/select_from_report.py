@@ -14,6 +14,7 @@ from ..jobs.map_job import Job
 from ..maps.offending_elements import EDGES, FACES, VERTICES, offending_elements
 from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object
 from .modal_run import OperatorBase
+from .tooltip import tooltip
 
 
 def active_object(context: bpy.types.Context) -> MeshObject | None:
@@ -79,6 +80,7 @@ class UV_OT_koebe_select_flipped(ReportOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_select_flipped"
     bl_label = "Select Flipped Faces"
+    bl_description = tooltip(__doc__)
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
         return FACES, json.loads(entry.flipped_faces or "[]")
@@ -110,6 +112,7 @@ class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_select_cuts"
     bl_label = "Select Cuts"
+    bl_description = tooltip(__doc__)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -19,6 +19,7 @@ from ..state import moved_circles
 from ..state.run_report import report_of
 from .modal_run import redraw
 from .moebius import numbered
+from .tooltip import tooltip
 
 Done = tuple[MoebiusJob, Symmetry]
 
@@ -29,6 +30,7 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
 
     bl_idname = "uv.koebe_symmetrize"
     bl_label = "Koebe Symmetrize"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     layer: StringProperty(name="UV Layer", description="UV layer to write; without a name the active one")

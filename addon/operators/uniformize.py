@@ -9,10 +9,11 @@ from ..blender.transaction import transaction
 from ..jobs.map_job import Job
 from ..maps import wording
 from ..state import run_report
-from ..state.option_properties import OPTION_NAMES, UniformizeProperties, options_of
+from ..state.option_properties import ACCURACY_NAMES, OPTION_NAMES, UniformizeProperties, options_of
 from .modal_run import redraw
 from .run_operator import MapOperator
 from .select_from_report import select_offenders
+from .tooltip import tooltip
 
 
 class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operator):
@@ -21,8 +22,9 @@ class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operat
 
     bl_idname = "uv.koebe_uniformize"
     bl_label = "Koebe Uniformize"
+    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
-    options_shown = OPTION_NAMES
+    options_shown = tuple(sorted(OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> Job:
         job = Job(target_objects(context), options_of(self), selected_only, refused=[])

@@ -79,7 +79,7 @@ class UniformizeProperties:
         description="Stop when no circle moves by more than this between two sweeps, in units of the disk's radius",
     )
     max_sweeps: IntProperty(
-        name="Max Sweeps",
+        name="Sweeps",
         default=DEFAULTS.max_sweeps,
         min=1,
         soft_max=200,
@@ -180,6 +180,7 @@ class UniformizeProperties:
 
 
 OPTION_NAMES = tuple(UniformizeProperties.__annotations__)
+ACCURACY_NAMES = ("method", "engine", "tolerance", "max_sweeps")  # what most runs leave alone, and so comes last
 
 
 def option(name: str) -> Any:
@@ -236,6 +237,9 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     evenness: EVENNESS
     seams: SEAMS
     write_seams: WRITE_SEAMS
+
+
+SETTING_NAMES = tuple(dict.fromkeys((*OPTION_NAMES, *PART_OPTION_NAMES)))
 
 
 def settings_of(context: bpy.types.Context) -> KoebeSettings:

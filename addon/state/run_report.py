@@ -25,7 +25,7 @@ from ..maps.offending_elements import offending_elements
 from ..maps.outcomes import IslandOutcome, SurfaceOutcome
 from ..maps.parts import PartsOutcome
 from ..maps.surface import Island
-from ..maps.wording import UNEVEN, cut_line, explain, notes, too_uneven, warnings
+from ..maps.wording import cut_line, explain, notes, too_uneven, warnings
 
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
@@ -54,6 +54,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     flipped: IntProperty(description="Triangles that are turned over in the UVs")
     flipped_faces: StringProperty(description="Their faces, as JSON")
     note: StringProperty(description="What was done to the island beside its map: cut, made symmetric")
+    uneven: BoolProperty(description="Whether nobody can paint on it: its texels are too uneven, or too small")
     cuts: StringProperty(description="Vertices of the mesh along each cut, as JSON, with the first of its pieces")
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
@@ -71,10 +72,14 @@ class KoebeReport(bpy.types.PropertyGroup):
 
     islands: CollectionProperty(type=KoebeIslandReport, description="Islands of the last run")
     active: IntProperty(name="Island", description="Island whose details are shown")
+    show_all: BoolProperty(
+        name="All of It", default=False, description="Show the report's messages in full, however long they are"
+    )
     show_circles: BoolProperty(
-        name="Circles",
+        name="Show Circles",
         default=True,
-        description="Draw the circles of the last run over the UVs, with the numbers of the report's loops",
+        description="Draw over the UVs the circles of the last run, with the numbers of the report's loops, and in "
+        "Object Mode, in which Blender shows no UVs, the outlines of the islands",
     )
 
 
@@ -109,7 +114,7 @@ def _record_maps(report: KoebeReport, outcomes: list[SurfaceOutcome], layer: str
             if one.error is None:
                 _record_result(entry, outcome, one)
                 said = said_of.get(id(one), [])
-                entry.note = "; ".join([*said, *([UNEVEN] if too_uneven(one) else [])])
+                entry.note, entry.uneven = "; ".join(said), too_uneven(one)
                 if one.opening is not None and said and said[0] == cut_line(one.opening):
                     entry.cuts = json.dumps([
                         path

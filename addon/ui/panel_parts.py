@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..operators.parts import UV_OT_koebe_parts
+from ..state.option_properties import KoebeSettings, copy_part_options
+
 CHARACTER = 7.8  # pixels of the sidebar's width for each character of a line of text, at a resolution scale of 1
 
 
@@ -32,11 +35,23 @@ class KoebePanel(PanelBase):
         return self.layout
 
 
-def draw_message(layout: bpy.types.UILayout, message: str) -> None:
-    """Lines of text, as long as the sidebar is wide."""
+def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial: bool = True) -> None:
+    """The button that cuts into parts, and over it how many there should be."""
+    if dial:
+        column.prop(settings, "evenness", slider=True)
+    button = column.column(align=True)
+    button.scale_y = 1.4 if dial else 1.0
+    copy_part_options(settings, button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
+
+
+def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int:
+    """Lines of text, as long as the sidebar is wide; with `most` not more than so many. How many there are in all."""
     context = bpy.context
     width = context.region.width / context.preferences.system.ui_scale / CHARACTER
-    lines = layout.column(align=True)
-    lines.scale_y = 0.8
-    for line in textwrap.wrap(message, max(20, int(width))):
+    wrapped = textwrap.wrap(message[:1].upper() + message[1:], max(20, int(width)))
+    if wrapped:
+        lines = layout.column(align=True)
+        lines.scale_y = 0.8
+    for line in wrapped[: most or None]:
         lines.label(text=line)
+    return len(wrapped)

@@ -8,22 +8,19 @@ from ..blender.targets import target_objects
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
-from ..operators.option_presets import UV_OT_koebe_reset
-from ..operators.parts import UV_OT_koebe_parts
-from ..operators.run_operator import draw_option
-from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import KoebeSettings, copy_options, copy_part_options, settings_of
+from ..state.option_properties import KoebeSettings, copy_options, settings_of
 from ..state.run_report import report_of
 from .circle_tool import CIRCLES_TOOL
-from .panel_parts import KoebePanel
+from .option_panels import AccuracyPanel, DiskPanel, LayerPanel, PartsPanel, ToolsPanel
+from .panel_parts import KoebePanel, draw_parts_button
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import KOEBE_UL_islands, ReportPanel
 from .shape_panel import ShapesPanel
 
 
 class MainPanel(KoebePanel):
-    """Options before the run, the run, and the checker."""
+    """The two runs, what judges a map, and Fill Holes."""
 
     bl_label = "Koebe UV"
 
@@ -31,31 +28,11 @@ class MainPanel(KoebePanel):
         KOEBE_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self.aligned_layout()
-        settings = settings_of(context)
-        column = layout.column()
-        for name in (
-            "cut", "outer", "center", "point", "balance", "importance", "tube", "upright", "symmetry", "placement",
-            "margin", "layer",
-        ):  # fmt: skip
-            draw_option(column, settings, name, context)
-        row = column.row(heading="Checker")
-        row.prop(settings, "checker", text="")
-        size = row.row()
-        size.active = settings.checker
-        size.prop(settings, "checker_size", text="")
-        if len(target_objects(context)) > 1:
-            even = layout.row()
-            even.active = settings.checker
-            even.prop(settings, "checker_even")
-        run = layout.column(align=True)
+        layout, settings = self.layout, settings_of(context)
+        run = layout.column()
         run.scale_y = 1.4
         copy_options(settings, run.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE"))
-        parts = layout.column(align=True)
-        parts.prop(settings, "evenness", text="Parts")
-        parts.prop(settings, "seams")
-        parts.prop(settings, "write_seams")
-        copy_part_options(settings, parts.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
+        draw_parts_button(layout.column(align=True), settings)
         draw_judges(layout.column(), context, settings)
         fill = layout.row(align=True)
         fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Fill Holes", icon="MESH_DATA").which = "holes"
@@ -84,25 +61,9 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
     for value, text in (("angle", "Angle"), ("area", "Area"), ("none", "Off")):
         button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
         button.kind, button.layer = value, settings.layer
-    column.operator(UV_OT_koebe_symmetrize.bl_idname, icon="MOD_MIRROR")
     if context.space_data.type == "IMAGE_EDITOR":
-        row = column.row()
-        row.prop(report_of(context), "show_circles")
-        row.operator("wm.tool_set_by_id", text="Move Circles", icon="MESH_CIRCLE").name = CIRCLES_TOOL
-
-
-class AccuracyPanel(KoebePanel):
-    """What most runs leave alone."""
-
-    bl_label = "Accuracy"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        layout = self.aligned_layout()
-        settings = settings_of(context)
-        for name in ("method", "engine", "tolerance", "max_sweeps", "polish"):
-            layout.prop(settings, name)
-        layout.operator(UV_OT_koebe_reset.bl_idname, icon="LOOP_BACK")
+        column.operator("wm.tool_set_by_id", text="Move Circles", icon="MESH_CIRCLE").name = CIRCLES_TOOL
+        column.prop(report_of(context), "show_circles")
 
 
 class View3D:
@@ -121,45 +82,38 @@ class VIEW3D_PT_koebe(View3D, MainPanel, bpy.types.Panel):
     pass
 
 
-class VIEW3D_PT_koebe_accuracy(View3D, AccuracyPanel, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_koebe"
-
-
-class VIEW3D_PT_koebe_report(View3D, ReportPanel, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_koebe"
-
-
-class VIEW3D_PT_koebe_shapes(View3D, ShapesPanel, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_koebe"
-
-
 class IMAGE_PT_koebe(UVEditor, MainPanel, bpy.types.Panel):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return context.space_data.mode == "UV"
 
 
-class IMAGE_PT_koebe_accuracy(UVEditor, AccuracyPanel, bpy.types.Panel):
-    bl_parent_id = "IMAGE_PT_koebe"
+# The parts of the panel, from top to bottom.
+CHILDREN = {
+    "report": ReportPanel,
+    "disk": DiskPanel,
+    "parts": PartsPanel,
+    "layer": LayerPanel,
+    "accuracy": AccuracyPanel,
+    "tools": ToolsPanel,
+    "shapes": ShapesPanel,
+}
 
 
-class IMAGE_PT_koebe_report(UVEditor, ReportPanel, bpy.types.Panel):
-    bl_parent_id = "IMAGE_PT_koebe"
-
-
-class IMAGE_PT_koebe_shapes(UVEditor, ShapesPanel, bpy.types.Panel):
-    bl_parent_id = "IMAGE_PT_koebe"
+def children(parent: type, editor: type) -> list[type]:
+    """A class of each part for the panel of one editor."""
+    name = parent.__name__
+    return [
+        type(f"{name}_{end}", (editor, part, bpy.types.Panel), {"bl_parent_id": name, "__doc__": part.__doc__})
+        for end, part in CHILDREN.items()
+    ]
 
 
 CLASSES = (
     KOEBE_UL_islands,
     VIEW3D_PT_koebe,
-    VIEW3D_PT_koebe_accuracy,
-    VIEW3D_PT_koebe_report,
-    VIEW3D_PT_koebe_shapes,
+    *children(VIEW3D_PT_koebe, View3D),
     IMAGE_PT_koebe,
-    IMAGE_PT_koebe_accuracy,
-    IMAGE_PT_koebe_report,
-    IMAGE_PT_koebe_shapes,
+    *children(IMAGE_PT_koebe, UVEditor),
 )
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

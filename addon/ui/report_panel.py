@@ -5,6 +5,7 @@ from typing import Any, Literal
 
 import bpy
 
+from ..maps.wording import UNEVEN
 from ..operators.select_from_report import (
     UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
@@ -14,9 +15,10 @@ from ..operators.select_from_report import (
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import copy_options, settings_of
 from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object, report_of
-from .panel_parts import KoebePanel, draw_message
+from .panel_parts import KoebePanel, draw_message, draw_parts_button
 
 MAX_LOOP_BUTTONS = 40
+MOST_LINES = 6  # of each message, until all is asked for
 # Radius of an annulus's hole, in units of its rim, below which texels differ by the inverse: better unrolled.
 LONG_TUBE = 0.2
 
@@ -65,11 +67,13 @@ class ReportPanel(KoebePanel):
             return
         which = "" if entry.parts else f", island {entry.island + 1}"
         layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
-        draw_message(layout, entry.message)
-        if entry.note:
-            draw_message(layout, entry.note.capitalize())
-        if entry.moved:
-            draw_message(layout, entry.moved.capitalize())
+        if entry.uneven:
+            draw_message(layout, UNEVEN)
+            draw_parts_button(layout.column(align=True), settings_of(context), dial=False)
+        most = 0 if report.show_all else MOST_LINES
+        counts = [draw_message(layout, text, most) for text in (entry.message, entry.note, entry.moved)]
+        if max(counts) > MOST_LINES:
+            layout.prop(report, "show_all", toggle=True)
         if entry.mapped:
             draw_unroll(layout, context, entry)
             draw_result(layout.column(), entry)
@@ -86,8 +90,8 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     ]
     of_parts = [
         ("Parts", f"{entry.parts}"),
-        ("Cuts / √Area", f"{entry.cut_length:.1f}"),
-        ("Density", f"within {entry.density:.1f}"),
+        ("Cut length", f"{entry.cut_length:.1f} × √area"),
+        ("Density", f"1 : {entry.density:.1f}, on 90 %"),
     ]
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),

@@ -68,7 +68,7 @@ void write_files(const Request& request, const MeshInput& input, PartsResult& re
     if (!request.json.empty()) {
         nlohmann::ordered_json report = to_json(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
-        report["options"] = {{"price", request.options.price}};
+        report["options"] = {{"price", request.options.price}, {"round_cuts", request.options.round_cuts}};
         files.emplace_back(request.json).write(json_text(report));
     }
     context.checkpoint();
@@ -137,6 +137,8 @@ Subcommand add_parts(CLI::App& app)
         ->check(positive_number())
         ->type_name("PRICE")
         ->capture_default_str();
+    options->add_flag("--round-cuts", request->options.round_cuts,
+                      "loops at cuts on circles and straight lines, for more angle error");
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");

@@ -3,7 +3,6 @@
 #include "core/errors.h"
 
 #if defined(_WIN32)
-#define NOMINMAX
 #include <windows.h>
 #else
 #include <sys/resource.h>

@@ -51,8 +51,8 @@ struct Work {
 
 class Opener {
 public:
-    Opener(OpenedSurface& result, bool long_slits, ExecutionContext& context)
-        : result_(result), long_slits_(long_slits), context_(context)
+    Opener(OpenedSurface& result, const OpenOptions& options, ExecutionContext& context)
+        : result_(result), options_(options), context_(context)
     {
     }
 
@@ -93,9 +93,10 @@ private:
     {
         const std::size_t loops = boundary_halfedges(work.mesh).size();
         if (genus_of(work.mesh, loops) > 0) return next_handles(work);
-        if (loops > 0 && (!work.was_closed || work.slit || !long_slits_)) return {};
+        const bool enough = !work.was_closed || work.slit || !options_.long_slit || !options_.slit_beside_handles;
+        if (loops > 0 && enough) return {};
         work.slit = true;
-        std::vector<Index> path = long_slits_ ? long_slit(work.mesh) : short_slit(work.mesh);
+        std::vector<Index> path = options_.long_slit ? long_slit(work.mesh) : short_slit(work.mesh);
         if (path.empty() && loops == 0) {  // of polygons that leave no other way
             std::ranges::fill(work.mesh.whole, char{0});
             path = short_slit(work.mesh);
@@ -127,7 +128,7 @@ private:
     }
 
     OpenedSurface& result_;
-    bool long_slits_;
+    const OpenOptions& options_;
     ExecutionContext& context_;
 };
 
@@ -183,7 +184,7 @@ OpenedSurface open_surface(const Vertices& vertices, const Triangles& triangles,
     for (auto& chain : edge_chains(std::move(seams.disagree)))
         result.cuts.push_back({CutKind::orientation, std::move(chain)});
     if (!seams.bow_ties.empty()) result.cuts.push_back({CutKind::bow_tie, std::move(seams.bow_ties)});
-    for (const SeamedMesh& part : Opener(result, options.long_slit, context).run(seams.mesh))
+    for (const SeamedMesh& part : Opener(result, options, context).run(seams.mesh))
         result.pieces.push_back(to_piece(part, vertices));
     std::ranges::stable_sort(result.cuts, {}, &SurfaceCut::kind);
     return result;

@@ -55,6 +55,8 @@ struct OpenOptions {
     /// A surface without boundary, or whose loops are those of its handles' cuts, is opened by a long slit, which keeps
     /// the areas of its map even. false: by one of two edges, and only where there is no boundary.
     bool long_slit = true;
+    /// false: the loops of handles' cuts are boundary enough: what was a torus stays a tube.
+    bool slit_beside_handles = true;
 };
 
 /// Opens, cuts and splits a mesh until every piece can be mapped. The mesh itself does not change.

@@ -88,13 +88,7 @@ std::vector<std::vector<Index>> halves(const CutSurface& closed)
         for (const Index v : closed.surface.triangles.row(f)) place[f] += from_first[v] - from_last[v];
     std::ranges::stable_sort(order, {}, [&](Index f) { return place[f]; });
 
-    PartMesh all;
-    all.faces.resize(count);
-    std::iota(all.faces.begin(), all.faces.end(), 0);
-    all.vertices = closed.vertices;
-    all.surface = closed.surface;
-    all.areas = closed.areas;
-    all.polygon = closed.polygon;
+    const PartMesh all = some_or_all(closed, std::vector<Index>(count));
     std::vector<Side> sides(count, Side::free);
     double passed = 0.0;
     const double whole = closed.areas.sum();

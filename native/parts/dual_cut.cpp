@@ -150,7 +150,7 @@ void drop_ears(const PartMesh& part, std::vector<int>& label)
 
 }  // namespace
 
-std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& given)
+std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& given, const VectorXd& factor)
 {
     std::vector<Side> sides = given;
     Groups groups(part, sides);
@@ -177,7 +177,7 @@ std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& give
         Index a = node[face_of(h)], b = node[face_of(t)];
         if (a == b || a + b == source + sink) continue;
         if (a > b) std::swap(a, b);
-        const double length = edge_length(part, h);
+        const double length = edge_length(part, h) * (factor.size() > 0 ? factor[h] : 1.0);
         if (a == source)
             to_source[b] += length;
         else if (a == sink)

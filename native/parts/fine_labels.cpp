@@ -77,6 +77,22 @@ std::vector<Index> pieces_of(const CutSurface& whole, const std::vector<int>& la
     return piece;
 }
 
+/// By edges. @param faces rising
+bool are_connected(const CutSurface& whole, const std::vector<Index>& faces)
+{
+    std::vector<char> open(static_cast<std::size_t>(whole.areas.size()), 0);
+    for (const Index f : faces) open[f] = 1;
+    std::vector<Index> queue{faces.front()};
+    open[faces.front()] = 0;
+    for (std::size_t head = 0; head < queue.size(); ++head)
+        for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h)
+            if (const Index t = whole.surface.twin[h]; t != no_twin && open[face_of(t)]) {
+                open[face_of(t)] = 0;
+                queue.push_back(face_of(t));
+            }
+    return queue.size() == faces.size();
+}
+
 /// Pieces beside the largest of their label go to the neighbour with the longest border, the smallest first.
 void join_pieces(const CutSurface& whole, std::vector<int>& label, int count)
 {
@@ -124,7 +140,8 @@ std::vector<int> fine_labels(const CutSurface& whole, const CoarseSurface& coars
         std::vector<Index> faces;
         for (std::size_t f = 0; f < fine.size(); ++f)
             if (fine[f] == pair.first || fine[f] == pair.second) faces.push_back(static_cast<Index>(f));
-        const PartMesh both = part_mesh(whole, std::move(faces));
+        if (faces.empty() || !are_connected(whole, faces)) continue;  // a border that was drawn before has parted them
+        const PartMesh both = some_or_all(whole, std::move(faces));
         std::vector<Side> sides;
         for (const Index f : both.faces)
             sides.push_back(sure[f] != fine[f] ? Side::free : fine[f] == pair.first ? Side::inside : Side::outside);

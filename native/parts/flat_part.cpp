@@ -1,18 +1,23 @@
 #include "parts/flat_part.h"
 
+#include "circles/circle_fit.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "foldover/untangle.h"
+#include "parts/free_rims.h"
 #include "parts/tube_slit.h"
 #include "pipeline/uniformize.h"
 #include "planar/boundary_crossings.h"
+#include "quality/distortion.h"
 #include "quality/stored_uv.h"
 #include "surface/harmonic_map.h"
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -40,7 +45,8 @@ double signed_area(const PlanarPoints& p, const Triangles& triangles, Eigen::Ind
     return 0.5 * (a[0] * b[1] - a[1] * b[0]);
 }
 
-/// UV area as area in the middle of the window of least overflow.
+/// UV area as area in the mean of u, what is outside the window of least overflow taken as at its ends: so parts that
+/// lie within their windows have one texel density.
 void scale_evenly(const PartMesh& mesh, FlatPart& flat)
 {
     std::vector<double> u, areas;
@@ -53,7 +59,12 @@ void scale_evenly(const PartMesh& mesh, FlatPart& flat)
     if (u.empty()) return;
     const Evenness even = evenness(Eigen::Map<VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())),
                                    Eigen::Map<VectorXd>(areas.data(), static_cast<Eigen::Index>(areas.size())));
-    flat.points *= std::exp(-even.from - 0.5 * even_range);
+    double sum = 0.0, area = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        sum += areas[i] * std::clamp(u[i], even.from, even.from + even_range);
+        area += areas[i];
+    }
+    flat.points *= std::exp(-sum / area);
 }
 
 /// Faces turned over.
@@ -76,13 +87,13 @@ Index stored_flips(const Surface& surface, const PlanarPoints& uv)
 }
 
 /// The inside of a disk again, with the boundary where the map has it: a Moebius map of the vertices alone bends faces.
-PlanarPoints harmonic_again(const Part& part)
+PlanarPoints harmonic_again(const PartMesh& mesh, const VectorXcd& positions)
 {
-    const Surface& surface = part.mesh.surface;
-    const IntrinsicMetric metric = intrinsic_metric(part.mesh.vertices, surface);
+    const Surface& surface = mesh.surface;
+    const IntrinsicMetric metric = intrinsic_metric(mesh.vertices, surface);
     std::vector<Index> boundary;
     for (const VertexLoop& loop : surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
-    const VectorXcd values = part.map.positions(boundary);
+    const VectorXcd values = positions(boundary);
     PlanarPoints points(surface.vertex_count, 2);
     try {
         const VectorXcd z = harmonic_map(metric.triangles, metric.lengths, surface.vertex_count, boundary, values);
@@ -93,22 +104,88 @@ PlanarPoints harmonic_again(const Part& part)
     return points;
 }
 
-FlatPart as_disk(const Part& part)
+/// The vertices where the map has them, or harmonic again: with the fewer faces turned over, then the less angle error.
+class DiskPoints {
+public:
+    explicit DiskPoints(const PartMesh& mesh) : mesh_(mesh) {}
+    void consider(const VectorXcd& positions)
+    {
+        PlanarPoints as_mapped(positions.size(), 2);
+        as_mapped << positions.real(), positions.imag();
+        take(as_mapped);
+        take(harmonic_again(mesh_, positions));
+    }
+    bool any_turned() const { return turned_ > 0; }
+    const PlanarPoints& best() const { return best_; }
+
+private:
+    void take(const PlanarPoints& points)
+    {
+        if (!points.allFinite()) return;
+        const Index turned = flaws(mesh_.surface, points);
+        const double error = measure_distortion(mesh_.vertices, mesh_.surface.triangles, points).angle_error_deg.mean;
+        if (best_.rows() > 0 && std::pair(turned, error) >= std::pair(turned_, error_)) return;
+        best_ = points;
+        turned_ = turned;
+        error_ = error;
+    }
+
+    const PartMesh& mesh_;
+    PlanarPoints best_;
+    Index turned_ = 0;
+    double error_ = 0.0;
+};
+
+/// Which vertices the part's loops have become; its angles made better, and rims at cuts let off their circles and
+/// lines.
+/// @param own vertex of the part, for each of the flat part
+void settle(const PartMesh& mesh, const std::vector<Index>& own, const FlatOptions& options, FlatPart& flat,
+            ExecutionContext& context)
 {
-    FlatPart flat{
-        part.mesh.faces, part.mesh.original, part.mesh.vertices, part.mesh.surface, {}, PartKind::disk, {}, 0.0};
-    flat.points.resize(part.map.positions.size(), 2);
-    flat.points << part.map.positions.real(), part.map.positions.imag();
-    if (const PlanarPoints points = harmonic_again(part);
-        flaws(flat.surface, points) <= flaws(flat.surface, flat.points))
-        flat.points = points;
+    std::vector<int> loop_of(mesh.original.size(), -1);
+    for (std::size_t k = 0; k < mesh.surface.loops.size(); ++k)
+        for (const Index v : mesh.surface.loops[k]) loop_of[v] = static_cast<int>(k);
+    flat.rims.assign(mesh.surface.loops.size(), {});
+    RimFreedom freedom{std::vector<Index>(own.size()), std::vector<char>(own.size(), 0)};
+    std::vector<Index> first(mesh.original.size(), -1);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const Index v = own[i];
+        if (first[v] < 0) first[v] = static_cast<Index>(i);
+        freedom.same[i] = first[v];
+        if (loop_of[v] < 0) continue;
+        flat.rims[loop_of[v]].push_back(static_cast<Index>(i));
+        freedom.held[i] = options.round_cuts || mesh.border[v];
+    }
+    free_rims(flat.vertices, flat.surface, freedom, flat.points, context);
+}
+
+FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext& context)
+{
+    FlatPart flat;
+    flat.faces = part.mesh.faces;
+    flat.original = part.mesh.original;
+    flat.vertices = part.mesh.vertices;
+    flat.surface = part.mesh.surface;
+    DiskPoints points(part.mesh);
+    points.consider(part.map.positions);
+    if (points.any_turned()) try {  // the map was made to be judged
+            points.consider(map_part(part.mesh, context, true).positions);
+        } catch (const SolverError&) {
+        }
+    flat.points = points.best();
+    if (flat.points.rows() == 0) throw SolverError("the map of a part is not finite");
+    std::vector<Index> own(flat.original.size());
+    std::iota(own.begin(), own.end(), 0);
+    settle(part.mesh, own, options, flat, context);
     return flat;
 }
 
 /// Opened along its slit. @return no points if that cannot be
-FlatPart as_tube(const Part& part)
+FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext& context)
 {
-    FlatPart flat{part.mesh.faces, {}, {}, {}, {}, PartKind::tube, {}, 0.0};
+    FlatPart flat;
+    flat.faces = part.mesh.faces;
+    flat.kind = PartKind::tube;
     const TubeSlit slit = tube_slit(part);
     if (slit.lift.empty()) return flat;
     flat.slit = slit.length;
@@ -130,7 +207,10 @@ FlatPart as_tube(const Part& part)
     for (const Index v : own) flat.original.push_back(part.mesh.original[v]);
     try {
         flat.surface = require_bordered_genus_zero(opened, static_cast<Index>(own.size()));
-        if (flat.surface.loops.size() != 1) flat.points.resize(0, 2);
+        if (flat.surface.loops.size() == 1)
+            settle(part.mesh, own, options, flat, context);
+        else
+            flat.points.resize(0, 2);
     } catch (const TopologyError&) {  // the slit pinches the opened tube
         flat.points.resize(0, 2);
     }
@@ -139,20 +219,39 @@ FlatPart as_tube(const Part& part)
 
 }  // namespace
 
-FlatPart flat_part(const Part& part)
+FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context)
 {
     FlatPart flat;
-    if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part);
-    if (flat.points.rows() == 0) {
-        flat = as_disk(part);
+    if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part, options, context);
+    const bool pays = part.map.tube_overflow + options.slit_price * flat.slit <= part.map.disk_overflow;
+    if (flat.points.rows() == 0 || !pays) {
+        flat = as_disk(part, options, context);
     } else if (const Index flips = flaws(flat.surface, flat.points); flips > 0) {
-        FlatPart disk = as_disk(part);
+        FlatPart disk = as_disk(part, options, context);
         if (flaws(disk.surface, disk.points) < flips && part.map.circles[1 - part.map.outer].radius > 1e-3)
             flat = std::move(disk);
     }
     flat.loops = original_loops(part.mesh);
     scale_evenly(part.mesh, flat);
     return flat;
+}
+
+std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
+{
+    std::vector<double> off;
+    for (const std::vector<Index>& rim : part.rims) {
+        const PlanarPoints at = uv(rim, Eigen::all);
+        const Eigen::RowVector2d extent = at.colwise().maxCoeff() - at.colwise().minCoeff();
+        if (part.kind == PartKind::tube) {
+            off.push_back(std::numbers::pi * extent.minCoeff() / std::max(extent.maxCoeff(), 1e-300));
+            continue;
+        }
+        const VectorXcd points = at.col(0) + Complex(0.0, 1.0) * at.col(1);
+        const Circle circle = fit_circle_least_squares(points);
+        off.push_back(((points.array() - circle.center).abs() - circle.radius).abs().maxCoeff() /
+                      std::max(circle.radius, 1e-300));
+    }
+    return off;
 }
 
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)

@@ -14,15 +14,26 @@ struct FlatPart {
     std::vector<Index> original;  ///< vertex of the whole, for each vertex
     Vertices vertices;            ///< (V, 3) with area 1 for the whole surface
     Surface surface;              ///< opened
-    PlanarPoints points;          ///< (V, 2) with UV area as area in the middle of the even window
+    PlanarPoints points;          ///< (V, 2) with UV area as area in the mean, of the even window alone
     PartKind kind = PartKind::disk;
-    std::vector<VertexLoop> loops;  ///< of the part before it is opened, by vertices of the whole
-    double slit = 0.0;              ///< length
-    bool one_to_one = true;         ///< false: its boundary crosses itself
+    std::vector<VertexLoop> loops;         ///< of the part before it is opened, by vertices of the whole
+    std::vector<std::vector<Index>> rims;  ///< vertices that those loops have become
+    double slit = 0.0;                     ///< length
+    bool one_to_one = true;                ///< false: its boundary crosses itself
 };
 
-/// The kind is that of the map; a tube that cannot be opened, or has more faces turned over, becomes a disk.
-FlatPart flat_part(const Part& part);
+struct FlatOptions {
+    double slit_price = 0.0;  ///< of a slit as long as the root of the area, in overflow
+    bool round_cuts = false;  ///< rims at cuts stay on circles and lines
+};
+
+/// The kind is that of the map; a tube that cannot be opened, or has more faces turned over, or whose slit costs more
+/// than the disk's overflow, becomes a disk. Then free_rims.
+FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
+
+/// Of each loop, how far it is from the circle of a disk or the end of a tube's rectangle at most: over the circle's
+/// radius, or the end's length over a turn. @param uv (V, 2)
+std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv);
 
 /// Whether no boundary loop crosses itself or another and one alone runs counter-clockwise, no hole being turned over,
 /// as 32-bit floats: then a part without flips is one to one.

@@ -3,20 +3,26 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/side_by_side.h"
+#include "cut/edge_runs.h"
 #include "cut/open_surface.h"
 #include "parts/closed_surface.h"
 #include "parts/coarse_surface.h"
 #include "parts/fine_labels.h"
 #include "parts/flat_part.h"
+#include "parts/hidden_cuts.h"
 #include "parts/mirror_symmetry.h"
 #include "parts/packing.h"
 #include "parts/splitting.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
+#include <unordered_set>
 #include <utility>
 
 namespace koebe {
@@ -106,15 +112,24 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
     return parts;
 }
 
-/// Where the parts of a large surface are decided on a coarse one. @return none if that has no parts
+/// Where the parts of a large surface are decided on a coarse one. @return none if it is closed and stays whole
 std::vector<PartPointer> parts_by_coarse_surface(const CutSurface& whole, const SplitOptions& options,
                                                  ExecutionContext& context, SplitEffort& effort)
 {
     const CoarseSurface coarse = coarse_surface(whole, coarse_faces, context);
-    const CutSurface surface = cut_surface(coarse.vertices, coarse.triangles, {});
+    const bool is_closed = whole.surface.loops.empty();
+    const CutSurface surface =
+        cut_surface(coarse.vertices, analyze_surface(coarse.triangles, static_cast<Index>(coarse.vertices.rows())), {});
     std::vector<int> label(coarse.face.size(), 0);
     int count = 0;
-    for (const PartPointer& part : even_parts(surface, {}, options, context, effort)) {
+    std::vector<std::vector<Index>> first;
+    if (is_closed) {
+        first = halves(surface);
+        if (first.empty()) return {};
+    }
+    std::vector<PartPointer> coarse_parts = even_parts(surface, std::move(first), options, context, effort);
+
+    for (const PartPointer& part : coarse_parts) {
         for (const Index f : part->mesh.faces) label[f] = count;
         ++count;
     }
@@ -122,6 +137,7 @@ std::vector<PartPointer> parts_by_coarse_surface(const CutSurface& whole, const 
     const std::vector<int> fine = fine_labels(whole, coarse, label, count, context);
     for (std::size_t f = 0; f < fine.size(); ++f) faces[fine[f]].push_back(static_cast<Index>(f));
     std::erase_if(faces, [](const auto& own) { return own.empty(); });
+    if (is_closed && faces.size() < 2) return {};
     std::vector<PartPointer> parts;
     for (auto& own : faces) parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, {}}));
     return parts;
@@ -167,7 +183,8 @@ void note_slit(const PartMesh& part, const FlatPart& flat, std::vector<char>& op
 /// The parts, flat, side by side; of a mirror image one after the other, as each slit follows those before it.
 /// @param parts let go of, one by one
 std::vector<FlatPart> flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
-                                 int threads, ExecutionContext& context, SplitEffort& effort)
+                                 const FlatOptions& options, int threads, ExecutionContext& context,
+                                 SplitEffort& effort)
 {
     std::vector<FlatPart> flats(parts.size());
     std::vector<SplitEffort> efforts(parts.size());
@@ -179,7 +196,7 @@ std::vector<FlatPart> flat_parts(const CutSurface& whole, const Mirror& mirror, 
         const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
         if (in_turn && part.map.kind == PartKind::tube && !chosen)
             prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
-        flats[k] = flat_part(part);
+        flats[k] = flat_part(part, {chosen ? 0.0 : options.slit_price, options.round_cuts}, own);
         if (in_turn) note_slit(part.mesh, flats[k], opened);
         parts[k].reset();
     });
@@ -187,29 +204,88 @@ std::vector<FlatPart> flat_parts(const CutSurface& whole, const Mirror& mirror, 
     return flats;
 }
 
+/// Of each piece, its boundary edges that are cuts, as another boundary edge lies in the same place: by vertices of the
+/// input that stand for all of one place.
+class Seams {
+public:
+    Seams(const OpenedSurface& opened, const Vertices& vertices) : place_(static_cast<std::size_t>(vertices.rows()))
+    {
+        std::vector<Index> order(place_.size());
+        std::iota(order.begin(), order.end(), 0);
+        const auto key = [&](Index v) { return std::array{vertices(v, 0), vertices(v, 1), vertices(v, 2)}; };
+        std::ranges::sort(order, {}, key);
+        for (std::size_t i = 0; i < order.size(); ++i)
+            place_[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place_[order[i - 1]] : order[i];
+        Triangles places(0, 3);
+        Eigen::Index count = 0;
+        for (const SurfacePiece& piece : opened.pieces) count += piece.triangles.rows();
+        places.resize(count, 3);
+        count = 0;
+        for (const SurfacePiece& piece : opened.pieces)
+            for (Eigen::Index f = 0; f < piece.triangles.rows(); ++f, ++count)
+                for (int k = 0; k < 3; ++k) places(count, k) = place_[piece.source_vertex[piece.triangles(f, k)]];
+        for_each_edge(places, static_cast<Index>(place_.size()), [&](std::span<const Index> halfedges) {
+            if (halfedges.size() == 1) border_.insert(ends(origin(places, halfedges[0]), target(places, halfedges[0])));
+        });
+    }
+    /// (3F) of a piece.
+    std::vector<char> of(const SurfacePiece& piece) const
+    {
+        std::vector<char> seam(static_cast<std::size_t>(piece.triangles.size()), 0);
+        const auto place = [&](Index v) { return place_[piece.source_vertex[v]]; };
+        for (Index h = 0; h < static_cast<Index>(seam.size()); ++h)
+            seam[h] = !border_.contains(ends(place(origin(piece.triangles, h)), place(target(piece.triangles, h))));
+        return seam;
+    }
+
+private:
+    static std::uint64_t ends(Index a, Index b)
+    {
+        return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
+    }
+
+    std::vector<Index> place_;  // (V) the first vertex in the same place
+    std::unordered_set<std::uint64_t> border_;
+};
+
 /// The parts of a piece, flat.
-FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const PartsOptions& options, int threads,
-                     ExecutionContext& context)
+FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const Seams& seams,
+                     const PartsOptions& options, int threads, ExecutionContext& context)
 {
     std::vector<Index> polygon;
     if (!options.polygon.empty())
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
     const bool is_large = piece.triangles.rows() > large;
     const Vertices own = vertices(piece.source_vertex, Eigen::all);
-    std::optional<CutSurface> closed = is_large ? std::nullopt : closed_surface(piece, own, polygon);
+    std::optional<CutSurface> closed = closed_surface(piece, own, polygon);
     std::vector<std::vector<Index>> first;
-    if (closed) first = halves(*closed);
-    CutSurface whole =
-        first.empty() ? cut_surface(own, piece.triangles, std::move(polygon)) : *std::exchange(closed, std::nullopt);
+    if (closed && !is_large) first = halves(*closed);
+    const bool stays_closed = closed && (is_large || !first.empty());
+    const auto opened = [&] { return cut_surface(own, piece.triangles, polygon); };
+    CutSurface whole = stays_closed ? *std::exchange(closed, std::nullopt) : opened();
     whole.slit = chosen_slits(piece, options.slits);
+    whole.seam = seams.of(piece);
     SplitEffort effort;
     const SplitOptions prices{options.price, cut_share * options.price, threads};
     std::vector<PartPointer> parts = is_large ? parts_by_coarse_surface(whole, prices, context, effort)
                                               : even_parts(whole, std::move(first), prices, context, effort);
+    if (parts.empty()) {  // no curve cuts it in two
+        std::vector<char> slit = std::move(whole.slit), seam = std::move(whole.seam);
+        whole = opened();
+        whole.slit = std::move(slit);
+        whole.seam = std::move(seam);
+        parts = parts_by_coarse_surface(whole, prices, context, effort);
+    }
     const Mirror mirror = is_large ? Mirror{} : find_mirror(whole);
-    make_symmetric(whole, prices, mirror, parts, context, effort);
+    const bool is_symmetric = make_symmetric(whole, prices, mirror, parts, context, effort);
+    if (!is_large) {
+        const std::vector<PartPointer> before = parts;
+        hide_cuts(whole, prices, parts, context, effort);
+        if (is_symmetric && !make_symmetric(whole, prices, mirror, parts, context, effort)) parts = before;
+    }
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
-    FlatPiece flat{flat_parts(whole, mirror, parts, threads, context, effort), 0.0};
+    FlatPiece flat{flat_parts(whole, mirror, parts, {prices.cut_price, options.round_cuts}, threads, context, effort),
+                   0.0};
     flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
     for (FlatPart& part : flat.parts) {
         for (Index& f : part.faces) f = piece.source_face[f];
@@ -230,6 +306,7 @@ std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& 
     for (std::size_t i = 0; i < opened.pieces.size(); ++i)
         (8 * opened.pieces[i].triangles.rows() > total ? big : small).push_back(i);
     std::vector<FlatPiece> flats(opened.pieces.size());
+    const Seams seams(opened, vertices);
     double done = 0.0;
     const auto stage = [&](double faces) {
         const double from = done;
@@ -238,11 +315,11 @@ std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& 
     };
     for (const std::size_t i : big) {
         stage(static_cast<double>(opened.pieces[i].triangles.rows()));
-        flats[i] = flat_piece(opened.pieces[i], vertices, options, options.threads, context);
+        flats[i] = flat_piece(opened.pieces[i], vertices, seams, options, options.threads, context);
     }
     stage(static_cast<double>(total));
     side_by_side(small.size(), options.threads, context, [&](std::size_t k, ExecutionContext& own) {
-        flats[small[k]] = flat_piece(opened.pieces[small[k]], vertices, options, 1, own);
+        flats[small[k]] = flat_piece(opened.pieces[small[k]], vertices, seams, options, 1, own);
     });
     return flats;
 }
@@ -276,8 +353,9 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
                          ExecutionContext& context)
 {
     context.begin_stage("topology", 0.0, 0.05);
-    const OpenedSurface opened = options.cut ? open_surface(vertices, triangles, {.polygon = options.polygon}, context)
-                                             : strict_surface(vertices, triangles);
+    const OpenOptions opening{.polygon = options.polygon, .slit_beside_handles = false};
+    const OpenedSurface opened =
+        options.cut ? open_surface(vertices, triangles, opening, context) : strict_surface(vertices, triangles);
     PartsLayout layout;
     layout.vertices = of_area_one(vertices, triangles);
     layout.triangles = triangles;
@@ -307,7 +385,8 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
             }
             if (!is_turn_of(layout.triangles, triangles, f)) layout.reoriented.push_back(f);
         }
-        layout.parts.push_back({flat.kind, std::move(flat.faces), std::move(flat.loops), 0.0});
+        layout.parts.push_back(
+            {flat.kind, std::move(flat.faces), std::move(flat.loops), off_round(flat, placed[k]), 0.0});
     }
     std::ranges::sort(layout.reoriented);
     std::ranges::sort(layout.crossing);

@@ -199,10 +199,11 @@ Mirror find_mirror(const CutSurface& whole)
     return mirror;
 }
 
-void make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
+bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
                     std::vector<PartPointer>& parts, ExecutionContext& context, SplitEffort& effort)
 {
-    if (mirror.image.empty() || parts.size() < 2) return;
+    if (mirror.image.empty()) return false;
+    if (parts.size() < 2) return true;
     std::map<std::vector<Index>, PartPointer> known;
     for (const PartPointer& part : parts) known.emplace(part->mesh.faces, part);
     double best = worth * cost_of(whole, options, parts);
@@ -224,7 +225,9 @@ void make_symmetric(const CutSurface& whole, const SplitOptions& options, const 
         best = cost;
         chosen = std::move(mirrored);
     }
-    if (!chosen.empty()) parts = std::move(chosen);
+    if (chosen.empty()) return false;
+    parts = std::move(chosen);
+    return true;
 }
 
 std::vector<char> mirrored_slits(const CutSurface& whole, const Mirror& mirror, const std::vector<char>& opened)

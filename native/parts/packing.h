@@ -15,8 +15,8 @@ struct PackedBoxes {
     double side = 1.0;                           ///< of the square that holds them, margins included
 };
 
-/// Puts boxes into as small a square as it finds: the highest first, each where its top comes lowest on the skyline,
-/// for a row of widths. @param margin between boxes and round them, as a share of the square's side
+/// Puts boxes into as small a square as it finds: for a row of widths, the highest first, each where it comes lowest on
+/// the skyline (stb_rect_pack). @param margin between boxes and round them, as a share of the square's side
 PackedBoxes pack_boxes(const std::vector<Box>& boxes, double margin);
 
 }  // namespace koebe

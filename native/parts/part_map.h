@@ -30,13 +30,15 @@ struct PartMap {
     PartKind kind = PartKind::disk;  ///< the most even of what it can be
     double overflow = 0.0;           ///< of that kind, in area times u
     double from = 0.0;               ///< the lower end of its window
+    double disk_overflow = 0.0;      ///< of the disk
     double tube_overflow = -1.0;     ///< of the tube, of two loops
     double off_round = 0.0;          ///< of a restricted map: the largest deviation of a loop from its circle, in radii
 };
 
 /// Maps a part: two loops by the annulus map, others by uniformize; then the best pole (as_even_as_can_be).
+/// @param repair false: faces of a disk may be turned over, which does not matter where it is only judged
 /// @throws SolverError, Cancelled
-PartMap map_part(const PartMesh& part, ExecutionContext& context);
+PartMap map_part(const PartMesh& part, ExecutionContext& context, bool repair = false);
 
 /// What the map of a larger part says of the map of a smaller one: circles stay circles, so up to a Moebius map it is
 /// the same. @param whole, map the larger part and its map @param part some of its faces

@@ -93,8 +93,31 @@ PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
     if (!whole.slit.empty())
         for (const Index f : faces)
             for (Index h = 3 * f; h < 3 * f + 3; ++h) part.slit.push_back(whole.slit[h]);
+    part.border.assign(part.original.size(), 0);
+    for (Index h = 0; h < static_cast<Index>(own.size()); ++h) {
+        const Index of_whole = 3 * faces[h / 3] + h % 3;
+        if (whole.surface.twin[of_whole] != no_twin || (!whole.seam.empty() && whole.seam[of_whole])) continue;
+        part.border[origin(own, h)] = part.border[target(own, h)] = 1;
+    }
     part.faces = std::move(faces);
     return part;
+}
+
+PartMesh some_or_all(const CutSurface& whole, std::vector<Index> faces)
+{
+    const bool is_closed = faces.size() == static_cast<std::size_t>(whole.areas.size()) && whole.surface.loops.empty();
+    if (!is_closed) return part_mesh(whole, std::move(faces));
+    PartMesh all;
+    all.faces = std::move(faces);
+    std::iota(all.faces.begin(), all.faces.end(), 0);
+    all.original.resize(static_cast<std::size_t>(whole.vertices.rows()));
+    std::iota(all.original.begin(), all.original.end(), 0);
+    all.vertices = whole.vertices;
+    all.surface = whole.surface;
+    all.areas = whole.areas;
+    all.polygon = whole.polygon;
+    all.area = all.areas.sum();
+    return all;
 }
 
 std::vector<Index> connected_pieces(const PartMesh& part, const std::vector<int>& label, Index& count)

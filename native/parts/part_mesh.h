@@ -17,6 +17,7 @@ struct CutSurface {
     VectorXd lengths;            ///< (3F) of each half-edge
     std::vector<Index> polygon;  ///< (F) faces of one number are not cut apart; empty: each is one by itself
     std::vector<char> slit;      ///< (3F) 1 where tubes are to be opened; empty: nowhere in particular
+    std::vector<char> seam;      ///< (3F) 1 on a boundary that is a cut; empty: on none
 };
 
 /// (F) areas of faces. @param vertices of a size that its square does not overflow
@@ -36,11 +37,15 @@ struct PartMesh {
     VectorXd areas;              ///< (F) in the unit of the whole
     std::vector<Index> polygon;  ///< (F) as of the whole
     std::vector<char> slit;      ///< (3F) as of the whole
+    std::vector<char> border;    ///< (V) 1 on the boundary of the input itself, which is no cut
     double area = 0.0;
 };
 
 /// @param faces connected by edges @throws TopologyError as require_bordered_genus_zero: a closed surface
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces);
+
+/// The same of all faces of a closed surface too, which is no part.
+PartMesh some_or_all(const CutSurface& whole, std::vector<Index> faces);
 
 /// The pieces of a labelled part that are connected by edges. @param label (F) of the part's faces
 /// @return the piece of each face, from 0

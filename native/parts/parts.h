@@ -22,6 +22,9 @@ struct PartsOptions {
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
     /// Edges, by their vertices, along which a tube is opened where they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
+    /// Rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges, which
+    /// costs no angles. The surface's own loops lie on circles and straight ends either way.
+    bool round_cuts = false;
     int threads = 0;  ///< at most; 0: as many as the machine has. The result is the same for any number
 };
 
@@ -29,7 +32,10 @@ struct PartReport {
     PartKind kind = PartKind::disk;
     std::vector<Index> faces;       ///< rising
     std::vector<VertexLoop> loops;  ///< before a tube is opened; by vertices of the input
-    double angle_error_deg = 0.0;   ///< mean
+    /// Of each loop: how far it is from the circle of a disk, or the end of a tube's rectangle, at most; over the
+    /// circle's radius, or the end's length over a turn.
+    std::vector<double> off_round;
+    double angle_error_deg = 0.0;  ///< mean
 };
 
 struct PartsResult {

@@ -14,7 +14,7 @@ namespace koebe {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-constexpr double price_of_turning = 2.0;  // of the angle that a slit's edge spans, against its length on the strip
+constexpr double price_of_turning = 2.0;  // of an edge across the strip, against one along it
 constexpr double chosen_share = 1e-4;     // of an edge's cost where the caller wants the slit
 
 /// The difference of two angles in (-pi, pi].
@@ -30,7 +30,7 @@ bool within_polygon(const PartMesh& mesh, Index h, Index twin)
 }
 
 /// 1 for the half-edges on the slit, both sides; empty if the loops are not connected.
-std::vector<char> slit_edges(const Part& part, double& length)
+std::vector<char> slit_edges(const Part& part, double& slit_length)
 {
     const Surface& surface = part.mesh.surface;
     const Triangles& triangles = surface.triangles;
@@ -59,8 +59,11 @@ std::vector<char> slit_edges(const Part& part, double& length)
             const Index w = target(triangles, h);
             const Complex a = part.map.strip[v], b = part.map.strip[w];
             const double share = !part.mesh.slit.empty() && part.mesh.slit[h] ? chosen_share : 1.0;
-            const double cost =
-                d + share * (std::abs(b.real() - a.real()) + price_of_turning * std::abs(turn(a.imag(), b.imag())));
+            const double along = std::abs(b.real() - a.real()), across = std::abs(turn(a.imag(), b.imag()));
+            const double length = length_of(part.mesh.vertices.row(w) - part.mesh.vertices.row(v));
+            const double whole = std::hypot(along, across);
+            const double crooked = whole > 0.0 ? (along + price_of_turning * across) / whole : 1.0;
+            const double cost = d + share * crooked * length;
             if (cost >= distance[w]) continue;
             distance[w] = cost;
             arrived[w] = h;
@@ -71,7 +74,7 @@ std::vector<char> slit_edges(const Part& part, double& length)
     std::vector<char> slit(triangles.size(), 0);
     for (Index v = end; arrived[v] != no_twin; v = origin(triangles, arrived[v])) {
         slit[arrived[v]] = slit[surface.twin[arrived[v]]] = 1;
-        length += length_of(part.mesh.vertices.row(v) - part.mesh.vertices.row(origin(triangles, arrived[v])));
+        slit_length += length_of(part.mesh.vertices.row(v) - part.mesh.vertices.row(origin(triangles, arrived[v])));
     }
     return slit;
 }

@@ -13,8 +13,9 @@ struct TubeSlit {
     double length = 0.0;  ///< on the surface
 };
 
-/// The slit from one loop to the other that is short and runs straight along the strip (Dijkstra): its sides are two
-/// translates of one line, so the opened tube is one to one where the tube is.
+/// The slit from one loop to the other that is short on the surface and runs straight along the strip (Dijkstra), where
+/// a tube is bent on the inside: its sides are two translates of one line, so the opened tube is one to one where the
+/// tube is.
 /// @param part with two loops and a measured strip
 TubeSlit tube_slit(const Part& part);
 

@@ -25,6 +25,7 @@ struct UniformizeOptions : IterationOptions {
     /// large in length, so that it gets more texels; empty: all alike. Equal ones change nothing.
     std::vector<double> importance = {};
     bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    bool repair = true;  ///< false: as the iteration leaves it, faces may be turned over; for maps that are only judged
     /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. One surface takes one, small pieces of a cut mesh go side by side; the

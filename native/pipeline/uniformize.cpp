@@ -224,9 +224,9 @@ UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& tria
         map = hang_back(whole, problem.cut, std::move(*map), context);
         put_in_place(whole, *map);
         context.advance(0.2);
-        untangled = remove_flips(whole, *map, context);
+        if (options.repair) untangled = remove_flips(whole, *map, context);
         context.advance(0.5);
-        faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
+        if (options.repair) faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
     }
     const bool no_circles = !map;
     bool out_of_place = false;

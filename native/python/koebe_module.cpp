@@ -230,15 +230,16 @@ PYBIND11_MODULE(_koebe, m)
         .def_property_readonly("flipped_faces", [](const PartsResult& r) { return r.flipped; })
         .def("report", [](const PartsResult& r) { return to_object(to_json(r)); });
     m.attr("default_price") = PartsOptions{}.price;
-    m.def("parts",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles, double price,
-             bool cut, const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& slits,
-             const py::object& progress, const CancelToken& cancel) {
-              return without_gil(progress, cancel, [&](ExecutionContext& context) {
-                  return parts_of(vertices, triangles, {.price = price, .cut = cut, .polygon = polygon, .slits = slits},
-                                  context);
-              });
-          });
+    m.def("parts", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                      double price, bool cut, const std::vector<Index>& polygon,
+                      const std::vector<std::array<Index, 2>>& slits, bool round_cuts, const py::object& progress,
+                      const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return parts_of(vertices, triangles,
+                            {.price = price, .cut = cut, .polygon = polygon, .slits = slits, .round_cuts = round_cuts},
+                            context);
+        });
+    });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
         return detached(
             [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; },

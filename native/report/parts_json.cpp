@@ -12,7 +12,8 @@ nlohmann::ordered_json to_json(const PartsResult& result)
         parts.push_back({{"kind", to_string(part.kind)},
                          {"faces", part.faces},
                          {"angle_error_deg", part.angle_error_deg},
-                         {"loops", part.loops}});
+                         {"loops", part.loops},
+                         {"off_round", part.off_round}});
     return {{"version", KOEBE_VERSION},
             {"input", ""},
             {"parts", std::move(parts)},

@@ -26,8 +26,12 @@ double mollify(EdgeLengths& lengths, double margin)
 /// The state of Lawson's algorithm: half-edge 3 f + k is edge k of face f.
 class DelaunayFlipper {
 public:
-    DelaunayFlipper(IntrinsicMetric& metric, const Surface& surface)
-        : triangles_(metric.triangles), lengths_(metric.lengths), twin_(metric.twin), loop_of_(surface.vertex_count, -1)
+    DelaunayFlipper(IntrinsicMetric& metric, const Surface& surface, std::vector<VectorXd>* carried)
+        : triangles_(metric.triangles),
+          lengths_(metric.lengths),
+          twin_(metric.twin),
+          carried_(carried),
+          loop_of_(surface.vertex_count, -1)
     {
         for (std::size_t k = 0; k < surface.loops.size(); ++k)
             for (const Index v : surface.loops[k]) loop_of_[v] = static_cast<Index>(k);
@@ -48,6 +52,7 @@ public:
             stack.pop_back();
             if (twin_[h] == no_twin || excess(h) <= tolerance || !may_flip(h)) continue;
             const Index f = face_of(h), g = face_of(twin_[h]);
+            carry(h);
             flip_edge(triangles_, lengths_, twin_, h, opposite_diagonal(h, twin_[h]));
             ++flips;
             for (const Index face : {f, g})
@@ -61,6 +66,19 @@ private:
     static constexpr double tolerance = 1e-9;  // on the sum of cotangents, dimensionless
 
     double length(Index h) const { return lengths_.data()[h]; }
+
+    /// The forms' values where flip_edge is about to put their edges: d-c, c-a, a-d and c-d, d-b, b-c.
+    void carry(Index h)
+    {
+        if (carried_ == nullptr) return;
+        const Index t = twin_[h], f = 3 * face_of(h), g = 3 * face_of(t);
+        for (VectorXd& form : *carried_) {
+            const double bc = form[next_halfedge(h)], ca = form[previous_halfedge(h)];
+            const double ad = form[next_halfedge(t)], db = form[previous_halfedge(t)];
+            form.segment<3>(f) << db + bc, ca, ad;
+            form.segment<3>(g) << -(db + bc), db, bc;
+        }
+    }
 
     double cotangent(Index h) const
     {
@@ -95,20 +113,21 @@ private:
     Triangles& triangles_;
     EdgeLengths& lengths_;
     std::vector<Index>& twin_;
+    std::vector<VectorXd>* carried_;
     std::vector<Index> loop_of_;
 };
 
 }  // namespace
 
 IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
-                                 const IntrinsicMetricOptions& options)
+                                 const IntrinsicMetricOptions& options, std::vector<VectorXd>* carried)
 {
     IntrinsicMetric metric;
     metric.triangles = surface.triangles;
     metric.lengths = edge_lengths(vertices, surface.triangles);
     metric.twin = surface.twin;
     if (options.mollify) metric.mollification = mollify(metric.lengths, options.margin);
-    if (options.delaunay) metric.flips = DelaunayFlipper(metric, surface).run();
+    if (options.delaunay) metric.flips = DelaunayFlipper(metric, surface, carried).run();
     return metric;
 }
 

@@ -27,7 +27,9 @@ struct IntrinsicMetric {
 /// Crane 2020, section 4.5). Flips make opposite angles of every edge sum to at most pi (Fisher et al. 2006;
 /// Bobenko and Springborn 2007), but for those whose new edge would join two vertices of one boundary loop: it would
 /// take the flux from the vertices between (docs/numerics.md, "The metric").
+/// @param carried closed 1-forms, one number per half-edge of the surface (one_form.h): those of the result's
+/// half-edges
 IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
-                                 const IntrinsicMetricOptions& options = {});
+                                 const IntrinsicMetricOptions& options = {}, std::vector<VectorXd>* carried = nullptr);
 
 }  // namespace koebe

@@ -8,7 +8,9 @@ import scenes
 import states
 from runs import operator
 from touched import Touched
+from wild import wild
 
+NOT_UNDONE = ("file: report", "file: shapes")
 LAYERS = ("Koebe", "Koebe", "Koebe", "Koebe", "First", "Other", "uv_seam", "Own 0")
 ERRORS = (KeyboardInterrupt, ValueError, MemoryError, RuntimeError)
 
@@ -49,11 +51,17 @@ MAKERS = (
 )  # fmt: skip
 
 
+def of_the_window(name):
+    """Whether that belongs to the window, which no undo changes: reports, and what the screens show."""
+    return name in NOT_UNDONE or name.startswith("file: ") and name.endswith((" shading", " custom", " select mode"))
+
+
 class RandomRun:
     """One sequence: a file, then calls with acts between them. `wrong` says what changed that must not."""
 
-    def __init__(self, folder, seed):
-        self._folder, self._random = folder, np.random.default_rng(seed)
+    def __init__(self, folder, scratch, seed):
+        """@param folder the add-on's, @param scratch a Path for files"""
+        self._folder, self._scratch, self._random = folder, scratch, np.random.default_rng(seed)
         self.wrong, self.calls, self.finished, self.faults = [], 0, 0, 0
 
     def go(self, calls):
@@ -61,6 +69,10 @@ class RandomRun:
         states.new_file()
         for maker in self._random.permutation(len(MAKERS))[: self._random.integers(2, 6)]:
             MAKERS[maker]()
+        for number in range(self._random.integers(0, 4)):
+            wild(self._random, f"Wild {number}")
+        if self._random.random() < 0.3:
+            self._link()
         states.consistent(self._meshes())
         scenes.select(*self._some(self._meshes()))
         for _ in range(calls):
@@ -79,6 +91,20 @@ class RandomRun:
         items = list(items)
         chosen = self._random.permutation(len(items))[: self._random.integers(1, len(items) + 1)]
         return [items[index] for index in chosen]
+
+    def _link(self):
+        """An object of another file, and one with a mesh of that file, which cannot be written."""
+        path = str(self._scratch / "library.blend")
+        lent = wild(self._random, "Lent")
+        bpy.data.libraries.write(path, {lent}, fake_user=True)
+        bpy.data.objects.remove(lent)
+        for mesh in [mesh for mesh in bpy.data.meshes if not mesh.users]:
+            bpy.data.meshes.remove(mesh)
+        with bpy.data.libraries.load(path, link=True) as (_, here):
+            here.objects = ["Lent"]
+        linked = here.objects[0]
+        bpy.context.collection.objects.link(linked)
+        bpy.context.collection.objects.link(bpy.data.objects.new("Borrower", linked.data))
 
     def _meshes(self):
         bpy.context.view_layer.update()
@@ -101,7 +127,9 @@ class RandomRun:
 
     def _mode(self):
         active = bpy.context.view_layer.objects.active
-        if active is not None and active.visible_get() and bpy.ops.object.mode_set.poll():
+        if active is None or active.library or active.data.library or not active.visible_get():
+            return  # Blender raises
+        if bpy.ops.object.mode_set.poll():
             bpy.ops.object.mode_set(mode="OBJECT" if bpy.context.mode == "EDIT_MESH" else "EDIT")
 
     def _hide(self):
@@ -157,9 +185,14 @@ class RandomRun:
             return {"layer": layer, "checker": one([True, False]), "checker_size": one([8.0, 32.0]),
                     "checker_even": one([True, False]), "tube": one(["annulus", "unroll"]),
                     "placement": one(["pack", "together", "keep"]), "outer": one(["auto", "auto", "longest", "active"]),
-                    "method": one(["gk", "ck"]), "max_sweeps": one([1, 50]), "upright": one([True, False])}  # fmt: skip
+                    "method": one(["gk", "ck"]), "max_sweeps": one([1, 50]), "upright": one([True, False]),
+                    "cut": one([True, True, False]), "symmetry": one(["off", "auto"]),
+                    "polish": one([False, False, True]),
+                    "balance": one(["none", "area"]), "importance": one(["", "", "Weight"]),
+                    "center": one(["auto", "auto", "cursor", "active"]),
+                    "point": one(["auto", "auto", "cursor", "active"])}  # fmt: skip
         if name == "uv.koebe_parts":
-            return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5]),
+            return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5, 1.0]),
                     "seams": one(["add", "only"]), "write_seams": one([True, False])}  # fmt: skip
         if name == "uv.koebe_checker":
             return {"layer": layer, "checker_even": one([True, False])}
@@ -172,7 +205,7 @@ class RandomRun:
         if name == "uv.koebe_moebius":
             return {"layer": layer, "rim": int(self._random.integers(4)), "island": int(self._random.integers(2)),
                     "center": tuple(self._random.uniform(-0.6, 0.6, 2)), "rotation": one([0.0, 1.0])}  # fmt: skip
-        if name == "object.koebe_flat_copy":
+        if name in ("object.koebe_flat_copy", "uv.koebe_symmetrize"):
             return {"layer": layer}
         return {"loop": int(self._random.integers(4))} if name == "uv.koebe_select_loop" else {}
 
@@ -182,13 +215,18 @@ class RandomRun:
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
-            "uv.koebe_select_offenders", "uv.koebe_reset",
+            "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize",
         ])  # fmt: skip
         options, fault = self._options(name), None
         if self._random.random() < 0.5:
             at = int(np.exp(self._random.uniform(0.0, np.log(3000.0))))
             fault = faults.Fault(self._folder, at, self._one(ERRORS))
         bpy.context.view_layer.update()
+        undoes = self._random.random() < 0.3
+        if undoes:
+            # With the whole file in it, in Edit Mode too: what was done since by a script has left no step.
+            bpy.data.meshes.remove(bpy.data.meshes.new("step"))
+            bpy.ops.ed.undo_push(message="before")
         before = fingerprint.fingerprint()
         touched = Touched(name, options, self._targets(name))
         answer = faults.call(operator(name), fault, **options)
@@ -201,6 +239,17 @@ class RandomRun:
         if spoilt:
             where = fault.steps[-1] if fault is not None and fault.fired else None
             self.wrong.append((name, options, str(answer)[-300:], where, spoilt))
+        if undoes and finished:
+            self._undo(name, options, before, after)
+
+    def _undo(self, name, options, before, after):
+        """A step back brings the file back as it was, and one forth as it became."""
+        bpy.ops.ed.undo_push(message="after")
+        for step, was in ((bpy.ops.ed.undo, before), (bpy.ops.ed.redo, after)):
+            step()
+            changed = [key for key in fingerprint.differences(was, fingerprint.fingerprint()) if not of_the_window(key)]
+            if changed:
+                self.wrong.append((name, options, str(step), None, changed))
 
     def _targets(self, name):
         """The objects that an operator is for."""

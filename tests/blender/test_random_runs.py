@@ -14,8 +14,8 @@ CALLS = 8
 
 
 @pytest.mark.parametrize("seed", range(FIRST, FIRST + COUNT))
-def test_only_what_the_guide_says(folder, seed):
-    run = RandomRun(folder, seed)
+def test_only_what_the_guide_says(folder, tmp_path, seed):
+    run = RandomRun(folder, tmp_path, seed)
     run.go(CALLS)
     print(f"Random run {seed}: {run.calls} calls, {run.finished} finished, {run.faults} faults")
     assert run.wrong == []

@@ -72,6 +72,16 @@ def test_everything_an_artist_meets_has_a_tooltip_that_teaches():
                 assert all(len(item.description) > 20 for item in prop.enum_items)
 
 
+def test_tooltips_are_whole_and_without_line_breaks():
+    """Blender cuts off what is longer, and shows line breaks where they are."""
+    names = [name for name in dir(bpy.types) if "_OT_koebe_" in name]
+    assert len(names) > 15
+    for name in names:
+        space, _, end = name.lower().partition("_ot_")
+        shown = getattr(getattr(bpy.ops, space), end).get_rna_type().description
+        assert shown == " ".join(getattr(bpy.types, name).__doc__.split()), name
+
+
 def test_the_operators_defaults_are_the_panels_and_the_batchs(addon):
     options = addon("maps.options").Options()
     operator = bpy.ops.uv.koebe_uniformize.get_rna_type().properties

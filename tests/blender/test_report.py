@@ -113,22 +113,48 @@ def test_a_report_of_an_object_that_is_gone_selects_nothing():
     assert not bpy.ops.uv.koebe_select_loop.poll()
 
 
-def test_reset_gives_the_defaults_back():
+def other_than_the_default(prop):
+    """Another value than a property's default."""
+    if prop.type == "ENUM":
+        return next(item.identifier for item in prop.enum_items if item.identifier != prop.default)
+    if prop.type in {"BOOLEAN", "STRING"}:
+        return not prop.default if prop.type == "BOOLEAN" else f"{prop.default}2"
+    return prop.default / 2
+
+
+def chosen_options():
+    """The panel's options, by their names."""
     settings = bpy.context.scene.koebe_uv
-    settings.margin, settings.method, settings.layer = 0.1, "ck", "Other"
+    names = [prop.identifier for prop in settings.bl_rna.properties if prop.identifier not in {"rna_type", "name"}]
+    return {name: getattr(settings, name) for name in names}
+
+
+def choose_others():
+    """Give every option of the panel another value than its default; returns them."""
+    settings = bpy.context.scene.koebe_uv
+    for prop in settings.bl_rna.properties:
+        if prop.identifier not in {"rna_type", "name"}:
+            value = other_than_the_default(prop)
+            setattr(settings, prop.identifier, int(value) if prop.type == "INT" else value)
+    return chosen_options()
+
+
+def test_reset_gives_all_defaults_back():
+    defaults = chosen_options()
+    others = choose_others()
+    assert all(others[name] != value for name, value in defaults.items())
     bpy.ops.uv.koebe_reset()
-    assert (settings.margin, settings.method, settings.layer) == (pytest.approx(0.02), "gk", "Koebe")
+    assert chosen_options() == defaults
 
 
-def test_a_preset_keeps_the_options(tmp_path):
-    settings = bpy.context.scene.koebe_uv
-    settings.margin, settings.balance = 0.1, "area"
+def test_a_preset_keeps_all_options(tmp_path):
+    others = choose_others()
     assert bpy.ops.uv.koebe_preset_add(name="Koebe test") == {"FINISHED"}
     try:
         bpy.ops.uv.koebe_reset()
         path = bpy.utils.preset_find("Koebe_test", "koebe_uv") or bpy.utils.preset_find("Koebe test", "koebe_uv")
         bpy.ops.script.execute_preset(filepath=path, menu_idname="KOEBE_MT_presets")
-        assert settings.margin == pytest.approx(0.1) and settings.balance == "area"
+        assert chosen_options() == others
     finally:
         bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
 

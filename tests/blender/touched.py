@@ -112,7 +112,7 @@ class Touched:
     def _select(self, owner, what):
         if owner == "file":
             return what == "mode" or what.endswith((" active", " select mode"))
-        if owner.startswith("mesh "):
+        if owner.startswith(("mesh ", "key ")):
             return True  # Edit Mode is another representation: what is in it is compared where it is not changed
         return what == "mode" or what.startswith("selected in ")
 

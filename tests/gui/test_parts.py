@@ -33,6 +33,8 @@ def test_a_sample_in_parts_and_one_step_back(window, open_sample):
     window.workspace("UV Editing")
     window.open_tab("VIEW_3D")
     window.move(*window.middle("VIEW_3D"))
+    if window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT":
+        window.key("Tab")  # the outlines are shown in Object Mode
     window.key("KP_1", "KP_Decimal")
     window.click(*window.find_button("VIEW_3D", "koebe_parts"))
     window.picture("61_hand_at_work")
@@ -40,6 +42,7 @@ def test_a_sample_in_parts_and_one_step_back(window, open_sample):
                 "and bpy.context.window_manager.koebe_uv.islands[0].parts > 5", 240.0)  # fmt: skip
     window.move(*window.middle("IMAGE_EDITOR"))
     window.key("Home")
+    window.show_textures()
     window.picture("62_hand_in_parts")
     entry = "bpy.context.window_manager.koebe_uv.islands[0]"
     assert window.ask(f"{entry}.flipped") == 0 and window.ask(f"{entry}.mapped")

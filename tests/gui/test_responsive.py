@@ -6,11 +6,11 @@ import threading
 import time
 
 import pytest
-from window import ROOT, xdotool
+from window import PICTURES, ROOT, xdotool
 
 STALL = 0.1  # seconds, beside the time that Blender takes to draw its window once
 ESCAPE = 0.2
-FOLDER = ROOT / "out" / "samples"
+FOLDER = PICTURES / "samples"  # of each Blender its own: an older one cannot read it
 # The operator's own account: what came in, what it answered, when.
 WATCH = """
 import sys, time

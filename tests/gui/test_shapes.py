@@ -19,11 +19,9 @@ def test_two_faces_compared_and_one_texture_for_both(window, open_sample):
     window.run(BESIDE)
     window.move(*window.middle("VIEW_3D"))
     window.key("KP_Decimal")
-    x, top, width, height = window.region("VIEW_3D", "UI")
+    window.open_part("shapes")
     window.click(*window.find_button("VIEW_3D", "koebe_uniformize"))
     window.wait("not heart.computing and len(bpy.context.window_manager.koebe_uv.islands) > 0")
-    window.scroll_down()
-    window.click(x + 60, top + height - 14)  # the folded panel's title, the last line
     window.scroll_down()
     window.click(*window.find_button("VIEW_3D", "koebe_compare_shapes"))
     window.wait("len(bpy.context.window_manager.koebe_shapes.others) > 0")

@@ -38,7 +38,7 @@ def test_the_redo_panel_runs_again_with_other_options(window, open_sample):
     window.click(x + 130, top + height - 15)  # its folded title
     window.picture("04_redo_panel")
     before = window.ask(FIRST_CIRCLE)
-    window.click(x + 196, top + height - 184)  # Upright
+    window.click(x + 196, top + height - 298)  # Upright
     time.sleep(1.0)
     window.picture("05_redone")
     assert window.ask(LAST + ".upright") is False
@@ -91,6 +91,7 @@ def test_u_menu_in_edit_mode_and_the_uv_editor(window, open_sample):
 
 def test_what_cannot_be_mapped_is_said_and_selected(window, open_sample):
     open_sample("bowl")
+    window.choose(cut=False)
     window.move(*window.middle("VIEW_3D"))
     window.key("Tab", "a")
     window.run("import bmesh\nmesh = bpy.context.view_layer.objects.active.data\nb = bmesh.from_edit_mesh(mesh)\n"
@@ -105,7 +106,7 @@ def test_what_cannot_be_mapped_is_said_and_selected(window, open_sample):
 
 def test_a_tube_unrolled(window, open_sample):
     open_sample("vase")
-    window.run("bpy.context.scene.koebe_uv.tube = 'unroll'")
+    window.choose(tube="unroll")
     run_from_panel(window)
     window.workspace("UV Editing")
     window.move(*window.middle("VIEW_3D"))

@@ -13,6 +13,8 @@ PICTURES = ROOT / "out" / os.environ.get("PICTURES", "gui")
 WIDTH, HEIGHT = 1280, 800
 START_SECONDS = 90
 TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
+PARTS = ("disk", "parts", "layer", "accuracy", "tools", "shapes")  # of the panel, that are closed at first
+FIRST_PART, PART = 279, 26  # pixels from a sidebar's top to the first title before any run, and from title to title
 SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
 
 
@@ -22,6 +24,8 @@ area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')
 region = next(r for r in area.regions if r.type == 'WINDOW')
 with bpy.context.temp_override(window=window, area=area, region=region):
 """
+TAB_OPEN = """next((r.active_panel_category for a in bpy.context.window_manager.windows[0].screen.areas
+    if a.type == '{area}' for r in a.regions if r.type == 'UI' and hasattr(r, 'active_panel_category')), '')"""
 
 
 class Window:
@@ -140,8 +144,24 @@ class Window:
         if self.region(area, "UI")[2] <= 1:
             self.move(*self.middle(area))
             self.key("n")
-        x, top, width, _ = self.region(area, "UI")
-        self.click(x + width - 12, top + TAB[area])
+        x, top, width, height = self.region(area, "UI")
+        for y in range(top + TAB[area], top + height, 30):  # an extension of 5.2 has a tab before it
+            self.click(x + width - 12, y)
+            if self.ask(TAB_OPEN.format(area=area)) in {"Koebe", ""}:
+                return
+        raise AssertionError(f"no tab Koebe in {area}")
+
+    def open_part(self, part):
+        """Open a part of the panel in the 3D View that is closed at first: in Object Mode, the report empty."""
+        x, top, _, _ = self.region("VIEW_3D", "UI")
+        self.click(x + 70, top + FIRST_PART + PART * PARTS.index(part))
+
+    def choose(self, **options):
+        """Set options of the panel, and let it be drawn again: a button has the options of when it was drawn."""
+        for name, value in options.items():
+            self.run(f"bpy.context.scene.koebe_uv.{name} = {value!r}\n"
+                     "for area in bpy.context.window_manager.windows[0].screen.areas: area.tag_redraw()")  # fmt: skip
+        self.settle()
 
     def workspace(self, name):
         """Show a workspace, and wait until it is there."""

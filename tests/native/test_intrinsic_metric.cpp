@@ -1,6 +1,7 @@
 #include "circle_domain.h"
 #include "core/connectivity.h"
 #include "surface/intrinsic_metric.h"
+#include "surface/one_form.h"
 
 #include <gtest/gtest.h>
 
@@ -51,6 +52,21 @@ TEST(IntrinsicMetric, leaves_a_delaunay_mesh_of_good_triangles_alone)
     EXPECT_EQ(metric.flips, 0);
     EXPECT_EQ(metric.mollification, 0.0);
     EXPECT_EQ(metric.triangles, surface.triangles);
+}
+
+TEST(IntrinsicMetric, carries_closed_forms_over_flips)
+{
+    const Sheared mesh = sheared_grid(12);
+    const Surface surface = analyze_surface(mesh.triangles, static_cast<Index>(mesh.vertices.rows()));
+    // Whole numbers, so that sums are exact.
+    VectorXd f(surface.vertex_count);
+    for (Index v = 0; v < surface.vertex_count; ++v) f[v] = static_cast<double>((v * 7919) % 101);
+    std::vector<OneForm> carried{exterior_derivative(surface.triangles, f),
+                                 exterior_derivative(surface.triangles, f.cwiseAbs2())};
+    const IntrinsicMetric metric = intrinsic_metric(mesh.vertices, surface, {}, &carried);
+    EXPECT_GT(metric.flips, 50);
+    EXPECT_EQ(carried[0], exterior_derivative(metric.triangles, f));
+    EXPECT_EQ(carried[1], exterior_derivative(metric.triangles, f.cwiseAbs2()));
 }
 
 TEST(IntrinsicMetric, flips_keep_the_area_and_make_inner_weights_nonnegative)

@@ -82,3 +82,8 @@ def test_no_hidden_function_has_the_name_of_a_public_one():
     assert {"triangle_area", "uniformize", "flipped_faces"} <= public
     hidden = {path.name: hidden_names(path.read_text(encoding="utf-8")) & public for path in NATIVE.rglob("*.cpp")}
     assert not {name: names for name, names in hidden.items() if names}
+
+
+def test_no_header_includes_that_of_windows():
+    # It makes macros of "near", "far" and other words, in every source of a heap that follows.
+    assert not [path for path in NATIVE.rglob("*.h") if "<windows.h>" in path.read_text(encoding="utf-8")]

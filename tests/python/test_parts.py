@@ -88,9 +88,49 @@ def test_price_and_cut():
     for price in (0.0, -1.0, float("nan"), float("inf")):
         with pytest.raises(koebe.OptionError):
             koebe.parts(VERTICES, TRIANGLES, price=price)
-    for wrong in ({"price": "low"}, {"cut": 1}, {"progress": 3}, {"cancel": True}):
+    for wrong in ({"price": "low"}, {"cut": 1}, {"round_cuts": "yes"}, {"progress": 3}, {"cancel": True}):
         with pytest.raises(TypeError):
             koebe.parts(VERTICES, TRIANGLES, **wrong)
+
+
+def test_cuts_are_round_where_that_is_asked_for(tmp_path):
+    # Two heights in turn round each ring: no cut is straight.
+    rough = VERTICES + [0, 0, 0.06] * (np.arange(len(VERTICES)) % 2 * (VERTICES[:, 2] > 0.5))[:, None]
+    free, straight = koebe.parts(rough, TRIANGLES), koebe.parts(rough, TRIANGLES, round_cuts=True)
+    assert np.array_equal(free.part, straight.part) and len(free.parts) == 2
+    assert max(off for part in straight.parts for off in part["off_round"]) < 1e-4
+    assert max(off for part in free.parts for off in part["off_round"]) > 1e-2
+    assert free.angle_error_deg["mean"] < straight.angle_error_deg["mean"]
+    source, report = tmp_path / "in.obj", tmp_path / "out.json"
+    source.write_text(obj_text(rough, TRIANGLES), encoding="utf-8")
+    assert command("parts", source, tmp_path / "out.obj", "--round-cuts", "--json", report).returncode == 0
+    filed = json.loads(report.read_text(encoding="utf-8"))
+    assert [part["off_round"] for part in filed["parts"]] == [part["off_round"] for part in straight.parts]
+
+
+def bumpy_sphere(seed, rings=18, around=36):
+    """A closed surface, its vertices at random distances from the middle."""
+    polar, turn = np.pi * np.arange(1, rings) / rings, 2 * np.pi * np.arange(around) / around
+    x, y = np.outer(np.sin(polar), np.cos(turn)), np.outer(np.sin(polar), np.sin(turn))
+    ring = np.stack([x, y, np.outer(np.cos(polar), np.ones(around))], -1).reshape(-1, 3)
+    vertices = np.concatenate([[[0, 0, 1.0]], ring, [[0, 0, -1.0]]])
+    i, j = np.arange(around), (np.arange(around) + 1) % around
+    last, end = 1 + (rings - 2) * around, len(vertices) - 1
+    faces = [np.stack([0 * i, 1 + i, 1 + j], -1), np.stack([last + i, 0 * i + end, last + j], -1)]
+    for k in range(rings - 2):
+        p, q = 1 + k * around + i, 1 + k * around + j
+        faces += [np.stack([p, p + around, q + around], -1), np.stack([p, q + around, q], -1)]
+    distance = 1 + np.random.default_rng(seed).normal(size=len(vertices)) * 0.2
+    return vertices * distance[:, None], np.concatenate(faces)
+
+
+@pytest.mark.parametrize("seed", [3, 7])
+def test_a_border_that_moved_may_part_neighbours(seed):
+    """Many small parts: with seed 7 two that were neighbours are none when the turn comes to their border."""
+    vertices, faces = bumpy_sphere(seed)
+    result = koebe.parts(vertices, faces, price=0.0001)
+    assert len(result.parts) > 3 and result.flipped == result.below_resolution
+    assert (result.part >= 0).all()
 
 
 def test_degenerate_faces_are_taken():
@@ -146,7 +186,7 @@ def test_the_command_keeps_vertices_and_polygons(tmp_path, surface):
             "warnings"}
     assert keys <= set(result) and result["input"] == "in.obj" and result["flipped"] == 0
     assert sorted(f for part in result["parts"] for f in part["faces"]) == list(range(len(faces)))
-    assert all(set(part) == {"kind", "faces", "angle_error_deg", "loops"} for part in result["parts"])
+    assert all(set(part) == {"kind", "faces", "angle_error_deg", "loops", "off_round"} for part in result["parts"])
     assert "<svg" in (tmp_path / "out.svg").read_text(encoding="utf-8")
 
 

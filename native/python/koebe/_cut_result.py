@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._corner_mesh import mesh_with_corner_uv
 from ._files import whole_file
 from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
 
@@ -74,6 +75,12 @@ class CutResult:
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
         """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
         return self._source.vertices, self._source.triangles
+
+    def to_mesh(self) -> Any:
+        """The mesh that was given, of the same kind, with fields as of UniformizeResult.to_mesh; there the scale is UV
+        lengths per surface length. Its faces are the same, in their order. Its vertices are doubled along the cuts:
+        koebe_vertex is the number of each in the mesh that was given. Raises InputError if arrays were given."""
+        return mesh_with_corner_uv(self._source, self.uv, self.piece >= 0)
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with input_sha256 and options."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from .errors import InputError
 
-UV, LOG_SCALE, ANGLE_ERROR = "koebe_uv", "koebe_log_scale", "koebe_angle_error"
+UV, LOG_SCALE, ANGLE_ERROR, VERTEX = "koebe_uv", "koebe_log_scale", "koebe_angle_error", "koebe_vertex"
 
 _POINTS, _TRIANGLES, _SHAPE, _VECTOR, _NONE = 1008, 1009, 2005, 1007, 0  # NIfTI's intent codes
 _VTK_FACES = {5: "triangle", 7: "polygon", 9: "quad"}  # numbers of VTK's cell types
@@ -79,6 +79,90 @@ def mesh_with_fields(mesh: Any, polygons: Polygons, uv: np.ndarray, log_scale: n
         ends = np.cumsum([len(block.data) for block in result.cells])[:-1]
         result.cell_data[ANGLE_ERROR] = np.split(of_cells, ends)
     return result
+
+
+def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: np.ndarray) -> Any:
+    """A copy of the mesh with other vertices under its faces, and the field koebe_vertex.
+
+    old      (n,) the vertex that each new one is a copy of; the first V are the old ones, in their order
+    corners  (C,) new vertex of each corner of the polygons
+    Points and lines keep their vertices. What the old vertices carry, the new ones do.
+    """
+    kind = _kind(mesh)
+    if kind == "trimesh":
+        trimesh = importlib.import_module("trimesh")
+        result = trimesh.Trimesh(
+            np.asarray(mesh.vertices)[old],
+            corners.reshape(-1, 3),
+            process=False,
+            metadata=copy.deepcopy(mesh.metadata),
+            vertex_attributes={name: np.asarray(values)[old] for name, values in mesh.vertex_attributes.items()},
+            face_attributes={name: np.array(values) for name, values in mesh.face_attributes.items()},
+        )
+        result.vertex_attributes[VERTEX] = old
+    elif kind == "pyvista":
+        result = _pyvista_with_vertices(mesh, polygons, old, corners)
+        result.point_data[VERTEX] = old
+    elif kind == "gifti":
+        result = copy.deepcopy(mesh)
+        for array in result.darrays:
+            if array.intent == _TRIANGLES:
+                array.data = corners.reshape(-1, 3).astype(array.data.dtype)
+            elif len(array.data) == len(polygons.vertices):
+                array.data = array.data[old]
+            array.dims = list(array.data.shape)
+        gifti = importlib.import_module("nibabel.gifti")
+        result.add_gifti_data_array(
+            gifti.GiftiDataArray(np.int32(old), _SHAPE, "NIFTI_TYPE_INT32", meta={"Name": VERTEX})
+        )
+    else:
+        result = copy.deepcopy(mesh)
+        result.points = np.asarray(mesh.points)[old]
+        result.point_data = {name: np.asarray(values)[old] for name, values in mesh.point_data.items()}
+        result.point_data[VERTEX] = old
+        begin = 0
+        for block in result.cells:
+            if block.type in ("vertex", "line"):
+                continue
+            sizes = [len(face) for face in block.data]
+            part = corners[begin : begin + sum(sizes)]
+            begin += sum(sizes)
+            if _is_ragged(block.data):
+                block.data = np.split(part, np.cumsum(sizes)[:-1])
+            else:
+                block.data = part.reshape(len(sizes), -1).astype(np.asarray(block.data).dtype)
+    return result
+
+
+def _pyvista_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: np.ndarray) -> Any:
+    """A PolyData or UnstructuredGrid with these vertices."""
+    sizes = np.diff(polygons.begin)
+    heads = polygons.begin[:-1]
+    if hasattr(mesh, "celltypes"):
+        types = np.asarray(mesh.celltypes)
+        cell_sizes, all_corners = _unpadded(mesh.cells)
+        begin = np.concatenate([[0], np.cumsum(cell_sizes)])
+        ordered = corners.copy()
+        for first in heads[types[polygons.cell] == _VTK_PIXEL]:
+            ordered[[first + 2, first + 3]] = ordered[[first + 3, first + 2]]
+        within = np.arange(len(corners)) - np.repeat(heads, sizes)
+        all_corners[np.repeat(begin[polygons.cell], sizes) + within] = ordered
+        result = type(mesh)(_padded(cell_sizes, all_corners), types, np.asarray(mesh.points)[old])
+    else:
+        parts = {name: np.array(getattr(mesh, name)) for name in ("verts", "lines") if len(getattr(mesh, name))}
+        result = type(mesh)(np.asarray(mesh.points)[old], faces=_padded(sizes, corners), **parts)
+    for name, values in mesh.point_data.items():
+        result.point_data[name] = np.asarray(values)[old]
+    for name, values in mesh.cell_data.items():
+        result.cell_data[name] = np.array(values)
+    for name, values in mesh.field_data.items():
+        result.field_data[name] = np.array(values)
+    return result
+
+
+def _padded(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The cells as VTK files them: each one's size, then its corners."""
+    return np.insert(corners, np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64), sizes)
 
 
 def _kind(thing: Any) -> str | None:

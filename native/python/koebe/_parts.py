@@ -19,7 +19,8 @@ class PartsResult:
     uv               (F, 3, 2) float64 in [0, 1]^2: of each corner of each triangle, read-only
     part             (F,) int32: the part of each triangle; -1 for those in none, degenerate or the double of another
     parts            of each part a dict: kind ('disk' or 'tube'), faces, angle_error_deg (mean), loops (lists of
-                     vertices)
+                     vertices), off_round (of each loop how far it is from the circle of a disk, or the end of a tube's
+                     rectangle, at most: over the circle's radius, or the end's length over a turn)
     cut_length, slit_length    of all cuts, and of the slits of tubes among them, over the root of the area
     handles_cut      handles that were cut
     density_ratio_5_95    texel density (a length over a length) at 95 % of the area over that at 5 %
@@ -78,6 +79,7 @@ def parts(
     cut: bool = True,
     polygon: Any = None,
     slits: Any = None,
+    round_cuts: bool = False,
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> PartsResult:
@@ -92,18 +94,22 @@ def parts(
               mesh has them
     slits     (E, 2) vertices of edges along which a tube is opened where they lead from one of its loops to the other.
               None: along a short, straight path
+    round_cuts    True: loops at cuts lie on circles and on straight ends of tubes, as the own loops do. False:
+              they follow the surface's edges, for less angle error
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
     """
     chosen = _koebe.default_price if price is None else positive(price, "price")
-    whole = flag(cut, "cut")
+    whole, is_round = flag(cut, "cut"), flag(round_cuts, "round_cuts")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles, degenerate=whole)
     numbers = polygons_of(polygon, source)
     edges = np.zeros((0, 2), np.int32) if slits is None else _edges(slits, len(source.vertices))
-    native = _koebe.parts(source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), progress, cancel)
+    native = _koebe.parts(
+        source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), is_round, progress, cancel
+    )
     report = native.report()
-    report["options"] = {"price": chosen, "cut": whole}
+    report["options"] = {"price": chosen, "cut": whole, "round_cuts": is_round}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32))
 
 

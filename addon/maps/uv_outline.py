@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The outlines of a UV layout: where its islands end."""
+
+import numpy as np
+
+
+def outline(
+    corner_vertex: np.ndarray, corner_edge: np.ndarray, following: np.ndarray, uv: np.ndarray
+) -> np.ndarray:
+    """Corners (k, 2) at the ends of the edges that have no face in the same place of the UVs on their other side.
+
+    corner_vertex, corner_edge  (C,) vertex of each corner, and edge from it to the next one
+    following                   (C,) the next corner of its face
+    uv                          (C, 2)
+    """
+    if not len(uv):
+        return np.zeros((0, 2), dtype=np.int64)
+    order = np.argsort(corner_edge, kind="stable")
+    ends = np.stack([order, following[order]], axis=1)
+    turned = corner_vertex[ends[:, 0]] > corner_vertex[ends[:, 1]]
+    ends[turned] = ends[turned][:, ::-1]
+    edge, places = corner_edge[order], uv[ends].reshape(-1, 4)
+    same = (edge[1:] == edge[:-1]) & (places[1:] == places[:-1]).all(axis=1)
+    inner = np.zeros(len(order), dtype=bool)
+    inner[1:] |= same
+    inner[:-1] |= same
+    return ends[~inner]

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The parts of the panel that are closed until somebody wants them: options of the runs, and tools used less often."""
+
+from typing import Any
+
+import bpy
+
+from ..blender.targets import target_objects
+from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
+from ..operators.option_presets import UV_OT_koebe_reset
+from ..operators.run_operator import draw_option, is_used
+from ..operators.symmetrize import UV_OT_koebe_symmetrize
+from ..state.option_properties import ACCURACY_NAMES, KoebeSettings, settings_of
+from .panel_parts import KoebePanel
+
+
+class ClosedPanel(KoebePanel):
+    """Closed at first."""
+
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+class DiskPanel(ClosedPanel):
+    """Options of Koebe Uniformize."""
+
+    bl_label = "Uniformize Options"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = self.aligned_layout().column(), settings_of(context)
+        for name in ("cut", "outer", "center", "point", "balance"):
+            draw_option(column, settings, name, context)
+        draw_importance(column, settings, context)
+        for name in ("tube", "upright", "symmetry", "polish"):
+            draw_option(column, settings, name, context)
+
+
+def draw_importance(column: bpy.types.UILayout, settings: KoebeSettings, context: bpy.types.Context) -> None:
+    """The vertex group, and under it the way to Weight Paint, where it is painted, and back."""
+    obj: Any = context.active_object
+    row = column.row()
+    row.use_property_split = False
+    row.active = is_used(settings, "importance")
+    split = row.split(factor=0.44)  # a little more than Blender gives to names: less does not hold this one
+    name = split.row()
+    name.alignment = "RIGHT"
+    name.label(text="Importance")
+    if obj is None or obj.type != "MESH":
+        split.prop(settings, "importance", text="")
+        return
+    value = split.column(align=True)
+    value.prop_search(settings, "importance", obj, "vertex_groups", text="")
+    painting = obj.mode == "WEIGHT_PAINT"
+    text = "Stop Painting" if painting else "Paint It"
+    value.operator("paint.weight_paint_toggle", text=text, depress=painting)
+
+
+class PartsPanel(ClosedPanel):
+    """Options of Unwrap to Parts."""
+
+    bl_label = "Parts Options"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = self.aligned_layout().column(), settings_of(context)
+        column.prop(settings, "seams")
+        column.prop(settings, "write_seams")
+
+
+class LayerPanel(ClosedPanel):
+    """What is written, where the islands lie, and the checker that is put on."""
+
+    bl_label = "UV Layer and Checker"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = self.aligned_layout().column(), settings_of(context)
+        for name in ("layer", "placement", "margin"):
+            draw_option(column, settings, name, context)
+        row = column.row(heading="Checker")
+        row.prop(settings, "checker", text="")
+        size = row.row()
+        size.active = settings.checker
+        size.prop(settings, "checker_size", text="")
+        if len(target_objects(context)) > 1:
+            draw_option(column, settings, "checker_even", context)
+
+
+class ToolsPanel(ClosedPanel):
+    """What is made of a map that is there."""
+
+    bl_label = "More Tools"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.layout.column()
+        column.operator(UV_OT_koebe_symmetrize.bl_idname, icon="MOD_MIRROR")
+        column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, icon="MESH_PLANE")
+        column.operator(UV_OT_koebe_flat_svg.bl_idname, icon="EXPORT")
+
+
+class AccuracyPanel(ClosedPanel):
+    """What most runs leave alone."""
+
+    bl_label = "Accuracy"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.aligned_layout()
+        settings = settings_of(context)
+        for name in ACCURACY_NAMES:
+            layout.prop(settings, name)
+        layout.operator(UV_OT_koebe_reset.bl_idname, icon="LOOP_BACK")

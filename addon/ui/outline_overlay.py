@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The outlines of the islands, drawn in the UV Editor in Object Mode, in which Blender shows no UVs."""
+
+import bpy
+import numpy as np
+
+from ..blender.mesh_object import MeshObject
+from ..blender.mesh_reading import read_layout
+from ..blender.targets import target_objects
+from ..maps.uv_outline import outline
+from ..operators.moebius import UV_OT_koebe_moebius
+from ..state.run_report import report_of
+from . import drawing
+from .circle_tool import CIRCLES_TOOL
+
+OUTLINE = (0.75, 0.75, 0.75, 0.8)
+
+# By the name of the mesh and of its layer: corners (k, 2) and their UVs (k, 2, 2).
+_known: dict[tuple[str, str], tuple[np.ndarray, np.ndarray]] = {}
+_stale = False  # whether a mesh has changed since they were read
+
+
+@bpy.app.handlers.persistent
+def after_undo(*_: object) -> None:
+    """Called by Blender after undo and redo, and when a file was opened."""
+    global _stale
+    _stale = True
+
+
+@bpy.app.handlers.persistent
+def after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Called by Blender after changes."""
+    global _stale
+    _stale = _stale or any(isinstance(update.id, bpy.types.Mesh) for update in depsgraph.updates)
+
+
+def forget() -> None:
+    """Read the outlines again if meshes have changed. Not while something is dragged, which is not among them."""
+    global _stale
+    if _stale and UV_OT_koebe_moebius.held is None:
+        _known.clear()
+        _stale = False
+
+
+def outlines_of(obj: MeshObject, layer: str) -> tuple[np.ndarray, np.ndarray]:
+    """Corners at the ends of the outlines in a UV layer, and their UVs."""
+    key = (obj.data.name_full, layer)
+    if key not in _known:
+        vertex, edge, following, uv = read_layout(obj, layer)
+        ends = outline(vertex, edge, following, uv)
+        _known[key] = ends, uv[ends]
+    return _known[key]
+
+
+def draw() -> None:
+    """Draw those of the objects of the report; with the tool Koebe Circles of all that it can be used on."""
+    context = bpy.context
+    report = report_of(context)
+    if context.space_data.mode != "UV" or context.mode != "OBJECT" or not report.show_circles:
+        return
+    forget()
+    tool = context.workspace.tools.from_space_image_mode("UV")
+    all_of_them = tool is not None and tool.idname == CIRCLES_TOOL
+    reported = {(entry.object_name, entry.layer) for entry in report.islands if entry.mapped}
+    for obj in target_objects(context):
+        active = obj.data.uv_layers.active
+        if active is None or not (all_of_them or (obj.name, active.name) in reported):
+            continue
+        ends, uv = outlines_of(obj, active.name)
+        held = UV_OT_koebe_moebius.held
+        if held is not None and held[0] == obj.name:
+            uv = uv[~np.isin(ends[:, 0], held[1])]
+        draw_segments(context, uv)
+
+
+def draw_segments(context: bpy.types.Context, uv: np.ndarray) -> None:
+    """Lines between pairs of places of the UVs (k, 2, 2)."""
+    to_region = context.region.view2d.view_to_region
+    start, end = (np.array(to_region(x, x, clip=False)) for x in (0.0, 1.0))
+    points = np.ascontiguousarray((start + (end - start) * uv).reshape(-1, 2), dtype=np.float32)
+    if len(points):
+        drawing.segments(points, None, OUTLINE, 1.0)
+
+
+HANDLERS = (
+    (bpy.app.handlers.depsgraph_update_post, after_update),
+    (bpy.app.handlers.undo_post, after_undo),
+    (bpy.app.handlers.redo_post, after_undo),
+    (bpy.app.handlers.load_post, after_undo),
+)
+
+
+def register() -> None:
+    """Draw in every UV Editor."""
+    drawing.add("IMAGE_EDITOR", "outlines", draw)
+    for handlers, function in HANDLERS:
+        handlers.append(function)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    for handlers, function in HANDLERS:
+        handlers.remove(function)
+    drawing.remove("IMAGE_EDITOR", "outlines")
+    _known.clear()

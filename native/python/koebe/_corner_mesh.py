@@ -1,0 +1,67 @@
+"""A mesh of another package whose UVs differ from corner to corner: its vertices are doubled along the cuts."""
+
+from typing import Any
+
+import numpy as np
+
+from ._fields import face_angle_error_deg, log_scale
+from ._meshes import mesh_with_fields, mesh_with_vertices
+from ._result import Source
+from .errors import InputError
+
+
+def mesh_with_corner_uv(source: Source, uv: np.ndarray, mapped: np.ndarray) -> Any:
+    """A copy of the source's mesh with its faces, in their order, and fields as of UniformizeResult.to_mesh.
+
+    A vertex with several UVs is there once for each of them: the first one in its old place, the others after all old
+    vertices. koebe_vertex is the old number of each. A vertex of no face has the UVs NaN.
+
+    uv       (F, 3, 2) of the corners of the source's triangles
+    mapped   (F,) bool, the triangles that count in the fields
+    Raises InputError if arrays were given, or if a polygon is cut apart.
+    """
+    if source.polygons is None or source.polygon is None:
+        raise InputError("the surface came as arrays: there is no mesh to give back")
+    count = len(source.vertices)
+    old, triangles, uv_of = _doubled(source.triangles, uv, count)
+    mesh = mesh_with_vertices(source.mesh, source.polygons, old, _polygon_corners(source, triangles))
+    points = source.vertices[old]
+    error = face_angle_error_deg(points, triangles, uv_of)
+    known = mapped & np.isfinite(error)
+    faces = len(source.polygons.cell)
+    with np.errstate(invalid="ignore"):
+        sums = np.bincount(source.polygon[known], error[known], minlength=faces)
+        angle = sums / np.bincount(source.polygon[known], minlength=faces)
+    scale = log_scale(points, triangles[mapped], uv_of)
+    return mesh_with_fields(mesh, source.polygons, uv_of, scale, angle)
+
+
+def _doubled(triangles: np.ndarray, uv: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Old numbers (n,) of the new vertices, triangles (F, 3) of new ones, and UVs (n, 2)."""
+    corners = uv.reshape(-1, 2) + 0.0  # minus zero is zero
+    table = np.column_stack([triangles.reshape(-1, 1).astype(np.uint64), corners.view(np.uint64)])
+    _, first, number = np.unique(table, axis=0, return_index=True, return_inverse=True)
+    owner = triangles.ravel()[first]  # rising
+    is_first = np.append(True, owner[1:] != owner[:-1])
+    place = np.where(is_first, owner, count + np.cumsum(~is_first) - 1)
+    old = np.concatenate([np.arange(count), owner[~is_first]])
+    uv_of = np.full((len(old), 2), np.nan)
+    uv_of[place] = corners[first]
+    return old, place[number.ravel()].reshape(-1, 3), uv_of
+
+
+def _polygon_corners(source: Source, triangles: np.ndarray) -> np.ndarray:
+    """The new vertex (C,) at each corner of the polygons."""
+    polygons, polygon = source.polygons, source.polygon
+    assert polygons is not None and polygon is not None
+    count = np.int64(len(source.vertices))
+    key, index = np.unique(np.repeat(polygon, 3) * count + source.triangles.ravel(), return_index=True)
+    new = triangles.ravel()
+    again = index[np.searchsorted(key, np.repeat(polygon, 3) * count + source.triangles.ravel())]
+    torn = np.unique(np.repeat(polygon, 3)[new != new[again]])
+    if len(torn):
+        text = f"{len(torn)} polygons are cut apart in the UVs: give the mesh as triangles"
+        raise InputError(text, torn.tolist(), "faces")
+    owner = np.repeat(np.arange(len(polygons.cell)), np.diff(polygons.begin)) * count + polygons.corners
+    place = np.clip(np.searchsorted(key, owner), 0, len(key) - 1)
+    return np.where(key[place] == owner, new[index[place]], polygons.corners)

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# The guide's pictures.
+# Usage: scripts/guide_pictures.sh window     cut out of those that `make test-gui` leaves in out/gui
+#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and mug in parts
+set -euo pipefail
+cd "$(dirname "$0")/.."
+images=docs/images
+
+cut() { # NAME PICTURE WIDTHxHEIGHT+X+Y WIDTH
+    convert "out/gui/$2.png" -crop "$3" +repage -resize "$4x" -quality 85 "$images/guide_$1.jpg"
+}
+draw() { # SAMPLE SCRIPT its options
+    blender --background "blend_samples/$1.blend" --factory-startup --python-exit-code 1 --python "scripts/$2" -- "${@:3}" >/dev/null
+}
+
+case $1 in
+window)
+    cut panel 01_panel 1057x692+0+28 800
+    cut distortion 08_area 1057x692+0+28 800
+    cut uv_editor 11_loop_selected 1057x641+0+28 800
+    cut filled 12_filled 1057x641+0+28 800
+    cut unrolled 14_unrolled 1057x641+0+28 800
+    cut circles 44_disk_held_OBJECT 1057x772+0+28 800
+    cut flat 51_flat_copy 588x420+225+178 560
+    cut parts 62_hand_in_parts 1057x772+0+28 800
+    ;;
+drawn)
+    draw vase guide_picture.py "$images/guide_vase.jpg"
+    draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
+    draw mug parts_picture.py --output "$images/guide_parts_mug.jpg" --size 1000x500
+    ;;
+*)
+    echo "window or drawn" >&2
+    exit 2
+    ;;
+esac
