@@ -18,6 +18,8 @@ Subcommand add_fill(CLI::App& app);
 Subcommand add_module(CLI::App& app);
 Subcommand add_parts(CLI::App& app);
 Subcommand add_ricci(CLI::App& app);
+Subcommand add_ring(CLI::App& app);
+Subcommand add_torus(CLI::App& app);
 Subcommand add_transfer(CLI::App& app);
 Subcommand add_uniformize(CLI::App& app);
 

@@ -19,6 +19,7 @@
 #include "report/cut_json.h"
 #include "report/json.h"
 #include "report/parts_json.h"
+#include "report/tile_json.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
@@ -239,6 +240,31 @@ PYBIND11_MODULE(_koebe, m)
                             {.price = price, .cut = cut, .polygon = polygon, .slits = slits, .round_cuts = round_cuts},
                             context);
         });
+    });
+    py::enum_<RingHoles>(m, "RingHoles")
+        .value("circles", RingHoles::circles)
+        .value("concentric", RingHoles::concentric)
+        .value("radial", RingHoles::radial);
+    py::class_<TileOptions>(m, "TileOptions")
+        .def(py::init<>())
+        .def_readwrite("tolerance", &TileOptions::tolerance)
+        .def_readwrite("max_sweeps", &TileOptions::max_sweeps)
+        .def_readwrite("holes", &TileOptions::holes)
+        .def_readwrite("outer", &TileOptions::outer)
+        .def_readwrite("inner", &TileOptions::inner);
+    py::class_<TileResult>(m, "TileResult")
+        .def_property_readonly("uv", [](const TileResult& r) { return r.uv; })
+        .def_property_readonly("flipped_faces", [](const TileResult& r) { return r.distortion.flipped; })
+        .def("report", [](const TileResult& r) { return to_object(to_json(r)); });
+    m.def("torus_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                          const TileOptions& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel,
+                           [&](ExecutionContext& context) { return torus_map(vertices, triangles, options, context); });
+    });
+    m.def("ring_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                         const TileOptions& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel,
+                           [&](ExecutionContext& context) { return ring_map(vertices, triangles, options, context); });
     });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
         return detached(

@@ -33,6 +33,7 @@ from ._shapes import (
     module_error,
     module_names,
 )
+from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
 from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
 
@@ -53,6 +54,7 @@ __all__ = [
     "SolverError",
     "SurfaceCut",
     "SurfacePiece",
+    "TileMap",
     "TopologyError",
     "UV_RESOLUTION",
     "UniformizeResult",
@@ -79,6 +81,8 @@ __all__ = [
     "open_surface",
     "parts",
     "plot",
+    "ring_map",
+    "torus_map",
     "transfer",
     "uniformize",
     "uv_to_disk",

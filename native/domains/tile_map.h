@@ -1,0 +1,75 @@
+// Surfaces on other canonical domains than the disk: a flat torus, a cylinder.
+#pragma once
+
+#include "circles/circle_fit.h"
+#include "core/api.h"
+#include "core/execution.h"
+#include "core/warning.h"
+#include "pipeline/result.h"
+
+#include <array>
+#include <vector>
+
+namespace koebe {
+
+/// What becomes of the holes of a ring.
+enum class RingHoles {
+    circles,     ///< of the round annulus; unrolled, their images
+    concentric,  ///< slits along circles round the annulus; unrolled, along u
+    radial,      ///< slits along radii; unrolled, along v
+};
+
+/// As in the JSON report: the enumerator's name.
+KOEBE_API const char* to_string(RingHoles holes) noexcept;
+
+struct TileOptions {
+    double tolerance = 1e-6;  ///< on the circles' change in a sweep; of a torus its shortest period is 1
+    int max_sweeps = 50;
+    RingHoles holes = RingHoles::circles;  ///< of a ring
+    Index outer = -1, inner = -1;          ///< of a ring, vertices of the two rims; -1: the longest loops
+};
+
+/// A loop in the tile.
+struct TileLoop {
+    VertexLoop vertices;  ///< in order, the surface on the left
+    bool rim = false;     ///< of a ring: a straight line from one side of the tile to the other
+    bool has_circle = false;
+    Circle circle;                  ///< of a torus in UVs, of a ring in the unit disk
+    Roundness roundness;            ///< of the image before it was put on its circle
+    std::vector<Index> off_circle;  ///< vertices that are not where the circle or the slit is, rising
+    bool is_slit = false;
+    std::array<std::array<double, 2>, 2> slit{};  ///< its ends in UVs
+};
+
+struct TileResult {
+    PlanarPoints uv;  ///< (3F, 2) u and v of corner 3 f + k of the input's face f, in [0, 1]^2: 32-bit floats
+    std::vector<std::array<double, 2>> periods;  ///< in UVs: of a torus two, of a ring one, along u
+    /// Of a torus the ratio of its periods, reduced; of a ring i times its height over its period, log(R / r) / 2 pi.
+    Complex modulus;
+    Index vertex_count = 0, face_count = 0;
+    std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim first
+    std::vector<Index> turned;    ///< faces that were turned to the orientation of the others
+    double cut_length = 0.0;      ///< of the cut in the UVs, over the root of the surface's area
+    bool converged = false;
+    int sweeps = 0;
+    std::vector<double> changes;  ///< of the circles in each sweep
+    Distortion distortion;        ///< of the tile, in units of UVs
+    StageSeconds seconds;
+    double peak_memory_mb = 0.0;
+    std::vector<Warning> warnings;
+};
+
+/// Maps a surface of genus 1 with any number of holes conformally to a flat torus, its holes round (torus_circles.h).
+/// The UVs are a parallelogram of the torus, cut along edges in the UVs alone; the two sides of the cut differ by
+/// periods to the last bit of 32-bit floats, so its copies tile the plane.
+/// @throws InputError, TopologyError, SolverError, Cancelled; what is not one to one is reported as not converged
+KOEBE_API TileResult torus_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                               ExecutionContext& context);
+
+/// Maps a surface of genus 0 with two loops and more conformally to a cylinder, those two on its rims, unrolled: u runs
+/// round, v from the outer rim at 0 to the inner one. Other holes are images of circles, or slits.
+/// @throws as torus_map
+KOEBE_API TileResult ring_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                              ExecutionContext& context);
+
+}  // namespace koebe

@@ -1,0 +1,14 @@
+// What is reported of a map to a torus or a cylinder.
+#pragma once
+
+#include "domains/tile.h"
+#include "domains/tile_map.h"
+
+namespace koebe {
+
+/// Flips turned back, the tile cut and checked, and all figures of it but seconds.
+/// @param map converged or not
+TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
+                       HoleShape holes, FlatMap& map, ExecutionContext& context);
+
+}  // namespace koebe

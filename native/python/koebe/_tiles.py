@@ -1,0 +1,155 @@
+"""Maps to a flat torus and to a cylinder: UVs that are one tile, whose copies continue them."""
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ._api import surface_of
+from ._native import _koebe
+from ._options import callback, choice, positive, token, vertex, whole
+from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+
+Progress = Callable[[float, str], Any]
+
+
+class TileMap:
+    """A map to a flat torus or a cylinder, cut in its UVs alone, and its report.
+
+    uv               (F, 3, 2) float64 in [0, 1]^2, u and v of each triangle's corners; read-only; 32-bit floats all:
+                     across the cut the two sides differ by whole multiples of the periods, to the last bit
+    periods          (2, 2) float64, u and v of the torus's two; (1, 2) of the cylinder's, along u
+    modulus          complex: of a torus the ratio of the periods, |Re| <= 1/2 and at least 1 in size; of a ring i times
+                     its height over its period, log(R / r) / 2 pi
+    loops            list of dicts: vertices, rim (of a ring's two rims), off_circle; of a torus center and radius of
+                     its circle in UVs (one of its copies), of a ring with holes='circles' those in the unit disk, both
+                     with roundness; with slits the two ends of the slit in UVs
+    converged, sweeps, changes    of the circles in each sweep
+    turned           faces turned to the orientation of the others
+    cut_length       of the cut in the UVs, over the root of the surface's area
+    angle_error_deg, beltrami, area_distortion, conformal_energy, flipped, below_resolution, seconds, peak_memory_mb,
+    warnings, version, vertices, faces    as in UniformizeResult
+    flipped_faces    int32 array of the faces that `flipped` counts
+    """
+
+    version: str
+    options: dict[str, Any]
+    uv: np.ndarray
+    periods: np.ndarray
+    modulus: complex
+    loops: list[dict[str, Any]]
+    vertices: int
+    faces: int
+    converged: bool
+    sweeps: int
+    changes: list[float]
+    turned: list[int]
+    cut_length: float
+    angle_error_deg: AngleError
+    beltrami: Beltrami
+    area_distortion: AreaDistortion
+    conformal_energy: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    seconds: Seconds
+    peak_memory_mb: float
+    warnings: list[Warning]
+
+    def __init__(self, report: dict[str, Any], uv: np.ndarray, flipped_faces: np.ndarray, source: Source) -> None:
+        self._report = report
+        self._source = source
+        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        self.uv = uv.reshape(-1, 3, 2)
+        self.periods = np.array(report["periods"])
+        for array in (self.uv, self.periods):
+            array.flags.writeable = False
+        self.modulus = complex(*report["modulus"])
+        self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        return self._source.vertices, self._source.triangles
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict, with options."""
+        return copy.deepcopy(self._report)
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.TileMap {self.faces} faces, {len(self.loops)} loops, modulus {self.modulus:.4g}, "
+            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+        )
+
+
+def torus_map(
+    vertices: Any,
+    triangles: Any = None,
+    *,
+    tolerance: float = 1e-6,
+    max_sweeps: int = 50,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> TileMap:
+    """Map a surface with one handle, and any number of holes, conformally to a flat torus, its holes round.
+
+    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    tolerance    stop when the circles move by less in a sweep; the shortest period of the torus is 1
+    max_sweeps   then stop with converged = False
+    progress, cancel    as of `uniformize`
+    Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
+    MemoryError. A map that is not one to one has converged = False, and a warning says why.
+    """
+    options = _koebe.TileOptions()
+    options.tolerance = positive(tolerance, "tolerance")
+    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    source = surface_of(vertices, triangles)
+    native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
+    report = native.report()
+    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
+    return TileMap(report, native.uv, native.flipped_faces, source)
+
+
+def ring_map(
+    vertices: Any,
+    triangles: Any = None,
+    *,
+    outer: int | None = None,
+    inner: int | None = None,
+    holes: str = "circles",
+    tolerance: float = 1e-6,
+    max_sweeps: int = 50,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> TileMap:
+    """Map a surface of genus 0 with two loops and more conformally to a cylinder and unroll it.
+
+    Two loops become the rims, straight lines along u; v runs from the outer one to the inner one. The map's copies
+    along u continue it.
+
+    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    outer, inner    a vertex of each rim; None: the longest loops
+    holes        what becomes of the other loops. 'circles': the surface is mapped to a round annulus with round holes,
+                 whose logarithm this is; 'concentric': slits along u, in the annulus arcs round its centre; 'radial':
+                 slits along v, in the annulus along its radii
+    tolerance, max_sweeps    of the iteration that makes holes round, as of `uniformize`
+    progress, cancel    as of `uniformize`
+    Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
+    not one to one has converged = False, and a warning says why.
+    """
+    options = _koebe.TileOptions()
+    options.holes = choice(holes, "holes", _koebe.RingHoles)
+    options.outer, options.inner = vertex(outer, "outer"), vertex(inner, "inner")
+    options.tolerance = positive(tolerance, "tolerance")
+    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    source = surface_of(vertices, triangles)
+    native = _koebe.ring_map(source.vertices, source.triangles, options, progress, cancel)
+    report = native.report()
+    report["options"] = {"outer": outer, "inner": inner, "holes": holes, "tolerance": options.tolerance,
+                         "max_sweeps": options.max_sweeps}  # fmt: skip
+    return TileMap(report, native.uv, native.flipped_faces, source)

@@ -1,0 +1,13 @@
+// A picture of a tile and its copies.
+#pragma once
+
+#include "domains/tile_map.h"
+
+#include <string>
+
+namespace koebe {
+
+/// The tile in the unit square's scale, and its copies by one period around it, paler.
+std::string tile_svg(const TileResult& result);
+
+}  // namespace koebe

@@ -1,0 +1,342 @@
+"""Maps to flat tori and cylinders: against exact solutions, in exact arithmetic, and under random damage."""
+
+import json
+import subprocess
+
+import koebe
+import numpy as np
+import pytest
+from cli_support import COMMAND
+from domain_surfaces import holed_ring, holed_torus, opened_slit_ring
+
+GRID = 2.0**24
+
+
+def grid_points(tile):
+    """Corners as whole numbers: what the tile is on."""
+    points = np.rint(tile.uv * GRID).astype(np.int64)
+    assert np.array_equal(points / GRID, tile.uv) and np.array_equal(tile.uv.astype(np.float32), tile.uv)
+    return points
+
+
+def turned_back(tile, triangles):
+    """Corners and triangles with the faces in one orientation."""
+    corners, faces = grid_points(tile), triangles.copy()
+    corners[tile.turned] = corners[tile.turned][:, [0, 2, 1]]
+    faces[tile.turned] = faces[tile.turned][:, [0, 2, 1]]
+    return corners, faces
+
+
+def cross(a, b):
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def assert_tile(tile, triangles, rims=0):
+    """One to one as stored, in whole numbers: faces upright, both sides of each edge alike, and the areas those of the
+    cell; converged says so."""
+    corners, faces = turned_back(tile, triangles)
+    assert corners.min() >= 0 and corners.max() <= GRID
+    areas = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert (areas <= 0).sum() == tile.flipped == len(tile.flipped_faces)
+    edges = {}
+    for corner, face in zip(corners, faces, strict=True):
+        for k in range(3):
+            a, b = face[k], face[(k + 1) % 3]
+            edges[a, b] = corner[(k + 1) % 3] - corner[k], corner[k]
+    covered = areas.sum()
+    periods = np.rint(tile.periods * GRID).astype(np.int64)
+    for (a, b), (step, origin) in edges.items():
+        if (b, a) not in edges:
+            continue
+        back, other = edges[b, a]
+        assert np.array_equal(step, -back)
+        lattice = np.linalg.lstsq(periods.T, other - origin - step, rcond=None)[0]
+        assert np.array_equal(np.rint(lattice).astype(np.int64) @ periods, other - origin - step)
+    following = {a: (b, step, origin) for (a, b), (step, origin) in edges.items() if (b, a) not in edges}
+    cell = 2 * cross(*periods) if len(periods) == 2 else 0
+    for k, loop in enumerate(tile.loops):
+        at, twice, under = np.zeros(2, np.int64), 0, 0
+        v = loop["vertices"][0]
+        height = following[v][2][1]
+        for _ in loop["vertices"]:
+            v, step, _ = following[v]
+            twice += cross(at, at + step)
+            under += step[0] * (2 * height + 2 * at[1] + step[1])
+            at = at + step
+        if k < rims:
+            assert at.tolist() == ([1, -1][k] * periods[0]).tolist()
+            cell -= under
+        else:
+            assert not at.any()
+            covered -= twice
+    if tile.converged:
+        assert tile.flipped == tile.below_resolution
+        assert covered == cell
+
+
+def circles_of(tile):
+    """Centers and radii of a torus's holes with the shortest period as 1, the smallest hole first at 0."""
+    unit = complex(*tile.periods[0])
+    circles = sorted(((complex(*loop["center"]) / unit, loop["radius"] / abs(unit)) for loop in tile.loops),
+                     key=lambda circle: circle[1])  # fmt: skip
+    return [(center - circles[0][0], radius) for center, radius in circles]
+
+
+def on_torus(difference, tau):
+    """The shortest of the copies of a vector."""
+    return min(abs(difference + p + q * tau) for p in range(-3, 4) for q in range(-3, 4))
+
+
+def torus_error(steps):
+    vertices, triangles, height, exact = holed_torus(steps)
+    tile = koebe.torus_map(vertices, triangles)
+    assert tile.converged and not tile.flipped and not tile.warnings
+    assert_tile(tile, triangles)
+    tau = -1 / height  # reduced: the height is the shortest period
+    turned = sorted((((x + 1j * y) / height, r / abs(height)) for x, y, r in exact), key=lambda circle: circle[1])
+    expected = [(center - turned[0][0], radius) for center, radius in turned]
+    found = circles_of(tile)
+    errors = [abs(tile.modulus - tau)]
+    errors += [abs(radius / r - 1) for (_, radius), (_, r) in zip(found, expected, strict=True)]
+    # A torus turned by half is the same one: either sign of the periods will do.
+    pairs = [(c, e) for (c, _), (e, _) in zip(found, expected, strict=True)]
+    errors.append(min(max(on_torus(sign * c - e, tau) for c, e in pairs) for sign in (1, -1)))
+    return max(errors)
+
+
+def test_a_torus_of_revolution_is_mapped_with_second_order():
+    errors = [torus_error(steps) for steps in (6, 12, 24)]
+    assert errors[0] < 8e-3
+    assert errors[0] / errors[1] > 3.6 and errors[1] / errors[2] > 3.6
+
+
+def test_a_closed_torus_has_its_modulus():
+    vertices, triangles, _, _ = holed_torus(16, holes={})
+    tile = koebe.torus_map(vertices, triangles)
+    assert_tile(tile, triangles)
+    assert tile.sweeps == 0 and tile.loops == []
+    assert abs(tile.modulus - 4j / 3) < 1e-3
+
+
+def test_the_modulus_does_not_depend_on_numbers_and_frame():
+    vertices, triangles, _, _ = holed_torus(6)
+    first = koebe.torus_map(vertices, triangles)
+    random = np.random.default_rng(5)
+    order = random.permutation(len(vertices))
+    number = np.argsort(order)
+    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    other = koebe.torus_map(1e5 * vertices[order] @ turn.T, number[triangles][::-1].astype(np.int32))
+    assert abs(first.modulus - other.modulus) < 1e-5
+    assert np.allclose(sorted(r for _, r in circles_of(first)), sorted(r for _, r in circles_of(other)), atol=1e-5)
+
+
+def rims(triangles, flat, height):
+    """A vertex of each rim of a ring whose places in the cylinder are known."""
+    loops = koebe.boundary_loops(triangles)
+    return [int(next(loop[0] for loop in loops if np.allclose(flat[loop][:, 1], v))) for v in (0.0, height)]
+
+
+HOLES = {(1, 0): ((0.5, 0.5), 0.3), (3, 1): ((0.5, 0.6), 0.25)}
+
+
+def ring_error(steps):
+    vertices, triangles, height, flat, (centers, radii) = holed_ring(steps, holes=HOLES)
+    outer, inner = rims(triangles, flat, height)
+    tile = koebe.ring_map(vertices, triangles, outer=outer, inner=inner)
+    assert tile.converged and not tile.flipped and not tile.warnings
+    assert_tile(tile, triangles, rims=2)
+    found = sorted((loop["radius"], complex(*loop["center"])) for loop in tile.loops[2:])
+    expected = sorted(zip(radii, centers, strict=True))
+    errors = [abs(tile.modulus.imag / height - 1)]
+    errors += [abs(r / e - 1) for (r, _), (e, _) in zip(found, expected, strict=True)]
+    errors.append(abs(found[0][1] / found[1][1] - expected[0][1] / expected[1][1]))
+    return max(errors)
+
+
+def test_a_round_annulus_with_round_holes_is_unrolled_with_second_order():
+    errors = [ring_error(steps) for steps in (6, 12, 24)]
+    assert errors[0] < 2e-2
+    assert errors[0] / errors[1] > 3.4 and errors[1] / errors[2] > 3.4
+
+
+def slit_error(steps, upright):
+    vertices, triangles, height, middle, half = opened_slit_ring(steps, upright)
+    found = []
+    loops = koebe.boundary_loops(triangles)
+    # The slit is the loop in the middle of the sphere's equator; the rims are told by the size of their places.
+    slit = min(range(3), key=lambda k: np.ptp(vertices[loops[k]][:, 2]))
+    others = [int(loops[k][0]) for k in range(3) if k != slit]
+    for outer, inner in (others, others[::-1]):
+        tile = koebe.ring_map(
+            vertices, triangles, outer=outer, inner=inner, holes="radial" if upright else "concentric"
+        )
+        assert tile.converged and not tile.flipped and not tile.warnings
+        assert_tile(tile, triangles, rims=2)
+        ends = np.array(tile.loops[2]["slit"]) / tile.periods[0, 0]
+        place = abs(ends[:, 1].mean() - middle.imag) / height
+        length = abs(np.abs(ends[1] - ends[0]).max() / 2 / half - 1)
+        found.append(max(abs(tile.modulus.imag / height - 1), place, length))
+    return min(found)  # upside down the slit lies elsewhere
+
+
+@pytest.mark.parametrize("upright", [False, True], ids=["concentric", "radial"])
+def test_a_slit_is_found_with_second_order(upright):
+    errors = [slit_error(steps, upright) for steps in (8, 16, 32)]
+    assert errors[0] < 2e-2
+    assert errors[0] / errors[1] > 3.4 and errors[1] / errors[2] > 3.4
+
+
+@pytest.mark.parametrize("holes", ["circles", "concentric", "radial"])
+def test_a_ring_of_two_loops_is_the_same_whatever_becomes_of_holes(holes):
+    vertices, triangles, height, flat, _ = holed_ring(16)
+    outer, inner = rims(triangles, flat, height)
+    tile = koebe.ring_map(vertices, triangles, outer=outer, inner=inner, holes=holes)
+    assert_tile(tile, triangles, rims=2)
+    assert abs(tile.modulus.imag / height - 1) < 1e-3
+    on_rim = np.isin(triangles, [v for loop in tile.loops[:2] for v in loop["vertices"]])
+    levels = np.unique(tile.uv[on_rim][:, 1])
+    assert len(levels) == 2  # straight to the last bit
+
+
+def test_slits_lie_along_one_line_to_the_last_bit():
+    vertices, triangles, _, _, _ = holed_ring(8, holes=HOLES)
+    for holes, axis in (("concentric", 1), ("radial", 0)):
+        tile = koebe.ring_map(vertices, triangles, holes=holes)
+        for loop in tile.loops[2:]:
+            places = tile.uv[np.isin(triangles, loop["vertices"])][:, axis]
+            places = np.remainder(places, tile.periods[0, 0]) if axis == 0 else places
+            assert np.unique(places).size == 1
+            assert abs(loop["slit"][0][axis] - loop["slit"][1][axis]) < 1e-12
+
+
+def damaged(random, vertices, triangles):
+    """A surface with some of what happens to meshes."""
+    vertices, triangles = vertices.copy(), triangles.copy()
+    if random.random() < 0.5:
+        vertices *= np.exp(random.normal(0, random.uniform(0, 1.5), 3))
+    if random.random() < 0.5:
+        vertices += random.normal(0, random.uniform(0, 0.03), vertices.shape)
+    if random.random() < 0.5:
+        triangles = np.delete(triangles, random.choice(len(triangles), random.integers(1, 12), replace=False), 0)
+    if random.random() < 0.2:
+        face = random.integers(0, len(triangles))
+        triangles[face] = triangles[face][[0, 2, 1]]
+    if random.random() < 0.1:
+        vertices = np.round(vertices, 1)
+    if random.random() < 0.1:
+        vertices[random.integers(0, len(vertices))] = vertices[random.integers(0, len(vertices))]
+    if random.random() < 0.1:
+        vertices[random.integers(0, len(vertices))] = np.nan
+    if random.random() < 0.15:
+        vertices *= 10.0 ** random.uniform(-300, 150)
+    if random.random() < 0.1:
+        vertices = np.concatenate([vertices, vertices[:2]])
+    return vertices, triangles
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_random_surfaces_are_mapped_or_refused(seed):
+    random = np.random.default_rng(seed)
+    kind = ["torus", "circles", "concentric", "radial"][seed % 4]
+    holes = {}
+    for _ in range(random.integers(0, 5)):
+        radius = random.uniform(0.08, 0.4)
+        center = random.uniform(radius + 0.05, 0.95 - radius, 2)
+        holes[int(random.integers(0, 4)), int(random.integers(0, 2))] = (tuple(center), radius)
+    steps = int(random.integers(3, 9))
+    surface = holed_torus(steps, holes=holes) if kind == "torus" else holed_ring(steps, holes=holes)
+    vertices, triangles = damaged(random, *surface[:2])
+    before = vertices.copy(), triangles.copy()
+    try:
+        if kind == "torus":
+            assert_tile(koebe.torus_map(vertices, triangles), triangles)
+        else:
+            assert_tile(koebe.ring_map(vertices, triangles, holes=kind), triangles, rims=2)
+    except koebe.KoebeError as error:
+        assert str(error)
+    assert np.array_equal(vertices, before[0], equal_nan=True) and np.array_equal(triangles, before[1])
+
+
+def test_a_tile_that_is_off_by_one_step_is_seen():
+    vertices, triangles, _, _ = holed_torus(4)
+    tile = koebe.torus_map(vertices, triangles)
+    assert_tile(tile, triangles)
+    tile.uv = tile.uv.copy()
+    tile.uv[7, 1, 0] += 1 / GRID
+    with pytest.raises(AssertionError):
+        assert_tile(tile, triangles)
+
+
+def sphere():
+    corners = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
+    faces = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (1, 0, 5), (2, 1, 5), (3, 2, 5), (0, 3, 5)]
+    return corners, np.array(faces, np.int32)
+
+
+def test_what_is_no_torus_and_no_ring_is_refused():
+    for genus_zero in (sphere(), holed_ring(3)[:2]):
+        with pytest.raises(koebe.TopologyError, match="handles") as caught:
+            koebe.torus_map(*genus_zero)
+        assert caught.value.kind == "genus"
+    with pytest.raises(koebe.TopologyError, match="handles") as caught:
+        koebe.ring_map(*holed_torus(3)[:2])
+    assert caught.value.kind == "genus"
+    corners, faces = sphere()
+    with pytest.raises(koebe.TopologyError, match="two boundary loops") as caught:
+        koebe.ring_map(corners, faces[1:])
+    assert caught.value.kind == "closed"
+    vertices, triangles, height, flat, _ = holed_ring(4)
+    outer, _ = rims(triangles, flat, height)
+    with pytest.raises(koebe.InputError, match="lie on one loop"):
+        koebe.ring_map(vertices, triangles, outer=outer, inner=outer)
+    inside = int(np.flatnonzero(~np.isin(np.arange(len(vertices)), np.concatenate(koebe.boundary_loops(triangles))))[0])
+    with pytest.raises(koebe.InputError, match="lies on no boundary loop"):
+        koebe.ring_map(vertices, triangles, inner=inside)
+    with pytest.raises(koebe.OptionError):
+        koebe.ring_map(vertices, triangles, holes="square")
+
+
+def test_progress_and_cancel():
+    vertices, triangles, _, _ = holed_torus(6)
+    heard = []
+    koebe.torus_map(vertices, triangles, progress=lambda share, stage: heard.append(share))
+    assert heard == sorted(heard) and heard[-1] == 1.0
+    token = koebe.CancelToken()
+    token.cancel()
+    for run in (koebe.torus_map, koebe.ring_map):
+        with pytest.raises(koebe.Cancelled):
+            run(vertices, triangles, cancel=token)
+
+
+def write_obj(path, vertices, triangles):
+    lines = ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
+    lines += ["f " + " ".join(str(i + 1) for i in f) for f in triangles]
+    path.write_text("\n".join(lines) + "\n")
+
+
+@pytest.mark.parametrize("command", ["torus", "ring"])
+def test_the_command_says_what_python_says(command, tmp_path):
+    surface = holed_torus(5)[:2] if command == "torus" else holed_ring(5, holes=HOLES)[:2]
+    write_obj(tmp_path / "in.obj", *surface)
+    call = [COMMAND, command, tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "out.json",
+            "--svg", tmp_path / "out.svg"]  # fmt: skip
+    done = subprocess.run(call, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "modulus" in done.stdout and "0 flipped" in done.stdout
+    report = json.loads((tmp_path / "out.json").read_text())
+    tile = koebe.torus_map(*surface) if command == "torus" else koebe.ring_map(*surface)
+    own = tile.to_dict()
+    for each in (report, own):
+        for name in ("seconds", "peak_memory_mb", "input", "input_sha256"):
+            each.pop(name, None)
+    assert report == own
+    uv = [line.split()[1:] for line in (tmp_path / "out.obj").read_text().splitlines() if line.startswith("vt ")]
+    assert np.isin(np.unique(tile.uv.reshape(-1, 2), axis=0), np.array(uv, float)).all()
+    assert (tmp_path / "out.svg").read_text().startswith("<svg")
+    refused = subprocess.run(
+        [COMMAND, "ring" if command == "torus" else "torus", tmp_path / "in.obj", tmp_path / "no.obj"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert refused.returncode == 3 and "TopologyError" in refused.stderr
+    assert not (tmp_path / "no.obj").exists()
