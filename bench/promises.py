@@ -34,6 +34,8 @@ def broken(triangles, result):
         found.append("flipped")
     if crossings(uv, result.loops):
         found.append("loops cross")
+    if any(turned_over(uv[loop]) for loop in result.loops[1:]):
+        found.append("hole turned over")
     return found
 
 
@@ -74,6 +76,14 @@ def crossings(uv, loops):
         a, b, c, d = start[i], end[i], start[j], end[j]
         count += int(((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)).sum())
     return count // 2
+
+
+def turned_over(points):
+    """Whether a hole's loop runs counterclockwise, so that the map covers the hole; those below resolution do not count."""
+    x, y = (points - points[0]).T
+    ahead = np.roll(points, -1, axis=0) - points
+    area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
+    return np.linalg.norm(ahead, axis=1).max() >= 2 * RESOLUTION and area > 0
 
 
 def side(a, b, c):

@@ -1,6 +1,7 @@
 #include "foldover/tangled_map.h"
 
 #include "core/tolerances.h"
+#include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 
@@ -112,6 +113,17 @@ bool TangledMap::loops_cross(const std::vector<Index>& moved) const
                 }
         }
     return false;
+}
+
+std::vector<int> TangledMap::clockwise_holes(const std::vector<Index>& moved) const
+{
+    std::vector<int> loops, result;
+    for (const Index v : moved) loops.push_back(loop_of_[v]);
+    std::ranges::sort(loops);
+    loops.erase(std::unique(loops.begin(), loops.end()), loops.end());
+    for (const int k : loops)
+        if (enclosed_area(loops_[k], uv_) < 0.0) result.push_back(k);
+    return result;
 }
 
 }  // namespace koebe

@@ -9,9 +9,6 @@
 #include <utility>
 
 namespace koebe {
-namespace {
-
-}  // namespace
 
 std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std::vector<Index>& faces, int rings,
                                                PatchBoundary boundary)
@@ -69,10 +66,13 @@ bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape s
     std::vector<Index> moved_rim;
     for (std::size_t i = 0; i < posed.vertices.size(); ++i)
         if (posed.moves(i) && map.loop_of(posed.vertices[i]) >= 0) moved_rim.push_back(posed.vertices[i]);
+    std::ranges::sort(moved_rim);
+    const std::vector<int> holes = map.clockwise_holes(moved_rim);
     map.uv()(posed.vertices, Eigen::all) = posed.problem.points.topRows(before.rows());
     const std::size_t tangled_now = map.tangled(patch).size();
     if (posed.problem.points.allFinite() && tangled_now < tangled_before &&
-        map.flipped(patch) - tangled_now <= lost_before && !map.loops_cross(moved_rim))
+        map.flipped(patch) - tangled_now <= lost_before && !map.loops_cross(moved_rim) &&
+        std::ranges::includes(map.clockwise_holes(moved_rim), holes))
         return true;
     map.uv()(posed.vertices, Eigen::all) = before;
     return false;

@@ -12,6 +12,14 @@ namespace {
 
 constexpr double disk_tolerance = 1e-12;  // disk units: some roundings of a point of the unit circle
 
+double longest_loop_edge(const VertexLoop& loop, const PlanarPoints& uv)
+{
+    double longest = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        longest = std::max(longest, (uv.row(loop[(i + 1) % loop.size()]) - uv.row(loop[i])).norm());
+    return longest;
+}
+
 }  // namespace
 
 Warning MapFaults::warning(const std::string& beginning, const std::vector<Index>& original,
@@ -55,7 +63,8 @@ MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>&
         if (!is_apart(circles, k)) faults.bad_circles.push_back(static_cast<int>(k));
     if (!faults.not_finite.empty()) return faults;
     faults.crossings = crossing_boundary_edges(loops, uv, 2.0 * uv_resolution);
-    for (const int k : turned_loops(loops, uv, 2.0 * uv_resolution)) faults.bad_circles.push_back(k);
+    for (const int k : turned_loops(loops, uv, disk_tolerance))
+        if (longest_loop_edge(loops[k], uv) >= 2.0 * uv_resolution) faults.bad_circles.push_back(k);
     return faults;
 }
 

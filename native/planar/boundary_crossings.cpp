@@ -42,18 +42,23 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
     return crossings;
 }
 
+double enclosed_area(const VertexLoop& loop, const PlanarPoints& points)
+{
+    const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
+    double area = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        area += 0.5 * std::imag(std::conj(at(loop[i]) - at(loop[0])) * (at(loop[(i + 1) % loop.size()]) - at(loop[0])));
+    return area;
+}
+
 std::vector<int> turned_loops(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest)
 {
     const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
     std::vector<double> areas, least;
     for (const VertexLoop& loop : loops) {
-        double area = 0.0, length = 0.0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Complex a = at(loop[i]), b = at(loop[(i + 1) % loop.size()]), origin = at(loop.front());
-            area += 0.5 * std::imag(std::conj(a - origin) * (b - origin));
-            length += std::abs(b - a);
-        }
-        areas.push_back(area);
+        double length = 0.0;
+        for (std::size_t i = 0; i < loop.size(); ++i) length += std::abs(at(loop[(i + 1) % loop.size()]) - at(loop[i]));
+        areas.push_back(enclosed_area(loop, points));
         least.push_back(shortest * length);
     }
     std::vector<int> turned;

@@ -15,6 +15,9 @@ namespace koebe {
 std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<VertexLoop>& loops,
                                                              const PlanarPoints& points, double shortest);
 
+/// Of a loop that runs counter-clockwise positive.
+double enclosed_area(const VertexLoop& loop, const PlanarPoints& points);
+
 /// Loops that run round their hole as the outer one runs round all: inside such a one the map covers the plane twice.
 /// @param loops boundary loops of one oriented surface @param shortest width of what encloses no area
 std::vector<int> turned_loops(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest);

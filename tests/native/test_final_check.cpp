@@ -81,6 +81,22 @@ TEST_F(Promise, a_loop_that_crosses_another_is_found)
     ASSERT_FALSE(faults().crossings.empty());
 }
 
+TEST_F(Promise, a_hole_turned_over_is_found_however_narrow_but_not_below_resolution)
+{
+    const VertexLoop& hole = domain.loops[1];
+    const auto narrow = [&](double length, double turn) {
+        for (std::size_t i = 0; i < hole.size(); ++i) {
+            const double angle = turn * 2.0 * EIGEN_PI * static_cast<double>(i) / static_cast<double>(hole.size());
+            const Complex at = circles[1].center + Complex(length * std::cos(angle), 1e-9 * std::sin(angle));
+            uv.row(hole[i]) << at.real(), at.imag();
+        }
+        return faults().bad_circles;
+    };
+    EXPECT_EQ(narrow(1e-2, 1.0), std::vector<int>{1});
+    EXPECT_TRUE(narrow(1e-2, -1.0).empty());
+    EXPECT_TRUE(narrow(1e-7, 1.0).empty());
+}
+
 TEST(BoundaryCrossings, of_a_figure_eight_is_one)
 {
     PlanarPoints points(4, 2);
