@@ -109,6 +109,7 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
         parts = split_parts(whole, options, std::move(parts), context, effort);
         if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
     }
+    merge_crumbs(whole, options, parts, context, effort);
     return parts;
 }
 
@@ -282,6 +283,7 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
         const std::vector<PartPointer> before = parts;
         hide_cuts(whole, prices, parts, context, effort);
         if (is_symmetric && !make_symmetric(whole, prices, mirror, parts, context, effort)) parts = before;
+        merge_crumbs(whole, prices, parts, context, effort);
     }
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
     FlatPiece flat{flat_parts(whole, mirror, parts, {prices.cut_price, options.round_cuts}, threads, context, effort),

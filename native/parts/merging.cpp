@@ -11,6 +11,8 @@ namespace koebe {
 namespace {
 
 constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
+constexpr std::size_t few = 20;          // faces: a part of fewer is a crumb
+constexpr double crumb_worth = 4.0;      // prices of a part, beside that and its cut's: a crumb that saves more stays
 constexpr double sure = 0.5;             // of price and forecast: a gain that needs no map to be sure of
 
 /// The smallest part that both come from.
@@ -39,14 +41,30 @@ std::map<std::pair<int, int>, double> borders(const CutSurface& whole, const std
     return result;
 }
 
+/// Both as one part, not mapped yet; none if they are all of a closed surface.
+PartPointer joined(const CutSurface& whole, const Part& a, const Part& b, std::shared_ptr<const Part> origin)
+{
+    std::vector<Index> faces = a.mesh.faces;
+    faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
+    if (faces.size() == static_cast<std::size_t>(whole.areas.size()) && whole.surface.loops.empty()) return {};
+    auto both = std::make_shared<Part>();
+    both->mesh = part_mesh(whole, std::move(faces));
+    both->parent = std::move(origin);
+    return both;
+}
+
+/// What both cost, and their being two.
+double cost_apart(const Part& a, const Part& b, double border, const SplitOptions& options)
+{
+    return a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
+}
+
 /// Both as one part, if that is the better: parts of the two halves of a closed surface, which have no common origin.
 PartPointer merged_halves(const CutSurface& whole, const Part& a, const Part& b, double saved,
                           ExecutionContext& context, SplitEffort& effort)
 {
-    std::vector<Index> faces = a.mesh.faces;
-    faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
-    if (faces.size() == static_cast<std::size_t>(whole.areas.size())) return {};  // closed
-    auto both = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}});
+    PartPointer both = joined(whole, a, b, {});
+    if (!both) return {};
     map_anew(whole, *both, context, effort);
     return both->map.overflow < saved ? both : PartPointer{};
 }
@@ -55,7 +73,7 @@ PartPointer merged_halves(const CutSurface& whole, const Part& a, const Part& b,
 PartPointer merged(const CutSurface& whole, const SplitOptions& options, const Part& a, const Part& b, double border,
                    ExecutionContext& context, SplitEffort& effort)
 {
-    const double saved = a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
+    const double saved = cost_apart(a, b, border, options);
     const auto origin = common_origin(a, b);
     if (!origin) return merged_halves(whole, a, b, saved, context, effort);
     std::vector<Index> piece(origin->mesh.faces.size(), -1);
@@ -73,9 +91,7 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
     }
     const PieceForecast forecast = forecast_pieces(origin->mesh, origin->map, piece, 1).front();
     if (forecast.lost_area > 0.0 || saved - forecast.overflow < worth_mapping * options.part_price) return {};
-    std::vector<Index> faces = a.mesh.faces;
-    faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
-    auto both = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, origin});
+    PartPointer both = joined(whole, a, b, origin);
     if (saved - forecast.overflow > sure * (options.part_price + forecast.overflow)) {
         both->map = restricted_map(origin->mesh, origin->map, both->mesh);  // mapped when no more comes to it
         if (both->map.overflow < saved) return both;
@@ -118,6 +134,43 @@ bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
                  [&](std::size_t i, ExecutionContext& own) { map_anew(whole, *unmapped[i], own, efforts[i]); });
     for (const SplitEffort& own : efforts) effort.maps += own.maps;
     return any;
+}
+
+void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
+                  ExecutionContext& context, SplitEffort& effort)
+{
+    std::set<PartPointer> kept;
+    for (;;) {
+        const auto crumb = std::ranges::find_if(parts, [&](const PartPointer& part) {
+            return part->mesh.faces.size() < few && !kept.contains(part);
+        });
+        if (crumb == parts.end()) return;
+        const int own = static_cast<int>(crumb - parts.begin());
+        PartPointer best;
+        int neighbour = -1;
+        double best_gain = -crumb_worth * options.part_price;
+        for (const auto& [pair, length] : borders(whole, parts)) {
+            if (pair.first != own && pair.second != own) continue;
+            context.checkpoint();
+            const int other = pair.first == own ? pair.second : pair.first;
+            const Part& a = *parts[own];
+            const Part& b = *parts[other];
+            PartPointer both = joined(whole, a, b, common_origin(a, b));
+            if (!both) continue;
+            map_anew(whole, *both, context, effort);
+            const double gain = cost_apart(a, b, length, options) - both->map.overflow;
+            if (both->map.lost_area > a.map.lost_area + b.map.lost_area || gain <= best_gain) continue;
+            best_gain = gain;
+            best = std::move(both);
+            neighbour = other;
+        }
+        if (neighbour < 0) {
+            kept.insert(*crumb);
+            continue;
+        }
+        parts[std::min(own, neighbour)] = std::move(best);
+        parts.erase(parts.begin() + std::max(own, neighbour));
+    }
 }
 
 }  // namespace koebe

@@ -1,13 +1,18 @@
 """Parts: the package's function and the command, on the same surfaces."""
 
 import json
+import sys
 import threading
+from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated
 from cli_support import koebe as command
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+import random_surfaces  # noqa: E402
 
 
 def finger(around=24, rings=40):
@@ -131,6 +136,15 @@ def test_a_border_that_moved_may_part_neighbours(seed):
     result = koebe.parts(vertices, faces, price=0.0001)
     assert len(result.parts) > 3 and result.flipped == result.below_resolution
     assert (result.part >= 0).all()
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("ragged", 4), ("uneven", 3), ("grid", 7)])
+def test_parts_of_a_few_faces_are_merged(kind, seed):
+    # Rough surfaces, of which parts of 2, 7 and 5 faces were cut off.
+    vertices, triangles = random_surfaces.make(kind, seed)
+    result = koebe.parts(vertices, triangles)
+    assert len(result.parts) > 2 and min(len(part["faces"]) for part in result.parts) >= 8
+    assert len(result.flipped) == 0
 
 
 def test_degenerate_faces_are_taken():
