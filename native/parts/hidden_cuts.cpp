@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/side_by_side.h"
 #include "parts/concavity.h"
 #include "parts/dual_cut.h"
 
@@ -10,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <queue>
+#include <set>
 #include <utility>
 
 namespace koebe {
@@ -178,13 +180,11 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
     return {first, second};
 }
 
-}  // namespace
+using Borders = std::vector<std::pair<int, int>>;
 
-void hide_cuts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
-               ExecutionContext& context, SplitEffort& effort)
+/// Borders between parts, the longest first.
+Borders longest_borders(const CutSurface& whole, const std::vector<PartPointer>& parts)
 {
-    if (parts.size() < 2) return;
-    const VectorXd curvature = mean_curvature(whole, scale);
     std::vector<int> label(static_cast<std::size_t>(whole.areas.size()), -1);
     for (std::size_t k = 0; k < parts.size(); ++k)
         for (const Index f : parts[k]->mesh.faces) label[f] = static_cast<int>(k);
@@ -197,13 +197,47 @@ void hide_cuts(const CutSurface& whole, const SplitOptions& options, std::vector
     std::vector<std::pair<double, std::pair<int, int>>> order;
     for (const auto& [pair, length] : lengths) order.emplace_back(length, pair);
     std::ranges::sort(order, std::greater<>());
-    for (const auto& [length, pair] : order) {
-        context.checkpoint();
-        auto [first, second] =
-            moved_border(whole, options, curvature, *parts[pair.first], *parts[pair.second], context, effort);
-        if (!first) continue;
-        parts[pair.first] = std::move(first);
-        parts[pair.second] = std::move(second);
+    Borders borders;
+    for (const auto& [length, pair] : order) borders.push_back(pair);
+    return borders;
+}
+
+/// Those that share no part with one before them, taken out: side by side they give what one after the other would.
+Borders next_borders(Borders& borders)
+{
+    std::set<int> taken;
+    Borders next;
+    std::erase_if(borders, [&](const std::pair<int, int>& border) {
+        const bool ready = !taken.contains(border.first) && !taken.contains(border.second);
+        taken.insert({border.first, border.second});
+        if (ready) next.push_back(border);
+        return ready;
+    });
+    return next;
+}
+
+}  // namespace
+
+void hide_cuts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
+               ExecutionContext& context, SplitEffort& effort)
+{
+    if (parts.size() < 2) return;
+    const VectorXd curvature = mean_curvature(whole, scale);
+    for (Borders borders = longest_borders(whole, parts); !borders.empty();) {
+        const Borders wave = next_borders(borders);
+        std::vector<std::pair<PartPointer, PartPointer>> moved(wave.size());
+        std::vector<SplitEffort> efforts(wave.size());
+        side_by_side(wave.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
+            own.checkpoint();
+            moved[i] = moved_border(whole, options, curvature, *parts[wave[i].first], *parts[wave[i].second], own,
+                                    efforts[i]);
+        });
+        for (std::size_t i = 0; i < wave.size(); ++i) {
+            effort.maps += efforts[i].maps;
+            if (!moved[i].first) continue;
+            parts[wave[i].first] = std::move(moved[i].first);
+            parts[wave[i].second] = std::move(moved[i].second);
+        }
     }
 }
 

@@ -11,6 +11,7 @@ namespace koebe {
 namespace {
 
 constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
+constexpr std::size_t most_at_once = 4;  // merges tried side by side, for any number of threads
 constexpr std::size_t few = 20;          // faces: a part of fewer is a crumb
 constexpr double crumb_worth = 4.0;      // prices of a part, beside that and its cut's: a crumb that saves more stays
 constexpr double sure = 0.5;             // of price and forecast: a gain that needs no map to be sure of
@@ -105,34 +106,60 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                  RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort)
 {
+    struct Candidate {
+        PartPointer a, b;
+        double border;
+    };
+    std::map<std::pair<PartPointer, PartPointer>, PartPointer> tried;  // with what came of it, perhaps nothing
+    const auto try_all = [&](const std::vector<Candidate>& wave) {
+        std::vector<PartPointer> results(wave.size());
+        std::vector<SplitEffort> efforts(wave.size());
+        side_by_side(wave.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
+            results[i] = merged(whole, options, *wave[i].a, *wave[i].b, wave[i].border, own, efforts[i]);
+        });
+        for (std::size_t i = 0; i < wave.size(); ++i) {
+            tried[{wave[i].a, wave[i].b}] = std::move(results[i]);
+            effort.maps += efforts[i].maps;
+        }
+    };
     bool any = false;
     for (bool changed = true; changed;) {
         changed = false;
-        std::vector<std::pair<double, std::pair<int, int>>> order;
-        for (const auto& [pair, length] : borders(whole, parts)) order.emplace_back(length, pair);
-        std::ranges::sort(order, std::greater<>());
-        for (const auto& [length, pair] : order) {
+        std::vector<Candidate> order;
+        for (const auto& [pair, length] : borders(whole, parts))
+            if (const Candidate next{parts[pair.first], parts[pair.second], length};
+                !refused.contains({next.a, next.b}))
+                order.push_back(next);
+        std::ranges::reverse(order);
+        std::ranges::stable_sort(order, [](const Candidate& x, const Candidate& y) { return x.border > y.border; });
+        for (std::size_t i = 0; i < order.size() && !changed; ++i) {
             context.checkpoint();
-            const PartPointer a = parts[pair.first], b = parts[pair.second];
-            if (refused.contains({a, b})) continue;
-            PartPointer both = merged(whole, options, *a, *b, length, context, effort);
-            if (!both) {
-                refused.insert({a, b});
-                continue;
+            const auto& [a, b, border] = order[i];
+            if (!tried.contains({a, b})) {
+                // With the next ones that have no part in common: what comes of them stays true.
+                std::vector<Candidate> wave;
+                std::set<PartPointer> taken;
+                for (std::size_t k = i; k < order.size() && wave.size() < most_at_once; ++k) {
+                    const Candidate& next = order[k];
+                    const bool is_free = !taken.contains(next.a) && !taken.contains(next.b);
+                    taken.insert({next.a, next.b});
+                    if (is_free && !tried.contains({next.a, next.b})) wave.push_back(next);
+                }
+                try_all(wave);
             }
-            parts[pair.first] = std::move(both);
-            parts.erase(parts.begin() + pair.second);
-            any = changed = true;
-            break;
+            if (PartPointer both = tried.at({a, b})) {
+                std::erase(parts, b);
+                *std::ranges::find(parts, a) = std::move(both);
+                any = changed = true;
+            } else {
+                refused.insert({a, b});
+            }
         }
     }
     std::vector<Part*> unmapped;
     for (const PartPointer& part : parts)
         if (!part->map.measured) unmapped.push_back(part.get());
-    std::vector<SplitEffort> efforts(unmapped.size());
-    side_by_side(unmapped.size(), options.threads, context,
-                 [&](std::size_t i, ExecutionContext& own) { map_anew(whole, *unmapped[i], own, efforts[i]); });
-    for (const SplitEffort& own : efforts) effort.maps += own.maps;
+    map_all(whole, unmapped, options.threads, context, effort);
     return any;
 }
 

@@ -88,43 +88,52 @@ double gain_of(const Split& split, const Part& part, const SplitOptions& options
 }
 
 /// The splits that seem to pay, the best first.
-std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions& options, ExecutionContext& context,
-                                    SplitEffort& effort)
+std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions& options, int threads,
+                                    ExecutionContext& context, SplitEffort& effort)
 {
     std::vector<Proposal> all = proposals(part->mesh, part->map);
     std::ranges::stable_sort(all, [](const Proposal& a, const Proposal& b) { return a.area > b.area; });
     if (all.size() > most_looked_at) all.resize(most_looked_at);
     std::vector<Split> splits;
-    std::vector<std::vector<int>> seen;
-    for (const Proposal& proposal : all) {
-        context.checkpoint();
-        std::vector<int> label = minimum_cut(part->mesh, proposal.sides);
-        ++effort.cuts;
-        if (label.empty() || std::ranges::count(seen, label) > 0) continue;
+    std::vector<std::vector<int>> labels(all.size());
+    side_by_side(all.size(), threads, context, [&](std::size_t i, ExecutionContext& own) {
+        own.checkpoint();
+        labels[i] = minimum_cut(part->mesh, all[i].sides);
+    });
+    effort.cuts += static_cast<int>(all.size());
+    std::vector<std::vector<int>> different;
+    for (std::vector<int>& label : labels)
+        if (!label.empty() && std::ranges::count(different, label) == 0) different.push_back(std::move(label));
+    splits.resize(different.size());
+    side_by_side(different.size(), threads, context, [&](std::size_t i, ExecutionContext& own) {
+        own.checkpoint();
+        Split& split = splits[i];
         Index count = 0;
-        Split split{0.0, border_length(part->mesh, label), connected_pieces(part->mesh, label, count), {}};
+        split.border = border_length(part->mesh, different[i]);
+        split.piece = connected_pieces(part->mesh, different[i], count);
         split.forecasts = forecast_pieces(part->mesh, part->map, split.piece, count);
         split.gain = gain_of(split, *part, options);
-        seen.push_back(std::move(label));
-        if (split.gain > 0.0) splits.push_back(std::move(split));
-    }
+    });
+    std::erase_if(splits, [](const Split& split) { return !(split.gain > 0.0); });
     std::ranges::stable_sort(splits, [](const Split& a, const Split& b) { return a.gain > b.gain; });
     return splits;
 }
 
 /// The split of most gain once the children that the part's map says little of have maps of their own.
-Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOptions& options,
+Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOptions& options, int threads,
                  ExecutionContext& context, SplitEffort& effort)
 {
-    std::vector<Split> splits = promising_splits(part, options, context, effort);
+    std::vector<Split> splits = promising_splits(part, options, threads, context, effort);
     Split best;
     for (std::size_t i = 0; i < std::min(splits.size(), most_verified); ++i) {
         Split& split = splits[i];
         if (split.gain <= worth_verifying * best.gain) break;
         make_children(whole, part, split);
+        std::vector<Part*> unsure;
         for (std::size_t k = 0; k < split.children.size(); ++k)
             if (split.forecasts[k].off_round > most_off_round && split.forecasts[k].area > options.part_price)
-                map_anew(whole, *split.children[k], context, effort);
+                unsure.push_back(split.children[k].get());
+        map_all(whole, unsure, threads, context, effort);
         split.gain = gain_of(split, *part, options);
         if (split.gain > best.gain) best = std::move(split);
     }
@@ -140,6 +149,15 @@ void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, Sp
     context.checkpoint();
     part.map = map_part(part.mesh, context);
     effort.maps += static_cast<double>(part.mesh.faces.size()) / static_cast<double>(whole.areas.size());
+}
+
+void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threads, ExecutionContext& context,
+             SplitEffort& effort)
+{
+    std::vector<SplitEffort> efforts(parts.size());
+    side_by_side(parts.size(), threads, context,
+                 [&](std::size_t i, ExecutionContext& own) { map_anew(whole, *parts[i], own, efforts[i]); });
+    for (const SplitEffort& own : efforts) effort.maps += own.maps;
 }
 
 std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
@@ -166,14 +184,15 @@ struct Step {
     SplitEffort effort;
 };
 
-Step take_step(const CutSurface& whole, const SplitOptions& options, const PartPointer& part, ExecutionContext& context)
+Step take_step(const CutSurface& whole, const SplitOptions& options, const PartPointer& part, int threads,
+               ExecutionContext& context)
 {
     Step step;
     if (!part->map.measured && part->map.lost_area > surely_lost * part->mesh.area)
         map_anew(whole, *part, context, step.effort);
     Split split;
     if (!part->settled && part->map.overflow > options.part_price)
-        split = best_split(whole, part, options, context, step.effort);
+        split = best_split(whole, part, options, threads, context, step.effort);
     if (split.gain > 0.0) {
         step.open = std::move(split.children);
         return step;
@@ -202,8 +221,10 @@ std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions
             return a->mesh.faces.size() > b->mesh.faces.size();
         });
         std::vector<Step> steps(open.size());
-        side_by_side(open.size(), options.threads, context,
-                     [&](std::size_t i, ExecutionContext& own) { steps[i] = take_step(whole, options, open[i], own); });
+        const int inner = open.size() == 1 ? options.threads : 1;
+        side_by_side(open.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
+            steps[i] = take_step(whole, options, open[i], inner, own);
+        });
         open.clear();
         for (Step& step : steps) {
             effort.maps += step.effort.maps;

@@ -34,6 +34,10 @@ struct SplitEffort {
 /// Maps a part anew.
 void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort);
 
+/// Maps parts anew, side by side.
+void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threads, ExecutionContext& context,
+             SplitEffort& effort);
+
 /// Parts of these faces, mapped; of all, as one, if there are none.
 std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
                                      ExecutionContext& context, SplitEffort& effort);

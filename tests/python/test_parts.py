@@ -59,6 +59,16 @@ def test_a_finger_is_a_tube_and_a_cap():
     assert "2 parts" in repr(result)
 
 
+def test_another_meshing_makes_the_same_parts():
+    other = triangulated([face[1:] + face[:1] for face in FACES])  # the other diagonal of each quadrilateral
+    moved = VERTICES + 0.005 * np.random.default_rng(1).normal(size=VERTICES.shape)
+    first, second = koebe.parts(VERTICES, TRIANGLES), koebe.parts(moved, other)
+    assert [part["kind"] for part in second.parts] == [part["kind"] for part in first.parts]
+    a, b = VERTICES[TRIANGLES[:, 1]] - VERTICES[TRIANGLES[:, 0]], VERTICES[TRIANGLES[:, 2]] - VERTICES[TRIANGLES[:, 0]]
+    area = np.linalg.norm(np.cross(a, b), axis=1)
+    assert area[first.part == second.part].sum() > 0.97 * area.sum()
+
+
 def test_the_report_is_true_of_the_uvs():
     result = koebe.parts(VERTICES, TRIANGLES)
     stored = result.uv.astype(np.float32).astype(float)
@@ -144,7 +154,7 @@ def test_parts_of_a_few_faces_are_merged(kind, seed):
     vertices, triangles = random_surfaces.make(kind, seed)
     result = koebe.parts(vertices, triangles)
     assert len(result.parts) > 2 and min(len(part["faces"]) for part in result.parts) >= 8
-    assert len(result.flipped) == 0
+    assert result.flipped == 0
 
 
 def test_degenerate_faces_are_taken():
