@@ -79,7 +79,7 @@ def crossings(uv, loops):
 
 
 def turned_over(points):
-    """Whether a hole's loop runs counterclockwise, so that the map covers the hole; those below resolution do not count."""
+    """Whether a hole's loop runs counterclockwise: the map covers the hole. Loops below resolution do not count."""
     x, y = (points - points[0]).T
     ahead = np.roll(points, -1, axis=0) - points
     area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()

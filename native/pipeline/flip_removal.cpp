@@ -4,9 +4,40 @@
 #include "pipeline/normalization.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace koebe {
+namespace {
+
+constexpr double room_factor = 0.8;  // of a circle's radius
+constexpr int most_rooms = 4;
+constexpr std::size_t few_flips = 4;  // more come of worse than two circles too near
+
+/// Makes the inner circles smaller that faces still flipped have a vertex on: where less than an edge is between two
+/// circles, no place on them leaves those faces upright. @return whether there are any
+bool make_room(const Domain& whole, const std::vector<Index>& flipped, CircleMap& map)
+{
+    std::set<Index> corners, loops;
+    for (const Index f : flipped)
+        for (int k = 0; k < 3; ++k) corners.insert(whole.surface.triangles(f, k));
+    for (std::size_t k = 1; k < whole.loops.size(); ++k)
+        if (std::ranges::any_of(whole.loops[k], [&](Index v) { return corners.contains(v); }))
+            loops.insert(static_cast<Index>(k));
+    for (const Index k : loops) {
+        Circle& circle = map.circles[k];
+        circle.radius *= room_factor;
+        for (const Index v : whole.loops[k]) {
+            const Complex at = circle.center + room_factor * (Complex(map.uv(v, 0), map.uv(v, 1)) - circle.center);
+            map.uv.row(v) << at.real(), at.imag();
+        }
+        if (std::ranges::find(map.shrunk, k) == map.shrunk.end()) map.shrunk.push_back(k);
+    }
+    std::ranges::sort(map.shrunk);
+    return !loops.empty();
+}
+
+}  // namespace
 
 CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
 {
@@ -21,10 +52,20 @@ CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, Exec
 
 UntangleReport remove_flips(const Domain& whole, CircleMap& map, ExecutionContext& context)
 {
-    UntangleReport report = untangle(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv,
-                                     context, {.held = held_vertices(whole)});
-    map.off_circle.insert(map.off_circle.end(), report.freed.begin(), report.freed.end());
-    std::sort(map.off_circle.begin(), map.off_circle.end());
+    UntangleReport report;
+    for (int i = 0;; ++i) {
+        UntangleReport more = untangle(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv,
+                                       context, {.held = held_vertices(whole)});
+        map.off_circle.insert(map.off_circle.end(), more.freed.begin(), more.freed.end());
+        std::sort(map.off_circle.begin(), map.off_circle.end());
+        report.repairs += more.repairs;
+        report.freed.insert(report.freed.end(), more.freed.begin(), more.freed.end());
+        report.tangled = std::move(more.tangled);
+        if (i == most_rooms || report.tangled.empty() || report.tangled.size() > few_flips ||
+            !make_room(whole, report.tangled, map))
+            break;
+    }
+    std::sort(report.freed.begin(), report.freed.end());
     return report;
 }
 

@@ -13,8 +13,8 @@ namespace koebe {
 /// @param map of the core's vertices; of the surface's own if there are no flaps
 CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
 
-/// Turns flipped faces back (untangle); the domain's centre and point stay where they are. @param map of the whole
-/// surface, changed in place
+/// Turns flipped faces back (untangle); the domain's centre and point stay where they are. Circles between which no
+/// place leaves them upright are made smaller. @param map of the whole surface, changed in place
 UntangleReport remove_flips(const Domain& whole, CircleMap& map, ExecutionContext& context);
 
 }  // namespace koebe

@@ -20,15 +20,18 @@ def test_a_few_of_each_kind_keep_their_promises(kind):
             assert promises.broken(surface[1], koebe.uniformize(*surface)) == [], seed
 
 
-def test_no_hole_is_turned_over_where_a_scan_needs_many_repairs():
-    # Vertices that slide along a small circle could pass each other: then the map covers the hole.
-    file = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "good" / "nikolov_Angel.obj"
+@pytest.mark.parametrize(("scan", "degrees"), [("nikolov_Angel", 3.4), ("nikolov_blackVase", 6.0)])
+def test_scans_that_need_many_repairs_keep_their_promises_and_their_circles(scan, degrees):
+    # Vertices that slide along a small circle could pass each other, and the map covered the hole. Where circles
+    # nearly meet one flipped face was left, and the map was made anew, with 3.5 and 9.6 degrees.
+    file = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "good" / f"{scan}.obj"
     if not file.is_file():
         pytest.skip("the shared meshes are not here")
     lines = [line.split() for line in file.read_text().splitlines()]
     vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], dtype=float)
     triangles = np.array([[int(c.split("/")[0]) - 1 for c in line[1:]] for line in lines if line[:1] == ["f"]])
-    assert promises.broken(triangles, koebe.uniformize(vertices, triangles)) == []
+    result = koebe.uniformize(vertices, triangles)
+    assert promises.broken(triangles, result) == [] and result.angle_error_deg["mean"] < degrees
 
 
 def test_a_hole_turned_over_breaks_a_promise():
