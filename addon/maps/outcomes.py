@@ -3,8 +3,8 @@
 
 import dataclasses
 import functools
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -22,6 +22,35 @@ Progress = Callable[[float, str], None]  # called with a fraction and a stage
 # A vertex of the surface, or a place (3,) in its space that a vertex is to be nearest to.
 Place = int | np.ndarray | None
 LATER: Any = None  # of what is not there from the start, and is not asked for before it is
+
+
+def share_of(progress: Progress | None, done: int, size: int, total: int) -> Progress | None:
+    """Progress of some of all work as a part of that of all, given what is done before."""
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress((done + fraction * size) / max(total, 1), stage)
+
+
+class Failure(Protocol):
+    """An island, and why it could not be mapped."""
+
+    @property
+    def island(self) -> Island: ...
+    @property
+    def error(self) -> Exception | None: ...
+
+
+class Failures(Protocol):
+    """What became of a surface, as far as it could not be mapped, or not be written."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def not_written(self) -> str | None: ...
+    @property
+    def islands(self) -> Sequence[Failure]: ...
+    @property
+    def failed(self) -> Sequence[Failure]: ...
 
 
 @dataclasses.dataclass(frozen=True)
