@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ..maps.surface import Surface
-from ..maps.tile_pattern import Pattern, fitting_pattern, lattice_of
+from ..maps.tile_pattern import Pattern, fits, fitting_pattern, lattices_of
 from . import material_slots
 from .checker_material import checker_materials, is_checker
 from .errors import TransferError
@@ -54,8 +54,9 @@ def pattern_for(surface: Surface, uv: np.ndarray, size: float) -> tuple[Pattern,
 
     surface, uv  all of a mesh, and its UVs (C, 2)
     """
-    periods, alike = lattice_of(surface, uv)
-    return Pattern(size) if periods is None else fitting_pattern(periods, size), alike
+    lattices = lattices_of(surface, uv)
+    pattern = fitting_pattern(lattices[0], size) if lattices else Pattern(size)
+    return pattern, all(fits(pattern, periods) for periods in lattices)
 
 
 def materials(

@@ -14,6 +14,7 @@ MOST_SHIFTS = 256  # distinct ones across the cuts of a tile: it has few
 SHORTEST = 1e-3  # UV units: a lattice with a shorter period is none that a pattern could have
 REPEAT = 8  # squares along u after which the checker is the same: two of its coarse ones, of 4 squares each
 HALF = REPEAT // 2
+SEEN = 0.02  # of a square: a step of less is not seen
 FREEDOM = 1.5  # factor by which squares may be larger or smaller than asked for, so that they fit
 SIZE_WEIGHT = 0.15  # of the logarithm of that factor, over that of the squares' stretch
 
@@ -26,11 +27,11 @@ class Pattern:
     matrix: tuple[float, float, float, float] | None = None
 
 
-def lattice_of(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray | None, bool]:
-    """The shortest periods (1 or 2, 2) by which the sides of cuts in UVs (C, 2) differ, and whether all tiles have the
-    same; None where the UVs are no tile.
+def lattices_of(surface: Surface, uv: np.ndarray) -> list[np.ndarray]:
+    """The shortest periods (1 or 2, 2) by which the sides of cuts in UVs (C, 2) differ, of each tile; that with the most
+    faces first.
 
-    A tile is a piece of the UVs whose cuts are shifts, to the last bit. Of several the one with the most faces counts.
+    A tile is a piece of the UVs whose cuts are shifts, to the last bit.
     """
     shifts, component, sizes = _shifts(surface, uv)
     found: list[tuple[int, tuple[tuple[int, int], ...]]] = []
@@ -38,10 +39,7 @@ def lattice_of(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray | None, boo
         basis = _basis(np.unique(shifts[component == one], axis=0))
         if basis is not None:
             found.append((int(sizes[one]), basis))
-    if not found:
-        return None, True
-    best = max(found)[1]
-    return np.array(best) / GRID, all(basis == best for _, basis in found)
+    return [np.array(basis) / GRID for _, basis in sorted(found, reverse=True)]
 
 
 def _shifts(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -126,6 +124,14 @@ def fitting_pattern(periods: np.ndarray, size: float) -> Pattern:
                 best, least = inverse @ np.array([squares, image]), cost
     assert best is not None
     return _plain_if_so(size, best)
+
+
+def fits(pattern: Pattern, periods: np.ndarray) -> bool:
+    """Whether a checker is the same after each of the periods (k, 2), to the eye."""
+    matrix = np.diag([pattern.size] * 2) if pattern.matrix is None else np.reshape(pattern.matrix, (2, 2))
+    coarse = periods @ matrix.T / HALF
+    whole = np.rint(coarse)
+    return bool(np.abs(coarse - whole).max() < SEEN / HALF and (whole.sum(axis=1) % 2 == 0).all())
 
 
 def _whole_near(wanted: complex) -> list[complex]:

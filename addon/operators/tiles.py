@@ -11,17 +11,21 @@ from ..maps import wording
 from ..state import run_report
 from ..state.option_properties import (
     ACCURACY_NAMES,
-    RING_OPTION_NAMES,
-    TORUS_OPTION_NAMES,
     RingProperties,
     TorusProperties,
     tile_choice_of,
+    tile_option_names,
     written_options_of,
 )
 from .modal_run import redraw
 from .run_operator import MapOperator
 from .select_from_report import select_offenders
 from .tooltip import tooltip
+
+
+def shown(domain: str) -> tuple[str, ...]:
+    """The options of a domain, those last that most runs leave alone."""
+    return tuple(sorted(tile_option_names(domain), key=lambda name: name in ACCURACY_NAMES))
 
 
 class TileOperator(MapOperator):
@@ -67,7 +71,7 @@ class UV_OT_koebe_torus(TileOperator, TorusProperties, bpy.types.Operator):
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
     domain = "torus"
-    options_shown = tuple(sorted(TORUS_OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
+    options_shown = shown("torus")
 
 
 class UV_OT_koebe_ring(TileOperator, RingProperties, bpy.types.Operator):
@@ -79,7 +83,7 @@ class UV_OT_koebe_ring(TileOperator, RingProperties, bpy.types.Operator):
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
     domain = "ring"
-    options_shown = tuple(sorted(RING_OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
+    options_shown = shown("ring")
 
 
 OPERATORS = {"torus": UV_OT_koebe_torus, "ring": UV_OT_koebe_ring}

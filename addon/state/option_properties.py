@@ -293,6 +293,11 @@ TORUS_OPTION_NAMES = tuple(TorusProperties.__annotations__)
 RING_OPTION_NAMES = (*RingProperties.__annotations__, *TORUS_OPTION_NAMES)
 
 
+def tile_option_names(domain: str) -> tuple[str, ...]:
+    """The options of the operator of a domain."""
+    return {"torus": TORUS_OPTION_NAMES, "ring": RING_OPTION_NAMES}[domain]
+
+
 class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     """The scene's settings, shown in the panel."""
 
@@ -326,14 +331,14 @@ def copy_part_options(source: Any, target: Any) -> None:
 
 def copy_tile_options(source: Any, target: Any, domain: str) -> None:
     """Set the options of the operator of a domain from the settings."""
-    for name in RING_OPTION_NAMES if domain == "ring" else TORUS_OPTION_NAMES:
+    for name in tile_option_names(domain):
         setattr(target, name, getattr(source, name))
 
 
 def tile_choice_of(domain: str, properties: TorusProperties) -> TileChoice:
     """The `TileChoice` of the operator of a domain. Raises OptionError."""
-    fields = {field.name for field in dataclasses.fields(TileChoice)}
-    return TileChoice(domain, **{name: getattr(properties, name) for name in fields if hasattr(properties, name)})
+    known = {field.name for field in dataclasses.fields(TileChoice)}.intersection(tile_option_names(domain))
+    return TileChoice(domain, **{name: getattr(properties, name) for name in known})
 
 
 def written_options_of(properties: Any) -> Options:
