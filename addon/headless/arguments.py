@@ -121,8 +121,8 @@ def parse(arguments: list[str]) -> Request:
     except (options.OptionError, UnicodeError) as error:
         raise Stop(USAGE, error) from None
     return Request(
-        **files, names=None if names is None else _split(names), options=chosen, tile=tile, library=Library(batch, each),
-        ends_with_input=ends_with_input,
+        **files, names=None if names is None else _split(names), options=chosen, tile=tile,
+        library=Library(batch, each), ends_with_input=ends_with_input,
     )  # fmt: skip
 
 

@@ -65,11 +65,11 @@ class TileJob(Job):
             done += share
         self.outcomes = outcomes
 
-    def line(self, outcome: TileOutcome) -> str:  # type: ignore[override]
+    def line(self, outcome: TileOutcome) -> str:
         """One line on a surface of which something was mapped."""
         return outcome.line()
 
-    def entries(self, outcome: TileOutcome) -> list[dict[str, Any]]:  # type: ignore[override]
+    def entries(self, outcome: TileOutcome) -> list[dict[str, Any]]:
         """One entry of the JSON report per island."""
         return tile_entries(outcome)
 

@@ -28,8 +28,8 @@ class Pattern:
 
 
 def lattices_of(surface: Surface, uv: np.ndarray) -> list[np.ndarray]:
-    """The shortest periods (1 or 2, 2) by which the sides of cuts in UVs (C, 2) differ, of each tile; that with the most
-    faces first.
+    """The shortest periods (1 or 2, 2) by which the sides of cuts in UVs (C, 2) differ, of each tile; the one with the
+    most faces first.
 
     A tile is a piece of the UVs whose cuts are shifts, to the last bit.
     """

@@ -335,7 +335,7 @@ def copy_tile_options(source: Any, target: Any, domain: str) -> None:
         setattr(target, name, getattr(source, name))
 
 
-def tile_choice_of(domain: str, properties: TorusProperties) -> TileChoice:
+def tile_choice_of(domain: str, properties: Any) -> TileChoice:
     """The `TileChoice` of the operator of a domain. Raises OptionError."""
     known = {field.name for field in dataclasses.fields(TileChoice)}.intersection(tile_option_names(domain))
     return TileChoice(domain, **{name: getattr(properties, name) for name in known})

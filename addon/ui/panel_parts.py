@@ -2,7 +2,7 @@
 """What the panels have in common."""
 
 import textwrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import bpy
 
@@ -45,7 +45,10 @@ def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial:
     copy_part_options(settings, button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
 
 
-TILE_BUTTONS = {"torus": ("Unwrap to Torus Tile", "MESH_TORUS"), "ring": ("Unwrap to Cylinder", "MESH_CYLINDER")}
+TILE_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER"]]] = {
+    "torus": ("Unwrap to Torus Tile", "MESH_TORUS"),
+    "ring": ("Unwrap to Cylinder", "MESH_CYLINDER"),
+}
 
 
 def draw_tile_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:

@@ -131,7 +131,9 @@ def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: Ko
 
 def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """The offer to unroll a long tube."""
-    if not entry.tile and len(entry.loops) == 2 and entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
+    if entry.tile or len(entry.loops) != 2:
+        return
+    if entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
         button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")
         copy_options(settings_of(context), button)
         button.tube = "unroll"

@@ -224,7 +224,8 @@ class RandomRun:
     def _call(self):
         name = self._one([
             "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_checker",
-            "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
+            "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_ring",
+            "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
             "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize",

@@ -100,8 +100,8 @@ def torus_map(
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
     tolerance    stop when the circles move by less in a sweep; the shortest period of the torus is 1
     max_sweeps   then stop with converged = False
-    polygon      (F,) integers: triangles of one number are one polygon, which the tile's cut does not divide. None: each
-                 by itself, or as the mesh has them
+    polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
+                 as the mesh has them
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
