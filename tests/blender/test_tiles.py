@@ -1,6 +1,7 @@
 """Unwrap to Torus Tile, Unwrap to Cylinder: UVs whose copies continue them, to the last bit."""
 
 import math
+import os
 
 import bmesh
 import bpy
@@ -22,6 +23,7 @@ from tori import (
     torus_arrays,
     tube_arrays,
 )
+from wild import damaged, wild
 
 
 def torus(**options):
@@ -476,3 +478,82 @@ def test_what_is_chosen_in_the_panel_is_kept_and_reset():
 
 def test_tube_arrays_are_what_the_tests_think():
     assert len(tube_arrays()[1]) == 16 * 12 and len(torus_arrays()[0]) == 16 * 12
+
+
+# ---------------------------------------------------------------- whatever comes
+
+
+def wild_surface(random):
+    """A torus or a tube of any size with holes, bent, stretched and damaged, of polygons; or just anything."""
+    kind = random.integers(4)
+    if kind == 3:
+        return wild(random)
+    holes = {block_face for _ in range(random.integers(0, 4))
+             for block_face in block(*random.integers(0, 9, 2).tolist(), int(random.integers(1, 4)))}  # fmt: skip
+    n, m = random.integers(3, 14, 2).tolist()
+    points, faces = (torus_arrays if kind else tube_arrays)(n, m, holes if len(holes) < n * m else ())
+    points = points * np.exp(random.normal(0, random.choice([0, 0.5, 1.5]), 3))
+    points += random.normal(0, random.choice([0, 0.02, 0.2]), points.shape)
+    if random.random() < 0.5:
+        points, faces = damaged(random, points, faces)
+    return scenes.add_object("Wild", points, faces)
+
+
+def assert_is_a_tile(outcome, one, choice):
+    """UVs on a grid, the sides of each edge of the island apart by whole periods, and no face of an island that is
+    promised to be one to one turned over."""
+    surface, tile = outcome.task.surface, one.tile
+    uv = np.full((len(surface.corner_vertex), 2), np.nan)
+    uv[one.corners] = one.uv
+    steps = one.uv.astype(np.float64) / tile.grid
+    assert np.isfinite(one.uv).all() and (steps == np.rint(steps)).all() and one.uv.min() >= 0.0
+    assert choice.fit != "inside" or one.uv.max() <= 1.0
+    periods = np.rint(tile.periods / tile.grid).astype(np.int64)
+    sides = {}
+    for face in one.island.faces:
+        first, size = surface.face_start[face], surface.face_size[face]
+        for k in range(size):
+            corners = (first + k, first + (k + 1) % size)
+            places = {int(surface.corner_vertex[c]): np.rint(uv[c] / tile.grid).astype(np.int64) for c in corners}
+            sides.setdefault(int(surface.corner_edge[first + k]), []).append(places)
+    for edge, both in sides.items():
+        if len(both) != 2 or len(both[0]) != 2 or surface.seam[edge]:
+            continue
+        apart = {tuple((both[0][v] - both[1][v]).tolist()) for v in both[0]}
+        assert len(apart) == 1, "the ends of an edge are not moved alike"
+        shift = np.array(apart.pop())
+        lifts = np.rint(np.linalg.lstsq(periods.T.astype(float), shift.astype(float), rcond=None)[0]).astype(np.int64)
+        assert (lifts @ periods == shift).all()
+    if one.result.converged and choice.fit == "inside":
+        assert len(one.flipped) == one.result.below_resolution
+    assert set(one.result.flipped_faces) == set(one.flipped) or choice.fit != "inside"
+
+
+@pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))))
+def test_wild_surfaces_become_tiles_or_are_refused(addon, seed):
+    random = np.random.default_rng(seed)
+    mapped = 0
+    for _ in range(6):
+        obj = wild_surface(random)
+        bpy.context.view_layer.update()
+        state = scenes.mesh_state(obj.data)
+        make = addon("maps.options").TileChoice
+        for domain in ("torus", "ring"):
+            choice = make(domain, *(str(random.choice(of)) for of in (
+                ["circles", "concentric", "radial"], ["auto"], ["inside", "period", "square"])))  # fmt: skip
+            job = addon("jobs.tile_job").TileJob([obj], addon("maps.options").Options(), choice)
+            job.compute()
+            (outcome,) = job.outcomes
+            for one in outcome.mapped:
+                assert_is_a_tile(outcome, one, choice)
+                mapped += 1
+            for one in outcome.failed:
+                assert "nobody foresaw" not in str(one.error)
+            if outcome.mapped:
+                job.write()
+                assert outcome.line() and job.entries(outcome)
+        assert scenes.mesh_state(obj.data, but_layer="Koebe").items() >= {
+            key: value for key, value in state.items() if key not in ("uv Koebe", "face material")
+        }.items()
+        bpy.data.objects.remove(obj)
+    print(f"{mapped} islands mapped")
