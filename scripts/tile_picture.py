@@ -75,7 +75,7 @@ def paler(material):
 
 def cut_paths(one, obj, seen, vertex, flat):
     """Both ends of each edge along the cut: on the surface, and on both sides of it in the tile."""
-    place = {v: point for v, point in zip(vertex.tolist(), seen)}
+    place = dict(zip(vertex.tolist(), seen))
     uvs = uv_by_corner(obj)
     cut = set(np.flatnonzero(one.cuts).tolist())
     for face in obj.data.polygons:

@@ -110,7 +110,7 @@ class TileOutcome:
     def own_warnings(self, one: TileIsland) -> list[tuple[str, str]]:
         """Kind and text of those that are not the solver's."""
         lost = len(np.setdiff1d(one.flipped, one.result.flipped_faces))
-        text = f"{counted(lost, 'triangle')} turned over as the tile was fitted: take Fit: Inside the Square"
+        text = f"{counted(lost, 'triangle')} turned over as the tile was fitted: take Fit: Inside"
         return [("flipped", text)] * (lost > 0) + own_warnings(self.task)
 
     def line(self) -> str:
@@ -132,10 +132,9 @@ class TileOutcome:
 
 
 def modulus_text(result: "TileMap") -> str:
-    """Of a torus the ratio of its periods, of a cylinder its height over its period."""
-    if len(result.periods) < 2:
-        return f"{result.modulus.imag:.4f}"
-    return f"{result.modulus.real:.4f} {'-' if result.modulus.imag < 0.0 else '+'} {abs(result.modulus.imag):.4f} i"
+    """Of a torus the ratio of its periods, of a cylinder i times its height over its period."""
+    real = f"{round(result.modulus.real, 3) + 0.0:.3f} + " if len(result.periods) > 1 else ""  # never -0
+    return f"{real}{result.modulus.imag:.3f} i"
 
 
 def periods_text(tile: FittedTile) -> str:

@@ -237,7 +237,7 @@ WRITTEN_NAMES = ("layer", "checker", "checker_size", "checker_even")  # which al
 FIT = EnumProperty(
     name="Fit",
     items=[
-        ("inside", "Inside the Square", "As large as it fits the UV square. Angles are kept"),
+        ("inside", "Inside", "As large as it fits the UV square. Angles are kept"),
         ("period", "Period 1", "Its first period is exactly 1 along U, so that an image that repeats meets itself "
          "there. Angles are kept; it may be larger than the UV square"),
         ("square", "Unit Square", "Its periods are exactly 1 along U and 1 along V, of a cylinder its height is 1: a "

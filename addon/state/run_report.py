@@ -63,7 +63,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     tile: StringProperty(description="Of a tile: torus or ring, else empty")
-    modulus: StringProperty(description="Of a torus the ratio of its periods, of a cylinder its height over its period")
+    modulus: StringProperty(description="Of a torus the ratio of its periods, of a cylinder i times height over period")
     periods: StringProperty(description="Of a tile: its periods in the UVs")
     offer: StringProperty(description="The operator that takes an island that this one does not: parts, torus or ring")
     moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")

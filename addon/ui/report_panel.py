@@ -95,7 +95,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         ("Density", f"1 : {entry.density:.1f}, on 90 %"),
     ]
     of_tile = [
-        ("Height / period" if entry.tile == "ring" else "Modulus", entry.modulus),
+        ("Modulus", entry.modulus),
         *(("Period" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
         ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged"),
     ]
