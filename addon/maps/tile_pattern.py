@@ -10,6 +10,7 @@ from .connected_components import connected_components
 from .surface import Surface, next_corners
 
 GRID = 2.0**24  # steps of UVs between 0 and 1: periods of a tile are whole numbers of them
+FARTHEST = 2.0**12  # UV units between the sides of a cut
 MOST_SHIFTS = 256  # distinct ones across the cuts of a tile: it has few
 SHORTEST = 1e-3  # UV units: a lattice with a shorter period is none that a pattern could have
 REPEAT = 8  # squares along u after which the checker is the same: two of its coarse ones, of 4 squares each
@@ -34,11 +35,13 @@ def lattices_of(surface: Surface, uv: np.ndarray) -> list[np.ndarray]:
     A tile is a piece of the UVs whose cuts are shifts, to the last bit.
     """
     shifts, component, sizes = _shifts(surface, uv)
+    order = np.argsort(component, kind="stable")
+    begin = np.unique(component[order], return_index=True)[1]
     found: list[tuple[int, tuple[tuple[int, int], ...]]] = []
-    for one in np.unique(component):
-        basis = _basis(np.unique(shifts[component == one], axis=0))
+    for one, end in zip(begin.tolist(), [*begin[1:].tolist(), len(order)]):
+        basis = _basis(np.unique(shifts[order[one:end]], axis=0))
         if basis is not None:
-            found.append((int(sizes[one]), basis))
+            found.append((int(sizes[component[order[one]]]), basis))
     return [np.array(basis) / GRID for _, basis in sorted(found, reverse=True)]
 
 
@@ -55,13 +58,15 @@ def _shifts(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     opposed = surface.corner_vertex[here] != surface.corner_vertex[there]
     start, end = np.where(opposed, there_end, there), np.where(opposed, there, there_end)
     points = uv.astype(np.float64)
-    at_start, at_end = points[here] - points[start], points[following[here]] - points[end]
+    with np.errstate(invalid="ignore"):
+        at_start, at_end = points[here] - points[start], points[following[here]] - points[end]
     joined = (at_start == 0.0).all(axis=1) & (at_end == 0.0).all(axis=1)
     face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
     piece = connected_components(len(surface.face_size), face[here[joined]], face[there[joined]])
     own = ~joined & (piece[face[here]] == piece[face[there]])
     steps = at_start[own] * GRID
     whole = (at_start[own] == at_end[own]).all(axis=1) & (steps == np.rint(steps)).all(axis=1)
+    whole &= (np.abs(steps) < FARTHEST * GRID).all(axis=1)  # nor what is not finite
     of_piece = piece[face[here[own]]]
     is_tile = np.ones(len(surface.face_size), dtype=bool)
     is_tile[of_piece[~whole]] = False

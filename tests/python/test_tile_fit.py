@@ -85,6 +85,9 @@ def test_periods_are_read_off_the_uvs(kind, fit):
     spoilt = uv.copy()
     spoilt[corners[0]] += np.float32(2**-10)  # a cut whose sides are no shift
     assert tile_pattern.lattices_of(surface, spoilt) == []
+    for wrong in (np.nan, np.inf, 1e30):
+        spoilt[corners[0]] = wrong
+        assert tile_pattern.lattices_of(surface, spoilt) == []
 
 
 @pytest.mark.parametrize("fit", ["period", "square"])
