@@ -43,18 +43,20 @@ def unwrap(kind, **options):
 
 
 def with_polygons(obj):
-    """The same object with some of its quadrilaterals joined to larger polygons, and some cut in two."""
+    """The same object with some of its quadrilaterals joined to larger polygons, and some cut in two, inside: a face
+    with all its vertices on a slit has no place."""
     edited = bmesh.new()
     edited.from_mesh(obj.data)
     edited.edges.ensure_lookup_table()
-    chosen, met = [], set()
+    chosen, met = [], {vert for vert in edited.verts if vert.is_boundary}
     for edge in edited.edges:
         around = {vert for face in edge.link_faces for vert in face.verts}
         if len(edge.link_faces) == 2 and not met & around:  # two polygons along two edges have one diagonal
             chosen.append(edge)
             met |= around
     bmesh.ops.dissolve_edges(edited, edges=chosen)
-    bmesh.ops.triangulate(edited, faces=[face for face in edited.faces if face.index % 7 == 0])
+    inner = [face for face in edited.faces if not any(vert.is_boundary for vert in face.verts)]
+    bmesh.ops.triangulate(edited, faces=inner[::7])
     edited.to_mesh(obj.data)
     edited.free()
     sizes = {len(face.vertices) for face in obj.data.polygons}
