@@ -13,7 +13,7 @@ from .opening import Opening
 from .packing import Placement
 from .rounding import rounded
 from .surface import Island, Surface
-from .triangles import as_complex, as_points, signed_areas
+from .triangles import as_complex, as_points, density_ratio, signed_areas
 
 if TYPE_CHECKING:
     from koebe import UniformizeResult
@@ -29,6 +29,15 @@ def share_of(progress: Progress | None, done: int, size: int, total: int) -> Pro
     if progress is None:
         return None
     return lambda fraction, stage: progress((done + fraction * size) / max(total, 1), stage)
+
+
+class Mapped(Protocol):
+    """An island with a map, and how even its texels are."""
+
+    @property
+    def result(self) -> Any: ...
+    @property
+    def density_ratio(self) -> float: ...
 
 
 class Failure(Protocol):
@@ -114,15 +123,7 @@ class IslandOutcome:
     @functools.cached_property
     def density_ratio(self) -> float:
         """Texel density (a length over a length) at 95 % of the area over that at 5 %."""
-        in_space, in_plane = self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles))
-        known = (in_space > 0.0) & (in_plane > 0.0)
-        if not known.any():
-            return 1.0
-        order = np.argsort(in_plane[known] / in_space[known])
-        share = np.cumsum(in_space[known][order])
-        low, high = np.searchsorted(share, np.array([0.05, 0.95]) * share[-1])
-        ratio = (in_plane[known] / in_space[known])[order]
-        return float(np.sqrt(ratio[high] / ratio[low]))
+        return density_ratio(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)))
 
     def turned(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 2) of the shape after the turn."""

@@ -2,6 +2,7 @@
 """Surfaces as tiles of flat tori and cylinders: from a surface to UV coordinates of its corners."""
 
 import dataclasses
+import functools
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,8 @@ from .seams import cut_edges
 from .surface import Island, Surface
 from .tile_domains import DOMAINS
 from .tile_fit import FittedTile, fitted
-from .wording import counted, own_warnings
+from .triangles import density_ratio, signed_areas
+from .wording import counted, own_warnings, too_uneven
 
 if TYPE_CHECKING:
     from koebe import TileMap
@@ -49,6 +51,13 @@ class TileIsland:
     def angle_error(self) -> float:
         """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
         return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
+
+    @functools.cached_property
+    def density_ratio(self) -> float:
+        """Texel density at 95 % of the area over that at 5 %."""
+        count = len(self.tile.uv)
+        corners = np.arange(3 * count).reshape(-1, 3)
+        return density_ratio(self.island.areas, np.abs(signed_areas(self.tile.uv.reshape(-1, 2), corners)))
 
     @property
     def flipped_faces(self) -> np.ndarray:
@@ -128,6 +137,8 @@ class TileOutcome:
             words.pop(1)
         if not self.converged:
             words.append("NOT CONVERGED")
+        if any(too_uneven(one) for one in self.mapped):
+            words.append("texels very uneven: Unwrap to Parts makes them even")
         return f"{self.name}: {', '.join(words)}"
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import elements_of, kind_of
-from .outcomes import Failure, Failures, IslandOutcome, SurfaceOutcome, Task
+from .outcomes import Failure, Failures, IslandOutcome, Mapped, SurfaceOutcome, Task
 from .surface import Island
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def notes(outcome: SurfaceOutcome) -> list[tuple[IslandOutcome, str]]:
     return found
 
 
-def too_uneven(one: IslandOutcome) -> bool:
+def too_uneven(one: Mapped) -> bool:
     """Whether nobody can paint on a mapped island: texels too uneven, or faces too small for them."""
     return bool(one.result.below_resolution) or one.density_ratio > MOST_UNEVEN
 

@@ -202,6 +202,7 @@ def _record_tile(entry: KoebeIslandReport, outcome: TileOutcome, one: TileIsland
     entry.tile, entry.modulus, entry.periods = outcome.choice.domain, modulus_text(result), periods_text(one.tile)
     entry.angle_error, entry.seconds = one.angle_error, result.seconds["total"]
     entry.flipped, entry.flipped_faces = len(one.flipped), json.dumps(one.flipped_faces.tolist())
+    entry.uneven = too_uneven(one)
     entry.cut_length, entry.cut_edges = result.cut_length, json.dumps(np.flatnonzero(one.cuts).tolist())
     entry.message = "; ".join([*outcome.warnings(one), *outcome.remarks])
     for number, of_loop in enumerate(result.loops):

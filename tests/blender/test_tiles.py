@@ -289,6 +289,21 @@ def test_a_shared_mesh_counts_once():
     assert_torus(other)
 
 
+def test_uneven_texels_are_told():
+    """A tube with one wide end: a long cone."""
+    obj = add_tube(m=40)
+    for number, vertex in enumerate(obj.data.vertices):
+        vertex.co *= 1.2 ** (number % 41)
+    assert ring() == {"FINISHED"}
+    assert last_run().uneven
+    assert unwrap_even() == {"FINISHED"} and not last_run().uneven
+
+
+def unwrap_even():
+    add_torus("Even")
+    return torus()
+
+
 # ---------------------------------------------------------------- seams, islands, selections
 
 
