@@ -24,7 +24,6 @@ import signal
 import subprocess
 import sys
 import traceback
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -73,9 +72,8 @@ from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all 
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
-from koebe_uv_batch.maps import json_report, wording  # noqa: E402
-from koebe_uv_batch.maps.options import Options  # noqa: E402
-from koebe_uv_batch.maps.outcomes import SurfaceOutcome  # noqa: E402
+from koebe_uv_batch.jobs.tile_job import TileJob  # noqa: E402
+from koebe_uv_batch.maps import wording  # noqa: E402
 from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
 
 OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
@@ -111,7 +109,7 @@ def run() -> int:
         refuse_what_is_read([file for file in (output, report_file) if file is not None])
         job = map_objects(request)
         code = exit_code(job)
-        content["objects"] = [entry for outcome in job.outcomes for entry in json_report.entries(outcome)]
+        content["objects"] = [entry for outcome in job.outcomes for entry in job.entries(outcome)]
     except (Stop, MemoryError) as error:
         stop = error if isinstance(error, Stop) else OUT_OF_MEMORY
         if stop.code not in (BROKEN, UNMAPPABLE):
@@ -125,7 +123,8 @@ def run() -> int:
     else:
         content["output"] = request.output
     save(output, report_file, content)
-    tell_outcomes(job.outcomes if job is not None else ())
+    if job is not None:
+        tell_outcomes(job)
     return code
 
 
@@ -227,20 +226,25 @@ def new_job(objects: list[MeshObject], request: Request) -> Job:
     if without_faces and (request.names is not None or len(without_faces) == len(objects)):
         raise refusal(dict.fromkeys(without_faces, "it has no faces"))
     try:
-        return Job(objects, request.options)
+        return job_of(objects, request)
     except NativeError as error:
         raise Stop(BROKEN, error, "NativeError") from error
     except TransferError as error:
-        raise refusal(reasons(objects, request.options) or {"all objects": str(error)}) from error
+        raise refusal(reasons(objects, request) or {"all objects": str(error)}) from error
 
 
-def reasons(objects: list[MeshObject], chosen: Options) -> dict[str, str]:
+def job_of(objects: list[MeshObject], request: Request) -> Job:
+    """A job on all the objects. Raises NativeError and TransferError."""
+    return Job(objects, request.options) if request.tile is None else TileJob(objects, request.options, request.tile)
+
+
+def reasons(objects: list[MeshObject], request: Request) -> dict[str, str]:
     """Why objects cannot be mapped, by their names."""
     found = {}
     for obj in objects:
         try:
             if len(obj.data.polygons):
-                Job([obj], chosen)
+                job_of([obj], request)
         except TransferError as error:
             found[obj.name] = str(error).removeprefix(f"{obj.name}: ")
     return found
@@ -288,11 +292,11 @@ def save_blend(path: str) -> None:
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, check_existing=False, compress=False)
 
 
-def tell_outcomes(outcomes: Iterable[SurfaceOutcome]) -> None:
+def tell_outcomes(job: Job) -> None:
     """The result lines of the objects, and the reasons of those that failed."""
-    for outcome in outcomes:
+    for outcome in job.outcomes:
         if outcome.mapped:
-            say(wording.result_line(outcome), sys.stdout)
+            say(job.line(outcome), sys.stdout)
         if outcome.failed:
             tell(wording.failure_line(outcome))
 

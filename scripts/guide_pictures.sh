@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The guide's pictures.
 # Usage: scripts/guide_pictures.sh window     cut out of those that `make test-gui` leaves in out/gui
-#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and mug in parts
+#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and mug in parts, a torus tile
 set -euo pipefail
 cd "$(dirname "$0")/.."
 images=docs/images
@@ -28,6 +28,7 @@ drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
     draw mug parts_picture.py --output "$images/guide_parts_mug.jpg" --size 1000x500
+    draw mug tile_picture.py "$images/guide_tile.jpg"  # which takes nothing of the file
     ;;
 *)
     echo "window or drawn" >&2

@@ -9,7 +9,10 @@ slot, as joining objects throws one side away. A mesh without slots gets one, fo
 from typing import Any
 
 import bpy
+import numpy as np
 
+from ..maps.surface import Surface
+from ..maps.tile_pattern import Pattern, fits, fitting_pattern, lattices_of
 from . import material_slots
 from .checker_material import checker_materials, is_checker
 from .errors import TransferError
@@ -46,15 +49,25 @@ def even_sizes(size: float, densities: list[float]) -> list[float]:
     return [alike.setdefault(f"{one:.3g}", one) for one in sizes]
 
 
+def pattern_for(surface: Surface, uv: np.ndarray, size: float) -> tuple[Pattern, bool]:
+    """The checker with about so many squares across the UV square, and whether it runs over all cuts of all tiles.
+
+    surface, uv  all of a mesh, and its UVs (C, 2)
+    """
+    lattices = lattices_of(surface, uv)
+    pattern = fitting_pattern(lattices[0], size) if lattices else Pattern(size)
+    return pattern, all(fits(pattern, periods) for periods in lattices)
+
+
 def materials(
-    run: Transaction, objects: list[MeshObject], layer: str, sizes: list[float]
+    run: Transaction, objects: list[MeshObject], layer: str, patterns: list[Pattern]
 ) -> list[bpy.types.Material]:
-    """The checker of a UV layer that each of the objects is to wear, with so many squares across the UV square."""
+    """The checker of a UV layer that each of the objects is to wear."""
 
     def free(material: bpy.types.Material) -> bool:
         return all(obj in objects for obj in bpy.data.objects if _wears(obj, material))
 
-    return checker_materials(run, layer, sizes, free)
+    return checker_materials(run, layer, patterns, free)
 
 
 def _wears(obj: bpy.types.Object, material: bpy.types.Material) -> bool:

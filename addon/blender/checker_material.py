@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 
+from ..maps.tile_pattern import Pattern
 from . import compat
 from .noted_properties import set_property
 from .transaction import Transaction
@@ -13,6 +14,7 @@ from .transaction import Transaction
 NAME = "Koebe Checker"
 LAYER_KEY = "koebe_checker_layer"  # on the material: the UV layer that it shows
 SIZE_KEY = "koebe_checker_size"  # on the material: its squares across the UV square
+MATRIX_KEY = "koebe_checker_matrix"  # on the material: the linear map of the UVs, where it is that of a tile
 
 PAPER = (0.80, 0.76, 0.68, 1.0)
 INK = (0.045, 0.20, 0.26, 1.0)
@@ -27,34 +29,48 @@ def is_checker(material: bpy.types.Material | None) -> bool:
 
 
 def checker_materials(
-    run: Transaction, layer: str, sizes: list[float], free: Callable[[bpy.types.Material], bool]
+    run: Transaction, layer: str, patterns: list[Pattern], free: Callable[[bpy.types.Material], bool]
 ) -> list[bpy.types.Material]:
-    """The checker of a UV layer for each of some numbers of squares across the UV square.
+    """The checker of a UV layer for each of some patterns.
 
-    One of that size is used again, else one for which `free(material)` says that nobody else wears it, else a new one.
+    One of that pattern is used again, else one for which `free(material)` says that nobody else wears it, else a new
+    one.
     """
     mine = [one for one in bpy.data.materials if one.library is None and one.get(LAYER_KEY) == layer and one.node_tree]
-    chosen: dict[float, bpy.types.Material] = {}
-    for size in dict.fromkeys(sizes):
+    chosen: dict[Pattern, bpy.types.Material] = {}
+    for pattern in dict.fromkeys(patterns):
         left = [one for one in mine if one not in chosen.values()]
-        material = next((one for one in left if one.get(SIZE_KEY) == size), None)
+        material = next((one for one in left if _pattern_of(one) == pattern), None)
         if material is None:
-            others = [one for one in left if one.get(SIZE_KEY) not in sizes]
-            material = next(filter(free, others), None) or _new_material(run, layer)
-        if material.get(SIZE_KEY) != size:
-            run.before_write(_set_sizes, material.node_tree, _sizes(material.node_tree))
-            set_property(run, material, SIZE_KEY, size)
-            _set_sizes(material.node_tree, {"Fine": size, "Coarse": size / COARSE})
-        chosen[size] = material
-    return [chosen[size] for size in sizes]
+            others = [one for one in left if _pattern_of(one) not in patterns and _is_like(one, pattern)]
+            material = next(filter(free, others), None) or _new_material(run, layer, pattern)
+        if _pattern_of(material) != pattern:
+            run.before_write(_set_values, material.node_tree, _values(material.node_tree))
+            set_property(run, material, SIZE_KEY, pattern.size)
+            if pattern.matrix is not None:
+                set_property(run, material, MATRIX_KEY, list(pattern.matrix))
+            _set_values(material.node_tree, _values_of(pattern))
+        chosen[pattern] = material
+    return [chosen[pattern] for pattern in patterns]
 
 
-def _new_material(run: Transaction, layer: str) -> bpy.types.Material:
+def _pattern_of(material: bpy.types.Material) -> Pattern | None:
+    """What a checker shows, or None of one that is new."""
+    size, matrix = material.get(SIZE_KEY), material.get(MATRIX_KEY)
+    return None if size is None else Pattern(size, None if matrix is None else tuple(matrix))
+
+
+def _is_like(material: bpy.types.Material, pattern: Pattern) -> bool:
+    """Whether its nodes can show such a pattern."""
+    return (MATRIX_KEY in material) == (pattern.matrix is not None)
+
+
+def _new_material(run: Transaction, layer: str, pattern: Pattern) -> bpy.types.Material:
     run.before_write(_remove_new, {material.name for material in bpy.data.materials if material.library is None})
     material = bpy.data.materials.new(NAME)
     material[LAYER_KEY] = layer
     compat.enable_nodes(material)
-    _build(material.node_tree, layer)
+    _build(material.node_tree, layer, pattern)
     return material
 
 
@@ -64,7 +80,7 @@ def _remove_new(names: set[str]) -> None:
             bpy.data.materials.remove(material)
 
 
-def _build(tree: Any, layer: str) -> None:
+def _build(tree: Any, layer: str, pattern: Pattern) -> None:
     tree.nodes.clear()
     uv = _node(tree, "ShaderNodeUVMap", (-800, 0), uv_map=layer)
     fine = _node(tree, "ShaderNodeTexChecker", (-560, 120), name="Fine")
@@ -79,8 +95,17 @@ def _build(tree: Any, layer: str) -> None:
     shade.inputs["Fac"].default_value = 1.0
     surface.inputs["Roughness"].default_value = 0.55
     link = tree.links.new
-    link(uv.outputs["UV"], fine.inputs["Vector"])
-    link(uv.outputs["UV"], coarse.inputs["Vector"])
+    place = uv.outputs["UV"]
+    if pattern.matrix is not None:
+        point = _node(tree, "ShaderNodeCombineXYZ", (-740, 0))
+        for name, axis in (("Across", "X"), ("Up", "Y")):
+            row = _node(tree, "ShaderNodeVectorMath", (-920, 0), name=name, operation="DOT_PRODUCT")
+            link(place, row.inputs[0])
+            link(row.outputs["Value"], point.inputs[axis])
+        uv.location.x -= 300
+        place = point.outputs["Vector"]
+    link(place, fine.inputs["Vector"])
+    link(place, coarse.inputs["Vector"])
     link(fine.outputs["Color"], shade.inputs["Color1"])
     link(coarse.outputs["Color"], shade.inputs["Color2"])
     link(shade.outputs["Color"], surface.inputs["Base Color"])
@@ -95,14 +120,32 @@ def _node(tree: bpy.types.NodeTree, kind: str, location: tuple[float, float], **
     return node
 
 
-def _sizes(tree: Any) -> dict[str, float]:
-    """The squares of the nodes that are still there: the user may have edited the material."""
-    found = {name: tree.nodes.get(name) for name in ("Fine", "Coarse")}
-    return {name: node.inputs["Scale"].default_value for name, node in found.items() if node and "Scale" in node.inputs}
+SCALES, ROWS = ("Fine", "Coarse"), ("Across", "Up")  # names of nodes, whose inputs a pattern sets
 
 
-def _set_sizes(tree: Any, sizes: dict[str, float]) -> None:
-    for name in _sizes(tree).keys() & sizes.keys():
-        tree.nodes[name].inputs["Scale"].default_value = sizes[name]
+def _values_of(pattern: Pattern) -> dict[str, Any]:
+    if pattern.matrix is None:
+        return {"Fine": pattern.size, "Coarse": pattern.size / COARSE}
+    a, b, c, d = pattern.matrix
+    return {"Fine": 1.0, "Coarse": 1.0 / COARSE, "Across": (a, b, 0.0), "Up": (c, d, 0.0)}
 
 
+def _inputs(tree: Any) -> dict[str, Any]:
+    """The inputs of the nodes that are still there: the user may have edited the material."""
+    scales = {name: tree.nodes.get(name) for name in SCALES}
+    rows = {name: tree.nodes.get(name) for name in ROWS}
+    return {
+        **{name: node.inputs["Scale"] for name, node in scales.items() if node and "Scale" in node.inputs},
+        **{name: node.inputs[1] for name, node in rows.items() if node and node.type == "VECT_MATH"},
+    }
+
+
+def _values(tree: Any) -> dict[str, Any]:
+    values = {name: one.default_value for name, one in _inputs(tree).items()}
+    return {name: value if name in SCALES else tuple(value) for name, value in values.items()}
+
+
+def _set_values(tree: Any, values: dict[str, Any]) -> None:
+    for name, one in _inputs(tree).items():
+        if name in values:
+            one.default_value = values[name]

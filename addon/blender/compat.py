@@ -131,6 +131,11 @@ def chosen_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     return _face_flag(mesh, ".select_poly") & ~_face_flag(mesh, ".hide_poly")
 
 
+def shown_faces(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Whether each face (P,) is not hidden. The mesh must not be in Edit Mode."""
+    return ~_face_flag(mesh, ".hide_poly")
+
+
 def _face_flag(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     if name not in mesh.attributes:  # then it is false everywhere
         return np.zeros(len(mesh.polygons), dtype=bool)

@@ -34,7 +34,8 @@ def add_flat_object(
     number = compat.read(source.data.polygons, "material_index", np.int32)[layout.faces]
     for slot in source.material_slots:
         mesh.materials.append(slot.material)
-    mesh.polygons.foreach_set("material_index", number)
+    if number.any():  # else Blender would keep an attribute of zeros, which goes when a checker is taken off
+        mesh.polygons.foreach_set("material_index", number)
     mesh.update()
     obj = bpy.data.objects.new(f"{source.name} Flat", mesh)
     obj.location = place

@@ -129,6 +129,18 @@ def vertex_weights(obj: MeshObject, group: str) -> np.ndarray | None:
     return np.clip(weights, 0.0, 1.0)
 
 
+def selected_vertices(obj: MeshObject) -> np.ndarray:
+    """Whether each vertex (V,) of an object in Edit Mode is selected; as of `read_surface`."""
+    with arrays(obj) as mesh:
+        return compat.read(mesh.vertices, "select", bool)
+
+
+def shown_faces(obj: MeshObject) -> np.ndarray:
+    """Whether each face (P,) is not hidden; as of `read_surface`."""
+    with arrays(obj) as mesh:
+        return compat.shown_faces(mesh)
+
+
 def active_vertex(obj: MeshObject) -> int | None:
     """Index of the active vertex of an object in Edit Mode, or None."""
     if obj.mode != "EDIT":

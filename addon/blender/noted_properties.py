@@ -24,7 +24,9 @@ def _restore_property(owner: bpy.types.ID, key: str, value: Any) -> None:
 
 def _plain(value: Any) -> Any:
     """A custom property's value, which stays when the property is gone."""
-    return value.to_dict() if hasattr(value, "to_dict") else value
+    if hasattr(value, "to_dict"):
+        return value.to_dict()
+    return value.to_list() if hasattr(value, "to_list") else value
 
 
 def note_group(run: Transaction, group: bpy.types.PropertyGroup) -> None:

@@ -6,6 +6,7 @@
 
 import dataclasses
 from contextlib import AbstractContextManager
+from typing import Any
 
 import bpy
 
@@ -14,10 +15,13 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, reason, with_own_meshes
 from ..blender.transaction import Transaction, transaction
+from ..maps import json_report
 from ..maps.mapping import map_surfaces
 from ..maps.options import Options
 from ..maps.outcomes import LATER, Place, Progress, SurfaceOutcome, Task
-from ..maps.wording import few
+from ..maps.surface import Surface
+from ..maps.tile_pattern import Pattern
+from ..maps.wording import few, result_line
 from . import native_package
 
 
@@ -77,7 +81,7 @@ class Job:
 
     def _add(self, obj: MeshObject, selected_only: bool) -> None:
         check_mesh(obj)
-        surface = mesh_reading.read_surface(obj, selected_only)
+        surface = self._surface(obj, selected_only)
         if not surface.selected.any():
             return
         uv_layers.check_layer(obj, self.options.layer)
@@ -92,6 +96,9 @@ class Job:
         self.tasks.append(
             Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
         )
+
+    def _surface(self, obj: MeshObject, selected_only: bool) -> Surface:
+        return mesh_reading.read_surface(obj, selected_only)
 
     def _even_importance(self) -> None:
         """Count from the least importance there is, an object without the group having none. Raises TransferError."""
@@ -117,6 +124,14 @@ class Job:
     def compute(self, progress: Progress | None = None) -> None:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
         self.outcomes = map_surfaces(self.koebe, self.tasks, self.options, progress, self.cancel_token)
+
+    def line(self, outcome: SurfaceOutcome) -> str:
+        """One line on a surface of which something was mapped."""
+        return result_line(outcome)
+
+    def entries(self, outcome: SurfaceOutcome) -> list[dict[str, Any]]:
+        """One entry of the JSON report per island."""
+        return json_report.entries(outcome)
 
     def read_old_uv(self) -> None:
         """Note where the islands are now, for the placement "keep": call it before anything changes."""
@@ -174,7 +189,11 @@ class Job:
         sizes = [self.options.checker_size] * len(plans)
         if self.options.checker_even and len(plans) > 1:
             sizes = checker.even_sizes(sizes[0], [plan.density for plan in plans])
-        return [*checker.materials(run, [plan.obj for plan in plans], self.options.layer, sizes)]
+        patterns = [self._pattern(*pair) for pair in zip(plans, sizes, strict=True)]
+        return [*checker.materials(run, [plan.obj for plan in plans], self.options.layer, patterns)]
+
+    def _pattern(self, plan: map_writing.Plan, size: float) -> Pattern:
+        return Pattern(size)
 
     def _write_one(
         self, run: Transaction, outcome: SurfaceOutcome, plan: map_writing.Plan, material: bpy.types.Material | None

@@ -8,7 +8,7 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.transaction import Transaction
 from ..maps.options import Options
-from ..maps.outcomes import LATER, Progress
+from ..maps.outcomes import LATER, Progress, share_of
 from ..maps.parts import PartsOutcome, cut_into_parts
 from .map_job import Job
 
@@ -38,13 +38,8 @@ class PartsJob(Job):
         for task in self.tasks:
             share = len(task.surface.triangle_face)
 
-            def tell(fraction: float, stage: str, done: int = done, share: int = share) -> None:
-                assert progress is not None
-                progress((done + fraction * share) / total, stage)
-
-            outcomes.append(
-                cut_into_parts(self.koebe, task, self.price, tell if progress else None, self.cancel_token)
-            )
+            part = share_of(progress, done, share, total)
+            outcomes.append(cut_into_parts(self.koebe, task, self.price, part, self.cancel_token))
             done += share
         self.outcomes = outcomes
 

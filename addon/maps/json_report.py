@@ -7,10 +7,11 @@ import numpy as np
 
 from .errors import elements_of, kind_of
 from .opening import Opening
-from .outcomes import IslandOutcome, SurfaceOutcome, Task
+from .outcomes import Failure, IslandOutcome, SurfaceOutcome, Task
 from .rounding import RESOLUTION
+from .tiles import TileIsland, TileOutcome
 from .triangles import longest_edges
-from .wording import cut_line, warnings
+from .wording import cut_line, in_mesh, warnings
 
 
 def entries(outcome: SurfaceOutcome) -> list[dict[str, Any]]:
@@ -43,15 +44,56 @@ def _cuts(opening: Opening) -> dict[str, Any]:
     }
 
 
-def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
-    entry = {"object": task.name, "island": index, "island_faces": len(one.island.faces)}
+def tile_entries(outcome: TileOutcome) -> list[dict[str, Any]]:
+    """One dict per island: `result.to_dict()` of the tile in the mesh's numbers, as it is in the UVs, or the error."""
+    return [_tile_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
+
+
+def _tile_entry(outcome: TileOutcome, index: int, one: TileIsland) -> dict[str, Any]:
+    entry = _head(outcome.task, index, one)
     if one.error is not None:
-        error: dict[str, Any] = {"name": type(one.error).__name__, "reason": str(one.error)}
-        kind = kind_of(one.error)
-        if kind is not None:
-            error["kind"] = kind
-            error["count"] = len(elements_of(one.error))
-        return {**entry, "error": error}
+        return entry
+    result, source = one.result.to_dict(), one.island.source_vertex
+    matrix, offset = one.tile.move
+    for loop in result["loops"]:
+        for key in ("vertices", "off_circle"):
+            loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()
+        if "slit" in loop:
+            loop["slit"] = (np.array(loop["slit"]) @ matrix.T + offset).tolist()
+        if "center" in loop and outcome.choice.domain == "torus":
+            if outcome.choice.fit == "square":  # an ellipse
+                del loop["center"], loop["radius"]
+            else:
+                center, loop["radius"] = one.circle(loop, outcome.choice.fit)
+                loop["center"] = list(center)
+    result["turned"] = np.unique(one.island.triangle_face[np.asarray(result["turned"], dtype=np.int64)]).tolist()
+    result["periods"] = one.tile.periods.tolist()
+    result.update(one.distortion or {})
+    result["flipped"] = len(one.flipped)
+    result["warnings"] = [
+        *(in_mesh(one.island, warning) for warning in one.result.warnings),
+        *({"kind": kind, "elements": [], "text": text} for kind, text in outcome.own_warnings(one)),
+    ]
+    return {**result, **entry, "domain": outcome.choice.domain, "fit": outcome.choice.fit}
+
+
+def _head(task: Task, index: int, one: Failure) -> dict[str, Any]:
+    """Which island it is, and its error."""
+    entry = {"object": task.name, "island": index, "island_faces": len(one.island.faces)}
+    if one.error is None:
+        return entry
+    error: dict[str, Any] = {"name": type(one.error).__name__, "reason": str(one.error)}
+    kind = kind_of(one.error)
+    if kind is not None:
+        error["kind"] = kind
+        error["count"] = len(elements_of(one.error))
+    return {**entry, "error": error}
+
+
+def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
+    entry = _head(task, index, one)
+    if one.error is not None:
+        return entry
     result = one.result.to_dict()
     source = one.island.source_vertex
     for name in {"center", "point"} & result.keys():

@@ -217,7 +217,7 @@ def _map_island(
     arguments = options.solver_arguments()
     one = IslandOutcome(island, places=vertices)
     with _failing_alone(koebe, [one]):
-        _check_area(island)
+        check_area(island)
         if options.tube == "unroll" and _is_tube(koebe, island):
             # A concentric annulus keeps its digits however small the hole; moved off the centre it loses them.
             arguments["balance"] = "none"
@@ -246,7 +246,7 @@ def _is_tube(koebe: ModuleType, island: Island) -> bool:
     return len(koebe.boundary_loops(island.triangles, vertex_count=len(island.vertices))) == 2
 
 
-def _check_area(island: Island) -> None:
+def check_area(island: Island) -> None:
     """Raise MapError where every face is collapsed; coordinates that are not finite are the solver's to judge."""
     some = island.triangles[:: max(1, len(island.triangles) // FEW)]
     if _are_flat(island.vertices, some) and _are_flat(island.vertices, island.triangles):

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .errors import elements_of, kind_of
-from .outcomes import IslandOutcome
+from .outcomes import Failure
 from .surface import Island, Surface
 
 VERTICES, EDGES, FACES = "vertices", "edges", "faces"
@@ -12,7 +12,7 @@ VERTICES, EDGES, FACES = "vertices", "edges", "faces"
 SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus")
 
 
-def offending_elements(surface: Surface, failure: IslandOutcome) -> tuple[str, np.ndarray]:
+def offending_elements(surface: Surface, failure: Failure) -> tuple[str, np.ndarray]:
     """(VERTICES, EDGES or FACES, indices) of what to show for an island that could not be mapped.
 
     Where the error names nothing that could be seen, as on a closed surface, that is the whole island.

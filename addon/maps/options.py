@@ -13,6 +13,10 @@ PLACES = ("auto", "active", "cursor")
 TUBES = ("annulus", "unroll")
 SYMMETRIES = ("off", "auto")
 PLACEMENTS = ("pack", "together", "keep")
+TILE_DOMAINS = ("torus", "ring")
+HOLES = ("circles", "concentric", "radial")
+RIMS = ("auto", "selected")
+FITS = ("inside", "period", "square")
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
 MAX_LAYER_NAME_BYTES = 63
@@ -95,10 +99,7 @@ class Options:
             raise OptionError("symmetry excludes a centre and a rim point: both choose where the disk's centre is")
         if self.importance and self.balance != "area":
             raise OptionError("importance weighs the balance: set Balance to Area")
-        if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
-            raise OptionError(f"tolerance: {self.tolerance} is not a positive number")
-        if self.max_sweeps < 1:
-            raise OptionError(f"max_sweeps: {self.max_sweeps} is less than 1")
+        _check_iteration(self.tolerance, self.max_sweeps)
         if self.threads < 0:
             raise OptionError(f"threads: {self.threads} is negative")
         if not 0.0 <= self.margin < 0.5:
@@ -118,6 +119,39 @@ class Options:
             "polish": self.polish,
             "threads": self.threads,
         }
+
+
+@dataclasses.dataclass(frozen=True)
+class TileChoice:
+    """What to compute of a map whose UVs are a tile.
+
+    holes  of a ring, what becomes of the loops that are no rims: "circles", "concentric" or "radial"
+    rims   of a ring: "auto" (the two longest loops; in Edit Mode the two with selected vertices, if there are just two)
+           or "selected" (those two, or an error)
+    fit    "inside": the tile is as large as it fits the UV square. "period": its first period is 1 along u. "square":
+           its periods are 1 along u and 1 along v, the height of a ring is 1; that is not conformal
+    """
+
+    domain: str = "torus"
+    holes: str = "circles"
+    rims: str = "auto"
+    fit: str = "inside"
+    tolerance: float = 1e-6
+    max_sweeps: int = 50
+
+    def __post_init__(self) -> None:
+        _one_of("domain", self.domain, TILE_DOMAINS)
+        _one_of("holes", self.holes, HOLES)
+        _one_of("rims", self.rims, RIMS)
+        _one_of("fit", self.fit, FITS)
+        _check_iteration(self.tolerance, self.max_sweeps)
+
+
+def _check_iteration(tolerance: float, max_sweeps: int) -> None:
+    if not (math.isfinite(tolerance) and tolerance > 0.0):
+        raise OptionError(f"tolerance: {tolerance} is not a positive number")
+    if max_sweeps < 1:
+        raise OptionError(f"max_sweeps: {max_sweeps} is less than 1")
 
 
 def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:

@@ -3,8 +3,8 @@
 
 import dataclasses
 import functools
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from .opening import Opening
 from .packing import Placement
 from .rounding import rounded
 from .surface import Island, Surface
-from .triangles import as_complex, as_points, signed_areas
+from .triangles import as_complex, as_points, density_ratio, signed_areas
 
 if TYPE_CHECKING:
     from koebe import UniformizeResult
@@ -22,6 +22,44 @@ Progress = Callable[[float, str], None]  # called with a fraction and a stage
 # A vertex of the surface, or a place (3,) in its space that a vertex is to be nearest to.
 Place = int | np.ndarray | None
 LATER: Any = None  # of what is not there from the start, and is not asked for before it is
+
+
+def share_of(progress: Progress | None, done: int, size: int, total: int) -> Progress | None:
+    """Progress of some of all work as a part of that of all, given what is done before."""
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress((done + fraction * size) / max(total, 1), stage)
+
+
+class Mapped(Protocol):
+    """An island with a map, and how even its texels are."""
+
+    @property
+    def result(self) -> Any: ...
+    @property
+    def density_ratio(self) -> float: ...
+
+
+class Failure(Protocol):
+    """An island, and why it could not be mapped."""
+
+    @property
+    def island(self) -> Island: ...
+    @property
+    def error(self) -> Exception | None: ...
+
+
+class Failures(Protocol):
+    """What became of a surface, as far as it could not be mapped, or not be written."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def not_written(self) -> str | None: ...
+    @property
+    def islands(self) -> Sequence[Failure]: ...
+    @property
+    def failed(self) -> Sequence[Failure]: ...
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,15 +123,7 @@ class IslandOutcome:
     @functools.cached_property
     def density_ratio(self) -> float:
         """Texel density (a length over a length) at 95 % of the area over that at 5 %."""
-        in_space, in_plane = self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles))
-        known = (in_space > 0.0) & (in_plane > 0.0)
-        if not known.any():
-            return 1.0
-        order = np.argsort(in_plane[known] / in_space[known])
-        share = np.cumsum(in_space[known][order])
-        low, high = np.searchsorted(share, np.array([0.05, 0.95]) * share[-1])
-        ratio = (in_plane[known] / in_space[known])[order]
-        return float(np.sqrt(ratio[high] / ratio[low]))
+        return density_ratio(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)))
 
     def turned(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 2) of the shape after the turn."""

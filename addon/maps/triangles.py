@@ -38,6 +38,18 @@ def signed_areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     return result
 
 
+def density_ratio(in_space: np.ndarray, in_plane: np.ndarray) -> float:
+    """Texel density (a length over a length) at 95 % of the area over that at 5 %, by the areas (t,) of triangles."""
+    known = (in_space > 0.0) & (in_plane > 0.0)
+    if not known.any():
+        return 1.0
+    order = np.argsort(in_plane[known] / in_space[known])
+    share = np.cumsum(in_space[known][order])
+    low, high = np.searchsorted(share, np.array([0.05, 0.95]) * share[-1])
+    ratio = (in_plane[known] / in_space[known])[order]
+    return float(np.sqrt(ratio[high] / ratio[low]))
+
+
 def longest_edges(corners: np.ndarray) -> np.ndarray:
     """Length (t,) of the longest edge of each triangle, given by its corners (t, 3, 2)."""
     return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import elements_of, kind_of
-from .outcomes import IslandOutcome, SurfaceOutcome, Task
+from .outcomes import Failure, Failures, IslandOutcome, Mapped, SurfaceOutcome, Task
 from .surface import Island
 
 if TYPE_CHECKING:
@@ -105,17 +105,17 @@ def notes(outcome: SurfaceOutcome) -> list[tuple[IslandOutcome, str]]:
     return found
 
 
-def too_uneven(one: IslandOutcome) -> bool:
+def too_uneven(one: Mapped) -> bool:
     """Whether nobody can paint on a mapped island: texels too uneven, or faces too small for them."""
     return bool(one.result.below_resolution) or one.density_ratio > MOST_UNEVEN
 
 
-def failure_line(outcome: SurfaceOutcome) -> str:
+def failure_line(outcome: Failures) -> str:
     """One line on the islands of a surface that could not be mapped, or written: how many and why."""
     if outcome.not_written:
         return outcome.not_written
     failed = outcome.failed
-    reasons: dict[str, list[IslandOutcome]] = {}
+    reasons: dict[str, list[Failure]] = {}
     for one in failed:
         reasons.setdefault(explain(one.error), []).append(one)
     text = "; ".join(
@@ -141,15 +141,19 @@ def explain(error: Exception | None) -> str:
 def warnings(task: Task, one: IslandOutcome) -> list[dict[str, Any]]:
     """What to watch out for in a mapped island: kind, elements in the mesh's numbers (those of loops aside), text."""
     native = [
-        _in_mesh(one.island, warning)
+        in_mesh(one.island, warning)
         for warning in one.result.warnings
         if not (one.unrolled and warning.kind == OF_THE_DISK)
     ]
-    own = [("mirrored", MIRRORED)] * task.mirrored + [("pinned", PINNED)] * task.pinned
-    return [*native, *({"kind": kind, "elements": [], "text": text} for kind, text in own)]
+    return [*native, *({"kind": kind, "elements": [], "text": text} for kind, text in own_warnings(task))]
 
 
-def _in_mesh(island: Island, warning: "koebe.Warning") -> dict[str, Any]:
+def own_warnings(task: Task) -> list[tuple[str, str]]:
+    """Kind and text of what to watch out for in all islands of a surface, beside what the solver warns of."""
+    return [("mirrored", MIRRORED)] * task.mirrored + [("pinned", PINNED)] * task.pinned
+
+
+def in_mesh(island: Island, warning: "koebe.Warning") -> dict[str, Any]:
     """A warning with its elements as the mesh numbers them."""
     number = {"vertices": island.source_vertex, "faces": island.triangle_face}.get(warning.of)
     return dict(warning if number is None else warning.renumbered(number))

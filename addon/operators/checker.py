@@ -2,6 +2,7 @@
 """The operator that puts the checker on objects and takes it off."""
 
 import bpy
+import numpy as np
 
 from ..blender import checker, edit_mode
 from ..blender.mesh_object import MeshObject
@@ -9,6 +10,8 @@ from ..blender.mesh_reading import read_layer, read_surface
 from ..blender.targets import attempt, target_objects
 from ..blender.transaction import transaction
 from ..maps.distortion import texel_density
+from ..maps.surface import Surface
+from ..maps.tile_pattern import Pattern
 from ..maps.wording import few, lines
 from ..state.option_properties import option
 from .run_operator import can_map
@@ -37,7 +40,10 @@ class UV_OT_koebe_checker(bpy.types.Operator):
             sizes = [self.checker_size] * len(objects)
             if not wearing and self.checker_even and len(objects) > 1:
                 sizes = checker.even_sizes(self.checker_size, [self._density(obj) for obj in objects])
-            materials = [None] * len(objects) if wearing else checker.materials(run, objects, self.layer, sizes)
+            materials: list[bpy.types.Material | None] = [None] * len(objects)
+            if not wearing:
+                patterns = [self._pattern(*pair) for pair in zip(objects, sizes, strict=True)]
+                materials = [*checker.materials(run, objects, self.layer, patterns)]
             for obj, material in zip(wearing or objects, materials):
                 with attempt(run, obj.name, problems):
                     checker.check(obj)
@@ -54,12 +60,22 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                 self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
             return {"FINISHED"}
 
-    def _density(self, obj: MeshObject) -> float:
-        """Lengths in the UVs over lengths in space; 0 where there are none, or where they cannot be read."""
+    def _read(self, obj: MeshObject) -> tuple[Surface, np.ndarray] | None:
+        """The surface and its UVs (C, 2), or None where there are none, or where they cannot be read."""
         if self.layer not in obj.data.uv_layers or (obj.data.is_editmode and obj.mode != "EDIT"):
-            return 0.0
+            return None
         surface = read_surface(obj, selected_only=False)
-        return texel_density(surface, read_layer(obj, self.layer))
+        return surface, read_layer(obj, self.layer)
+
+    def _density(self, obj: MeshObject) -> float:
+        """Lengths in the UVs over lengths in space; 0 where they are not known."""
+        found = self._read(obj)
+        return texel_density(*found) if found else 0.0
+
+    def _pattern(self, obj: MeshObject, size: float) -> Pattern:
+        """The checker of that size, or the nearest one that runs over the cuts of a tile."""
+        found = self._read(obj)
+        return checker.pattern_for(*found, size)[0] if found else Pattern(size)
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_checker,))

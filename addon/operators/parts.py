@@ -9,7 +9,7 @@ from ..blender.transaction import transaction
 from ..jobs.parts_job import PartsJob
 from ..maps.parts import NO_CUTS, price_of
 from ..state import run_report
-from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, part_options_of
+from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, written_options_of
 from .modal_run import redraw
 from .run_operator import MapOperator
 from .tooltip import tooltip
@@ -28,7 +28,7 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
         price = price_of(self.evenness) if self.seams == "add" else NO_CUTS
         return PartsJob(
-            target_objects(context), part_options_of(self), price, selected_only, refused=[],
+            target_objects(context), written_options_of(self), price, selected_only, refused=[],
             write_seams=self.write_seams,
         )  # fmt: skip
 

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options as Blender properties: of the operator (redo panel) and of the scene (panel, before the run)."""
 
+import dataclasses
 from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from ..maps.options import Options
+from ..maps.options import Options, TileChoice
 
 DEFAULTS = Options()
+DEFAULT_TILE = TileChoice()
 
 
 class UniformizeProperties:
@@ -229,6 +231,71 @@ class PartsProperties:
 
 
 PART_OPTION_NAMES = tuple(PartsProperties.__annotations__)
+WRITTEN_NAMES = ("layer", "checker", "checker_size", "checker_even")  # which all maps have
+
+
+FIT = EnumProperty(
+    name="Fit",
+    items=[
+        ("inside", "Inside", "As large as it fits the UV square. Angles are kept"),
+        ("period", "Period 1", "Its first period is exactly 1 along U, so that an image that repeats meets itself "
+         "there. Angles are kept; it may be larger than the UV square"),
+        ("square", "Unit Square", "Its periods are exactly 1 along U and 1 along V, of a cylinder its height is 1: a "
+         "square image that repeats fits all round. Stretched for it: angles are not kept"),
+    ],
+    default=DEFAULT_TILE.fit,
+    description="How large the tile is in the UVs",
+)
+
+HOLES = EnumProperty(
+    name="Holes",
+    items=[
+        ("circles", "Circles", "The other holes are circles of the round annulus whose unrolled image the cylinder is"),
+        ("concentric", "Slits Round", "The other holes become slits round the cylinder, along U"),
+        ("radial", "Slits Along", "The other holes become slits along the cylinder, along V"),
+    ],
+    default=DEFAULT_TILE.holes,
+    description="What becomes of the loops that are no rims of the cylinder",
+)
+
+RIMS = EnumProperty(
+    name="Rims",
+    items=[
+        ("auto", "Automatic", "The two longest loops. In Edit Mode with vertices selected and no face: the two loops "
+         "that the selection touches"),
+        ("selected", "Selected", "The two loops that have selected vertices, of all of the surface (Edit Mode)"),
+    ],
+    default=DEFAULT_TILE.rims,
+    description="The two boundary loops that become the ends of the cylinder. The lower one is where V is 0",
+)
+
+
+class TorusProperties:
+    """What the artist can choose of a torus tile, beside the options of all maps that it has."""
+
+    fit: FIT
+    tolerance: option("tolerance")
+    max_sweeps: option("max_sweeps")
+    layer: option("layer")
+    checker: option("checker")
+    checker_size: option("checker_size")
+    checker_even: option("checker_even")
+
+
+class RingProperties(TorusProperties):
+    """The same of a cylinder."""
+
+    holes: HOLES
+    rims: RIMS
+
+
+TORUS_OPTION_NAMES = tuple(TorusProperties.__annotations__)
+RING_OPTION_NAMES = (*RingProperties.__annotations__, *TORUS_OPTION_NAMES)
+
+
+def tile_option_names(domain: str) -> tuple[str, ...]:
+    """The options of the operator of a domain."""
+    return {"torus": TORUS_OPTION_NAMES, "ring": RING_OPTION_NAMES}[domain]
 
 
 class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
@@ -237,9 +304,12 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     evenness: EVENNESS
     seams: SEAMS
     write_seams: WRITE_SEAMS
+    fit: FIT
+    holes: HOLES
+    rims: RIMS
 
 
-SETTING_NAMES = tuple(dict.fromkeys((*OPTION_NAMES, *PART_OPTION_NAMES)))
+SETTING_NAMES = tuple(dict.fromkeys((*OPTION_NAMES, *PART_OPTION_NAMES, *RING_OPTION_NAMES)))
 
 
 def settings_of(context: bpy.types.Context) -> KoebeSettings:
@@ -259,10 +329,21 @@ def copy_part_options(source: Any, target: Any) -> None:
         setattr(target, name, getattr(source, name))
 
 
-def part_options_of(properties: PartsProperties) -> Options:
-    """The `Options` of the operator that cuts into parts: its layer and checker. Raises OptionError."""
-    names = set(PART_OPTION_NAMES) & set(OPTION_NAMES)
-    return Options(**{name: getattr(properties, name) for name in names})
+def copy_tile_options(source: Any, target: Any, domain: str) -> None:
+    """Set the options of the operator of a domain from the settings."""
+    for name in tile_option_names(domain):
+        setattr(target, name, getattr(source, name))
+
+
+def tile_choice_of(domain: str, properties: Any) -> TileChoice:
+    """The `TileChoice` of the operator of a domain. Raises OptionError."""
+    known = {field.name for field in dataclasses.fields(TileChoice)}.intersection(tile_option_names(domain))
+    return TileChoice(domain, **{name: getattr(properties, name) for name in known})
+
+
+def written_options_of(properties: Any) -> Options:
+    """The `Options` of what an operator writes: its layer and checker. Raises OptionError."""
+    return Options(**{name: getattr(properties, name) for name in WRITTEN_NAMES})
 
 
 def options_of(properties: UniformizeProperties) -> Options:

@@ -25,6 +25,7 @@ from ..maps.offending_elements import offending_elements
 from ..maps.outcomes import IslandOutcome, SurfaceOutcome
 from ..maps.parts import PartsOutcome
 from ..maps.surface import Island
+from ..maps.tiles import TileIsland, TileOutcome, modulus_text, periods_text
 from ..maps.wording import cut_line, explain, notes, too_uneven, warnings
 
 
@@ -61,6 +62,10 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     density: FloatProperty(description="Of parts: texel density at 95 % of the area over that at 5 %")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
+    tile: StringProperty(description="Of a tile: torus or ring, else empty")
+    modulus: StringProperty(description="Of a torus the ratio of its periods, of a cylinder i times height over period")
+    periods: StringProperty(description="Of a tile: its periods in the UVs")
+    offer: StringProperty(description="The operator that takes an island that this one does not: parts, torus or ring")
     moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
     corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
     history: StringProperty(description="What the report was for each state of such an island, as JSON")
@@ -165,6 +170,46 @@ def record_parts(
                     entry.cut_edges = json.dumps(np.flatnonzero(outcome.cuts).tolist())
                 entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
                 entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
+
+
+def record_tiles(
+    run: Transaction,
+    context: bpy.types.Context,
+    outcomes: list[TileOutcome],
+    layer: str,
+    refused: list[tuple[str, str]],
+) -> None:
+    """Replace the report by the tiles of objects, an entry for each island."""
+    with _new_report(run, context, refused) as report:
+        for outcome in outcomes:
+            if outcome.not_written:
+                _record_failure(report, outcome.name, outcome.not_written)
+                continue
+            for index, one in enumerate(outcome.islands):
+                entry = report.islands.add()
+                entry.object_name, entry.island, entry.layer = outcome.name, index, layer
+                if one.error is None:
+                    _record_tile(entry, outcome, one)
+                    continue
+                entry.message, entry.offer = explain(one.error), getattr(one.error, "offer", "")
+                kind, elements = offending_elements(outcome.task.surface, one)
+                entry.offenders = json.dumps([kind, elements.tolist()])
+
+
+def _record_tile(entry: KoebeIslandReport, outcome: TileOutcome, one: TileIsland) -> None:
+    result = one.result
+    entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
+    entry.tile, entry.modulus, entry.periods = outcome.choice.domain, modulus_text(result), periods_text(one.tile)
+    entry.angle_error, entry.seconds = one.angle_error, result.seconds["total"]
+    entry.flipped, entry.flipped_faces = len(one.flipped), json.dumps(one.flipped_faces.tolist())
+    entry.uneven = too_uneven(one)
+    entry.cut_length, entry.cut_edges = result.cut_length, json.dumps(np.flatnonzero(one.cuts).tolist())
+    entry.message = "; ".join([*outcome.warnings(one), *outcome.remarks])
+    for number, of_loop in enumerate(result.loops):
+        loop = entry.loops.add()
+        loop.vertices = json.dumps(one.island.source_vertex[of_loop["vertices"]].tolist())
+        loop.uv_center, loop.uv_radius = one.circle(of_loop, outcome.choice.fit)
+        loop.name = ("Rim", "Rim 2")[number] if of_loop["rim"] else f"{number + 1 - 2 * (entry.tile == 'ring')}"
 
 
 def _record_failure(report: KoebeReport, name: str, text: str) -> None:

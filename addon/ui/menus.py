@@ -7,8 +7,9 @@ from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.parts import UV_OT_koebe_parts
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
+from ..operators.tiles import OPERATORS
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import copy_options, copy_part_options, settings_of
+from ..state.option_properties import copy_options, copy_part_options, copy_tile_options, settings_of
 
 
 def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -18,6 +19,8 @@ def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     layout.operator_context = "INVOKE_DEFAULT"
     copy_options(settings_of(context), layout.operator(UV_OT_koebe_uniformize.bl_idname))
     copy_part_options(settings_of(context), layout.operator(UV_OT_koebe_parts.bl_idname))
+    for domain, operator in OPERATORS.items():
+        copy_tile_options(settings_of(context), layout.operator(operator.bl_idname), domain)
     layout.operator(UV_OT_koebe_symmetrize.bl_idname)
 
 

@@ -2,12 +2,13 @@
 """What the panels have in common."""
 
 import textwrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import bpy
 
 from ..operators.parts import UV_OT_koebe_parts
-from ..state.option_properties import KoebeSettings, copy_part_options
+from ..operators.tiles import OPERATORS
+from ..state.option_properties import KoebeSettings, copy_part_options, copy_tile_options
 
 CHARACTER = 7.8  # pixels of the sidebar's width for each character of a line of text, at a resolution scale of 1
 
@@ -42,6 +43,18 @@ def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial:
     button = column.column(align=True)
     button.scale_y = 1.4 if dial else 1.0
     copy_part_options(settings, button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
+
+
+TILE_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER"]]] = {
+    "torus": ("Unwrap to Torus Tile", "MESH_TORUS"),
+    "ring": ("Unwrap to Cylinder", "MESH_CYLINDER"),
+}
+
+
+def draw_tile_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:
+    """The button that maps to a domain that is a tile."""
+    text, icon = TILE_BUTTONS[domain]
+    copy_tile_options(settings, column.operator(OPERATORS[domain].bl_idname, text=text, icon=icon), domain)
 
 
 def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int:

@@ -15,7 +15,7 @@ from ..operators.select_from_report import (
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import copy_options, settings_of
 from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object, report_of
-from .panel_parts import KoebePanel, draw_message, draw_parts_button
+from .panel_parts import TILE_BUTTONS, KoebePanel, draw_message, draw_parts_button, draw_tile_button
 
 MAX_LOOP_BUTTONS = 40
 MOST_LINES = 6  # of each message, until all is asked for
@@ -79,6 +79,7 @@ class ReportPanel(KoebePanel):
             draw_result(layout.column(), entry)
         elif entry.offenders:
             layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
+            draw_offer(layout.column(align=True), context, entry)
 
 
 def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
@@ -93,9 +94,14 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         ("Cut length", f"{entry.cut_length:.1f} × √area"),
         ("Density", f"1 : {entry.density:.1f}, on 90 %"),
     ]
+    of_tile = [
+        ("Modulus", entry.modulus),
+        *(("Period" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
+        ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged"),
+    ]
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),
-        *(of_parts if entry.parts else of_circles),
+        *(of_parts if entry.parts else of_tile if entry.tile else of_circles),
         ("Flipped", f"{entry.flipped}"),
         ("Time", f"{entry.seconds:.2f} s"),
     ):
@@ -111,13 +117,23 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     column.label(text="Select Loop")
     grid = column.grid_flow(row_major=True, columns=4, even_columns=True, align=True)
     for index in range(min(len(entry.loops), MAX_LOOP_BUTTONS)):
-        text = "Rim" if index == 0 else f"{index}"
+        text = entry.loops[index].name or ("Rim" if index == 0 else f"{index}")
         grid.operator(UV_OT_koebe_select_loop.bl_idname, text=text).loop = index
+
+
+def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
+    """The button of what takes a surface that is no such domain."""
+    if entry.offer in TILE_BUTTONS:
+        draw_tile_button(column, settings_of(context), entry.offer)
+    elif entry.offer:
+        draw_parts_button(column, settings_of(context), dial=False)
 
 
 def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """The offer to unroll a long tube."""
-    if len(entry.loops) == 2 and entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
+    if entry.tile or len(entry.loops) != 2:
+        return
+    if entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
         button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")
         copy_options(settings_of(context), button)
         button.tube = "unroll"

@@ -14,6 +14,7 @@
 #include "batch/program.h"
 #include "batch/summary.h"
 #include "core/counted.h"
+#include "domains/tile_map.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -27,9 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* disk_domain = "disk";
+constexpr const char* ring_domain = "ring";
+
 struct Request : MapRequest {
     UniformizeWords words;
     std::vector<CLI::Option*> forwarded;  ///< the options of a map
+    std::string domain = disk_domain, holes = to_string(RingHoles::circles);
     std::vector<std::string> inputs, blender_arguments;
     std::string folder, base, format = "obj", blender, blender_script;
     int workers = 0;
@@ -71,6 +76,14 @@ void add_batch_options(CLI::App& app, Request& request)
                  "0 also where a mesh was not mapped, for farms: 3 only where the machine failed");
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
+    app.add_option("--domain", request.domain,
+                   "disk: koebe uniformize; torus, ring: those commands, UVs that are a tile")
+        ->check(CLI::IsMember({disk_domain, "torus", ring_domain}))
+        ->capture_default_str();
+    app.add_option("--holes", request.holes, "of --domain ring: what becomes of the loops that are no rims")
+        ->check(CLI::IsMember(
+            {to_string(RingHoles::circles), to_string(RingHoles::concentric), to_string(RingHoles::radial)}))
+        ->capture_default_str();
     const std::string group = "Files of Blender";
     app.add_option("--blender", request.blender, "map .blend files too, by this program and the add-on")
         ->type_name("PROGRAM")
@@ -84,10 +97,32 @@ void add_batch_options(CLI::App& app, Request& request)
         ->group(group);
 }
 
+/// @throws CLI::ValidationError options of another domain
+void check_domain(const CLI::App& app, const Request& request)
+{
+    if (app.count("--holes") > 0 && request.domain != ring_domain)
+        throw CLI::ValidationError("--holes", "is of --domain ring");
+    if (request.domain == disk_domain) return;
+    for (const CLI::Option* option : request.forwarded)
+        if (option->count() > 0 && !option->check_name("--tolerance") && !option->check_name("--max-sweeps"))
+            throw CLI::ValidationError(option->get_name(), "is of --domain disk");
+}
+
+/// What a map depends on beside the mesh.
+nlohmann::ordered_json recipe_options(const Request& request)
+{
+    if (request.domain == disk_domain) return options_report(request, request.words);
+    nlohmann::ordered_json report{{"domain", request.domain}};
+    if (request.domain == ring_domain) report["holes"] = request.holes;
+    report.update({{"tolerance", request.options.tolerance}, {"max_sweeps", request.options.max_sweeps}});
+    return report;
+}
+
 /// The options of a map as they were given, for the processes that do it.
 std::vector<std::string> given_words(const Request& request, bool with_threads)
 {
     std::vector<std::string> words;
+    if (request.domain == ring_domain) words.push_back("--holes=" + request.holes);
     for (const CLI::Option* option : request.forwarded) {
         if (option->count() == 0 || (!with_threads && option->check_name("--threads"))) continue;
         if (option->get_expected_max() == 0) {  // a flag
@@ -104,8 +139,8 @@ std::vector<std::string> given_words(const Request& request, bool with_threads)
 std::vector<std::string> map_command(const Request& request, const std::string& own_program,
                                      const batch::BatchFile& file, const batch::Scratch& scratch)
 {
-    std::vector<std::string> words{own_program, "uniformize", "--quiet", end_with_input_flag,
-                                   "--json=" + batch::utf8(scratch.report)};
+    std::vector<std::string> words{own_program, request.domain == disk_domain ? "uniformize" : request.domain,
+                                   "--quiet", end_with_input_flag, "--json=" + batch::utf8(scratch.report)};
     for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
     words.insert(words.end(), {batch::utf8(file.source), batch::utf8(scratch.output)});
     return words;
@@ -127,6 +162,7 @@ std::vector<std::string> blend_command(const Request& request, const std::string
                                    batch::utf8(scratch.output),
                                    "--report",
                                    batch::utf8(scratch.report)};
+    if (request.domain != disk_domain) words.push_back("--domain=" + request.domain);
     for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
     words.insert(words.end(), request.blender_arguments.begin(), request.blender_arguments.end());
     return words;
@@ -167,8 +203,9 @@ batch::BatchOptions batch_options(const Request& request, const fs::path& output
     options.writes_summary = !request.no_summary;
     options.workers = request.workers > 0 ? static_cast<unsigned>(request.workers) : batch::core_count();
     options.stale = request.stale;
-    options.mesh = {options_report(request, request.words), request.time_limit, request.retry};
+    options.mesh = {recipe_options(request), request.time_limit, request.retry};
     auto blend_words = given_words(request, false);
+    if (request.domain != disk_domain) blend_words.insert(blend_words.begin(), "--domain=" + request.domain);
     blend_words.insert(blend_words.end(), request.blender_arguments.begin(), request.blender_arguments.end());
     options.blend = {{{"arguments", std::move(blend_words)}}, request.time_limit, request.retry};
     const std::string script = request.blender.empty() ? "" : batch::blender_script(request.blender_script);
@@ -232,7 +269,10 @@ Subcommand add_batch(CLI::App& app)
     add_uniformize_options(*options, *request, request->words);
     const std::vector<CLI::Option*> all = options->get_options({});
     request->forwarded.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
-    options->callback([options, request] { set_uniformize_options(*options, request->words, *request); });
+    options->callback([options, request] {
+        set_uniformize_options(*options, request->words, *request);
+        check_domain(*options, *request);
+    });
     return {options, [request] { return run(*request); }};
 }
 

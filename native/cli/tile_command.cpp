@@ -1,4 +1,5 @@
 // koebe torus IN OUT, koebe ring IN OUT
+#include "cli/end_with_input.h"
 #include "cli/map_run.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
@@ -19,6 +20,7 @@ namespace {
 
 struct Request : MapRequest {
     TileOptions tile;
+    bool ends_with_input = false;
 };
 
 using TileFunction = TileResult (*)(const Vertices&, const Triangles&, const TileOptions&, ExecutionContext&);
@@ -33,10 +35,13 @@ std::string first_words(const TileResult& result)
 
 int run(const Request& request, TileFunction map)
 {
+    if (request.ends_with_input) end_with_input();
     MapKind<TileResult> kind;
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        TileOptions options = request.tile;
+        options.polygon = input.triangulation.face;
         TileResult result = with_filed_faces(
-            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, request.tile, context); });
+            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
         result.turned = filed_faces(input.triangulation, result.turned);
         add_input_warnings(input, result.warnings);
         return result;
@@ -72,6 +77,7 @@ void add_iteration(CLI::App& app, Request& request)
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
     app.add_option("--svg", request.svg, "write a picture of the tile and its copies there")->type_name("FILE");
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
+    app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
 }
 
 nlohmann::ordered_json iteration_report(const TileOptions& options)

@@ -1,6 +1,7 @@
 #include "domains/periodic_surface.h"
 
 #include "core/connectivity.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/memory_limit.h"
 #include "surface/loop_edges.h"
@@ -209,8 +210,9 @@ PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triang
     PeriodicSurface domain = prepared(vertices, triangles);
     const Surface& surface = domain.surface;
     if (surface.genus != 1)
-        throw TopologyError(TopologyKind::genus, "the surface has " + std::to_string(surface.genus) +
-                                                     " handles: a map to a flat torus needs exactly one");
+        throw TopologyError(TopologyKind::genus, "the surface has " +
+                                                     counted(static_cast<std::size_t>(surface.genus), "handle") +
+                                                     ": a map to a flat torus needs exactly one");
     order_loops(domain, {});
     const DualGraph dual(surface);
     std::vector<char> closed = vertex_tree(surface);
@@ -240,8 +242,9 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
     PeriodicSurface domain = prepared(vertices, triangles);
     const Surface& surface = domain.surface;
     if (surface.genus != 0)
-        throw TopologyError(TopologyKind::genus,
-                            "the surface has " + std::to_string(surface.genus) + " handles: a ring has none");
+        throw TopologyError(TopologyKind::genus, "the surface has " +
+                                                     counted(static_cast<std::size_t>(surface.genus), "handle") +
+                                                     ": a ring has none");
     if (surface.loops.size() < 2)
         throw TopologyError(TopologyKind::closed,
                             "a ring needs two boundary loops, the surface has " + std::to_string(surface.loops.size()));

@@ -23,6 +23,7 @@ struct PeriodicSurface {
     std::vector<OneForm> shifts;         ///< two for a torus, one for a ring; 0 along holes
     IntrinsicMetric metric;              ///< of the surface
     std::vector<OneForm> metric_shifts;  ///< the same forms on its half-edges
+    std::vector<Index> polygon;          ///< (F) faces of one number stay together in a tile; empty: each by itself
 
     std::size_t period_count() const { return shifts.size(); }
     /// The integers of a half-edge of the surface.

@@ -354,7 +354,8 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
     Stopwatch stage;
     StageSeconds seconds;
     context.begin_stage("topology", 0.0, 0.1);
-    const PeriodicSurface domain = periodic_ring(vertices, triangles, options.outer, options.inner);
+    PeriodicSurface domain = periodic_ring(vertices, triangles, options.outer, options.inner);
+    domain.polygon = options.polygon;
     seconds.topology = stage.lap();
     const HoleShape shape = options.holes == RingHoles::circles      ? HoleShape::open
                             : options.holes == RingHoles::concentric ? HoleShape::along_u

@@ -72,22 +72,44 @@ std::array<double, 2> clear_origin(const PeriodicSurface& domain, const FlatMap&
     return best;
 }
 
-/// (3F) the lifts of the corners: each face where its middle lies in the cell.
+/// The other face of a polygon over one of its inner edges, or no_twin.
+Index twin_in_polygon(const PeriodicSurface& domain, Index h)
+{
+    const Index twin = domain.surface.twin[h];
+    if (domain.polygon.empty() || twin == no_twin) return no_twin;
+    return domain.polygon[face_of(h)] == domain.polygon[face_of(twin)] ? twin : no_twin;
+}
+
+/// (3F) the lifts of the corners: each polygon where its middle lies in the cell.
 std::vector<Lift> lifts_in_cell(const PeriodicSurface& domain, const FlatMap& map, std::array<double, 2> origin)
 {
     const Triangles& triangles = domain.surface.triangles;
     std::vector<Lift> lift(static_cast<std::size_t>(triangles.size()));
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
-        const std::size_t h = 3 * static_cast<std::size_t>(f);
-        lift[h] = {0, 0};
-        lift[h + 1] = lift[h] + domain.shift(3 * f);
-        lift[h + 2] = lift[h + 1] + domain.shift(3 * f + 1);
-        Complex middle = 0.0;
-        for (int k = 0; k < 3; ++k) middle += lifted(map, map.z[triangles(f, k)], lift[h + k]) / 3.0;
-        const auto p = in_periods(map, middle);
+    std::vector<char> met(static_cast<std::size_t>(triangles.rows()), 0);
+    for (Index first = 0; first < static_cast<Index>(triangles.rows()); ++first) {
+        if (met[first]) continue;
+        met[first] = 1;
+        lift[3 * static_cast<std::size_t>(first)] = {0, 0};
+        std::vector<Index> starts{3 * first};  // half-edges whose origin has its lift
+        Complex sum = 0.0;
+        for (std::size_t head = 0; head < starts.size(); ++head) {
+            for (Index h = starts[head], k = 0; k < 3; ++k, h = next_halfedge(h)) {
+                if (k < 2) lift[next_halfedge(h)] = lift[h] + domain.shift(h);
+                sum += lifted(map, map.z[triangles.data()[h]], lift[h]) / 3.0;
+            }
+            for (Index h = 3 * face_of(starts[head]), k = 0; k < 3; ++k, ++h) {
+                const Index twin = twin_in_polygon(domain, h);
+                if (twin == no_twin || met[face_of(twin)]) continue;
+                met[face_of(twin)] = 1;
+                lift[twin] = lift[next_halfedge(h)];
+                starts.push_back(twin);
+            }
+        }
+        const auto p = in_periods(map, sum / static_cast<double>(starts.size()));
         Lift back{0, 0};
         for (std::size_t j = 0; j < map.periods.size(); ++j) back[j] = static_cast<int>(std::floor(p[j] - origin[j]));
-        for (std::size_t k = 0; k < 3; ++k) lift[h + k] = lift[h + k] - back;
+        for (const Index start : starts)
+            for (Index c = 3 * face_of(start), k = 0; k < 3; ++k, ++c) lift[c] = lift[c] - back;
     }
     return lift;
 }

@@ -25,8 +25,8 @@ struct Tile {
     std::vector<Index> seams;              ///< half-edges whose other side lies elsewhere
 };
 
-/// Every face goes where its middle lies in the parallelogram of the periods; what hangs on the others by no edge goes
-/// to its neighbours, so that the tile is one piece.
+/// Every face, or polygon of faces, goes where its middle lies in the parallelogram of the periods; what hangs on the
+/// others by no edge goes to its neighbours, so that the tile is one piece.
 /// @param origin of the parallelogram, in periods; it is chosen so that few holes are cut
 Tile tile_of(const PeriodicSurface& domain, const FlatMap& map);
 Tile tile_of(const PeriodicSurface& domain, const FlatMap& map, std::array<double, 2> origin);

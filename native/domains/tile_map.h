@@ -27,6 +27,7 @@ struct TileOptions {
     int max_sweeps = 50;
     RingHoles holes = RingHoles::circles;  ///< of a ring
     Index outer = -1, inner = -1;          ///< of a ring, vertices of the two rims; -1: the longest loops
+    std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each is one by itself
 };
 
 /// A loop in the tile.

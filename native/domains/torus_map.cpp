@@ -17,6 +17,7 @@ TileResult torus_map_here(const Vertices& vertices, const Triangles& triangles, 
     StageSeconds seconds;
     context.begin_stage("topology", 0.0, 0.1);
     PeriodicSurface domain = periodic_torus(vertices, triangles);
+    domain.polygon = options.polygon;
     seconds.topology = stage.lap();
     context.begin_stage("iterate", 0.1, 0.9);
     IterationOptions iteration;

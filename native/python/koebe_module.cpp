@@ -251,7 +251,8 @@ PYBIND11_MODULE(_koebe, m)
         .def_readwrite("max_sweeps", &TileOptions::max_sweeps)
         .def_readwrite("holes", &TileOptions::holes)
         .def_readwrite("outer", &TileOptions::outer)
-        .def_readwrite("inner", &TileOptions::inner);
+        .def_readwrite("inner", &TileOptions::inner)
+        .def_readwrite("polygon", &TileOptions::polygon);
     py::class_<TileResult>(m, "TileResult")
         .def_property_readonly("uv", [](const TileResult& r) { return r.uv; })
         .def_property_readonly("flipped_faces", [](const TileResult& r) { return r.distortion.flipped; })

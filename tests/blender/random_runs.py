@@ -7,6 +7,7 @@ import numpy as np
 import scenes
 import states
 from runs import operator
+from tori import torus_arrays
 from touched import Touched
 from wild import wild
 
@@ -40,6 +41,12 @@ def ring(name="Ring"):
     return scenes.add_object(name, *_used(vertices, inner))
 
 
+def donut(name="Donut"):
+    """A torus, maybe to be a tile."""
+    vertices, faces = torus_arrays(8, 6, holes=((2, 3),))
+    return scenes.add_object(name, vertices, faces)
+
+
 def _used(vertices, faces):
     used, index = np.unique(np.concatenate(faces), return_inverse=True)
     return vertices[used], [part.tolist() for part in np.split(index, np.cumsum([len(face) for face in faces])[:-1])]
@@ -47,7 +54,7 @@ def _used(vertices, faces):
 
 MAKERS = (
     states.plain, states.dressed, states.numbered, states.layered, states.keyed, states.named, states.twins,
-    states.full, states.broken, closed, lone, collapsed, bare, ring,
+    states.full, states.broken, closed, lone, collapsed, bare, ring, donut,
 )  # fmt: skip
 
 
@@ -194,6 +201,11 @@ class RandomRun:
         if name == "uv.koebe_parts":
             return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5, 1.0]),
                     "seams": one(["add", "only"]), "write_seams": one([True, False])}  # fmt: skip
+        if name in ("uv.koebe_torus", "uv.koebe_ring"):
+            of_ring = {"holes": one(["circles", "concentric", "radial"]), "rims": one(["auto", "auto", "selected"])}
+            return {"layer": layer, "checker": one([True, False]), "checker_even": one([True, False]),
+                    "checker_size": one([8.0, 32.0]), "fit": one(["inside", "period", "square"]),
+                    "max_sweeps": one([1, 50]), **(of_ring if name == "uv.koebe_ring" else {})}  # fmt: skip
         if name == "uv.koebe_checker":
             return {"layer": layer, "checker_even": one([True, False])}
         if name == "uv.koebe_distortion":
@@ -212,6 +224,7 @@ class RandomRun:
     def _call(self):
         name = self._one([
             "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_checker",
+            "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_ring",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",

@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import scenes
 import states
+from tori import torus_arrays
 
 
 def carried():
@@ -64,6 +65,38 @@ def flipped():
     assert bpy.context.window_manager.koebe_uv.islands[0].flipped > 0
     states.consistent([tube, other])
     scenes.select(other)
+
+
+def tori():
+    """Tori, one of them with materials, one with a layer of the name, and a panel that is none."""
+    states.new_file()
+    plain, other, worn = (scenes.add_object(name, *torus_arrays(10, 8)) for name in ("Torus", "Other", "Worn"))
+    worn.data.materials.append(states.material("Paint"))
+    other.data.uv_layers.new(name="Koebe")
+    other.data.uv_layers.new(name="First")
+    objects = [plain, other, worn, states.plain()]
+    states.consistent(objects)
+    scenes.select(*objects)
+
+
+def tori_in_edit_mode():
+    """The same in Edit Mode."""
+    tori()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
+def mapped_tori():
+    """The same as tiles, with the checker on and the colours of the distortion."""
+    tori()
+    bpy.ops.uv.koebe_torus()
+    bpy.ops.uv.koebe_distortion(kind="area")
+
+
+def bare_tori():
+    """The same as tiles without a checker."""
+    tori()
+    bpy.ops.uv.koebe_torus(checker=False)
 
 
 def chosen():
@@ -131,6 +164,14 @@ RUNS = {
     "parts in Edit Mode": (states.edited, "uv.koebe_parts", {}),
     "parts with seams": (states.many, "uv.koebe_parts", {"write_seams": True, "evenness": 1.0}),
     "parts with seams in Edit Mode": (states.edited, "uv.koebe_parts", {"write_seams": True, "evenness": 1.0}),
+    "torus": (tori, "uv.koebe_torus", {}),
+    "torus of what is worn": (mapped_tori, "uv.koebe_torus", {"fit": "period", "checker_size": 16.0}),
+    "torus in Edit Mode": (tori_in_edit_mode, "uv.koebe_torus", {"fit": "square"}),
+    "ring": (states.many, "uv.koebe_ring", {}),
+    "ring of what is worn": (states.worn, "uv.koebe_ring", {"holes": "radial", "fit": "square"}),
+    "ring in Edit Mode": (states.edited, "uv.koebe_ring", {"holes": "concentric", "checker": False}),
+    "checker on tiles": (bare_tori, "uv.koebe_checker", {}),
+    "checker off tiles": (mapped_tori, "uv.koebe_checker", {}),
     "checker on": (states.many, "uv.koebe_checker", {}),
     "checker off": (states.worn, "uv.koebe_checker", {}),
     "checker on in Edit Mode": (states.edited, "uv.koebe_checker", {}),

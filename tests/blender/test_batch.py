@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 import pytest
 import scenes
+import tori
 from test_tube import add_tube
 
 
@@ -65,6 +66,38 @@ def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
     assert {frozenset(loop["vertices"]) for loop in entry["loops"]} == {
         frozenset(loop) for loop in scenes.boundary_loops(obj.data)
     }
+
+
+@pytest.mark.parametrize("domain, options", [
+    ("torus", {}), ("torus", {"fit": "square"}), ("ring", {"holes": "radial", "fit": "period"}),
+], ids=str)  # fmt: skip
+def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
+    obj = (tori.add_torus if domain == "torus" else tori.add_tube)(holes=tori.block(3, 4))
+    words = [f"--{name}={value}" for name, value in options.items()]
+    done = batch("--output", "out.blend", "--report", "out.json", "--domain", domain, "--layer", "Own", *words)
+    assert done.returncode == 0, done.stderr
+    assert f"{obj.name}: 1 {'torus tile' if domain == 'torus' else 'cylinder'}, modulus " in done.stdout
+    assert getattr(bpy.ops.uv, f"koebe_{domain}")(layer="Own", **options) == {"FINISHED"}
+    expected, name = scenes.corner_uv(obj.data, "Own").copy(), obj.name
+    loops = {frozenset(loop) for loop in scenes.boundary_loops(obj.data)}
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert np.array_equal(scenes.corner_uv(bpy.data.objects[name].data, "Own"), expected)
+    content = json.loads((tmp_path / "out.json").read_text())
+    (entry,) = content["objects"]
+    assert content["exit_code"] == 0 and entry["converged"] is True and entry["flipped"] == 0
+    assert entry["domain"] == domain and entry["fit"] == options.get("fit", "inside")
+    assert {frozenset(loop["vertices"]) for loop in entry["loops"]} == loops
+    if options.get("fit"):
+        assert entry["periods"][0] == [1.0, 0.0]
+
+
+def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):
+    tori.add_torus()
+    done = batch("--output", "out.blend", "--report", "out.json", "--domain", "ring")
+    assert done.returncode == 3 and "this surface has 1 handle: a cylinder has none" in done.stderr
+    assert outputs(tmp_path) == ["out.json"]
+    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    assert entry["error"]["name"] == "DomainError"
 
 
 @pytest.mark.parametrize("options", [{"tube": "unroll"}, {"upright": False}], ids=str)

@@ -16,7 +16,9 @@ def test_what_is_broken_off_leaves_everything_as_it_was(folder, run):
     faults.check_all_comes_back(folder, build, operator(name), options, MOST)
 
 
-@pytest.mark.parametrize("run", ["uniformize", "checker off", "distortion changed", "fill", "carry"])
+@pytest.mark.parametrize("run", [
+    "uniformize", "torus", "ring in Edit Mode", "checker off", "distortion changed", "fill", "carry",
+])  # fmt: skip
 def test_an_error_is_that_of_one_object(folder, run):
     build, name, options = RUNS[run]
     faults.check_each_for_itself(folder, build, operator(name), options, MOST // 4)

@@ -25,9 +25,10 @@ class Touched:
     def on_error(self, key):
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
-        if self._name not in ("uv.koebe_uniformize", "uv.koebe_parts"):
+        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring")
+        if self._name not in (*selecting, "uv.koebe_parts"):
             return False
-        return key == "file: report" or (self._name == "uv.koebe_uniformize" and self._selects(owner, what))
+        return key == "file: report" or (self._name in selecting and self._selects(owner, what))
 
     def when_finished(self, key):
         """Whether that may differ after an operator that finished."""
@@ -66,6 +67,8 @@ class Touched:
             self._writes_uv(owner, what) or self._selects(owner, what) or (owner, what) == ("file", "report")
             or (self._options.get("checker", True) and self._dresses(owner, what))
         )  # fmt: skip
+
+    _torus = _ring = _uniformize
 
     def _parts(self, owner, what):
         seams = owner in self._meshes and self._options.get("write_seams") and what in SEAMS

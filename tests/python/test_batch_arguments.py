@@ -38,6 +38,11 @@ WRONG = [
     *([*OUT, f"--{name}", "nonsense"] for name in ("method", "engine", "balance", "tube", "placement")),
     *([*OUT, "--objects", value] for value in ("", ",", "A,", ",A", '"A', '"A"B', '""')),
     [*OUT, "--polish=yes"], [*OUT, "--objects"],
+    [*OUT, "--domain", "sphere"], [*OUT, "--holes", "circles"], [*OUT, "--fit", "square"],
+    *([*OUT, "--domain", "torus", *words] for words in
+      (["--holes", "radial"], ["--tube", "unroll"], ["--no-cut"], ["--outer", "3"], ["--tolerance", "0"])),
+    *([*OUT, "--domain", "ring", *words] for words in
+      (["--holes", "square"], ["--fit", "tight"], ["--balance", "none"], ["--symmetry", "auto"], ["--margin", "0"])),
 ]  # fmt: skip
 
 
@@ -107,3 +112,14 @@ def test_help_tells_the_exit_codes(batch, capsys):
     assert end.value.code == 0
     text = " ".join(capsys.readouterr().out.split())
     assert all(word in text for word in ("130 interrupted", "4 not converged", "blender -b IN.blend", "--objects"))
+
+
+def test_the_options_of_a_tile(batch):
+    parse = batch("headless.arguments").parse
+    assert parse(OUT).tile is None
+    words = ["--domain", "ring", "--holes", "radial", "--fit", "period", "--max-sweeps", "7", "--layer", "Own"]
+    request = parse([*OUT, *words])
+    choice = batch("maps.options").TileChoice
+    assert request.tile == choice("ring", "radial", "auto", "period", 1e-6, 7) and request.options.layer == "Own"
+    assert parse([*OUT, "--domain", "torus"]).tile == choice()
+    assert request.library.each == ["--domain=ring", "--holes=radial", "--fit=period", "--max-sweeps=7", "--layer=Own"]

@@ -27,6 +27,7 @@ from cli_support import (
     off_text,
     perforated,
 )
+from domain_surfaces import holed_ring, holed_torus
 
 TETRAHEDRON = off_text([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 # A program in Blender's place: it does what the first word of the file says, and notes that it ran.
@@ -155,6 +156,57 @@ def is_alive(process):
 
 
 # ---------------------------------------------------------------- the table
+
+
+@pytest.fixture
+def tiles(tmp_path):
+    """A torus with three holes, an annulus with two, and a tetrahedron."""
+    folder = tmp_path / "tiles"
+    folder.mkdir()
+    for name, surface in (("torus", holed_torus(4)), ("ring", holed_ring(4, holes={(1, 0): ((0.5, 0.5), 0.3)}))):
+        (folder / f"{name}.obj").write_text(obj_text(*surface[:2]))
+    (folder / "closed.off").write_text(TETRAHEDRON)
+    return folder
+
+
+@pytest.mark.parametrize("words", [["torus"], ["ring"], ["ring", "--holes", "radial"], ["ring", "--tolerance", "1e-3"]],
+                         ids=" ".join)  # fmt: skip
+def test_other_domains_are_those_of_their_commands(tiles, tmp_path, words):
+    domain, *options = words
+    out = tmp_path / "out"
+    done = batch(tiles, "--output", out, "--domain", domain, *options)
+    assert done.returncode == CANNOT_BE_MAPPED and done.stdout.startswith("3 files: 1 done, 2 failed;")
+    table = rows(out)
+    assert table["closed.off"]["error"] in ("TopologyError(genus)", "TopologyError(closed)")
+    row = table[f"{domain}.obj"]
+    assert row["options"]["domain"] == domain and row["flipped"] == 0 and row["faces"] > 0
+    koebe(domain, tiles / f"{domain}.obj", tmp_path / "alone.obj", *options)
+    assert (tmp_path / "alone.obj").read_bytes() == (out / f"{domain}.obj").read_bytes()
+    again = batch(tiles, "--output", out, "--domain", domain, *options)
+    assert "(3 unchanged)" in again.stdout
+    other = batch(tiles, "--output", out, "--domain", domain, "--max-sweeps", "40", *options)
+    assert "unchanged" not in other.stdout
+
+
+@pytest.mark.parametrize("words", [
+    ["--domain", "sphere"], ["--holes", "radial"], ["--domain", "torus", "--holes", "radial"],
+    ["--domain", "torus", "--balance", "area"], ["--domain", "ring", "--cut"], ["--domain", "ring", "--outer", "3"],
+    ["--domain", "ring", "--holes", "square"],
+], ids=" ".join)  # fmt: skip
+def test_options_of_another_domain_are_wrong_usage(tiles, tmp_path, words):
+    done = batch(tiles, "--output", tmp_path / "out", *words)
+    assert done.returncode == USAGE and not (tmp_path / "out").exists()
+    assert done.stderr.startswith("WrongUsage: ") and done.stderr.count("\n") == 1
+
+
+def test_files_of_blender_are_told_the_domain(blends, tmp_path):
+    files = blends(a="exit 0")
+    out = tmp_path / "out"
+    assert batch(*files.words, "--output", out, "--domain", "ring", "--holes", "radial").returncode == 0
+    assert rows(out)["a.blend"]["options"]["arguments"] == ["--domain=ring", "--holes=radial"]
+    assert "(1 unchanged)" in batch(*files.words, "--output", out, "--domain", "ring", "--holes", "radial").stdout
+    assert "unchanged" not in batch(*files.words, "--output", out, "--domain", "torus").stdout
+    assert len(files.runs("a")) == 2
 
 
 def test_each_file_has_a_result_a_report_and_a_row(library, tmp_path):

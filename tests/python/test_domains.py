@@ -279,7 +279,7 @@ def test_what_is_no_torus_and_no_ring_is_refused():
         with pytest.raises(koebe.TopologyError, match="handles") as caught:
             koebe.torus_map(*genus_zero)
         assert caught.value.kind == "genus"
-    with pytest.raises(koebe.TopologyError, match="handles") as caught:
+    with pytest.raises(koebe.TopologyError, match="1 handle:") as caught:
         koebe.ring_map(*holed_torus(3)[:2])
     assert caught.value.kind == "genus"
     corners, faces = sphere()
@@ -295,6 +295,59 @@ def test_what_is_no_torus_and_no_ring_is_refused():
         koebe.ring_map(vertices, triangles, inner=inside)
     with pytest.raises(koebe.OptionError):
         koebe.ring_map(vertices, triangles, holes="square")
+
+
+def quads(n, m, closed):
+    """A torus of revolution, or a tube, of quadrilaterals: vertices, quadrilaterals, triangles, polygon."""
+    s, t = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+    u, v = 2 * np.pi * s / n, 2 * np.pi * t / m
+    if closed:  # lines that no cut follows
+        u, v = u + 0.4 * np.sin(2 * v + u), v + 0.4 * np.sin(2 * u)
+    if closed:
+        vertices = np.stack([(3 + np.cos(v)) * np.cos(u), (3 + np.cos(v)) * np.sin(u), np.sin(v)], 2)
+    else:
+        vertices = np.stack([np.cos(u), np.sin(u), 0.3 * t + 0.2 * np.cos(u)], 2)
+    at = np.arange(n * m).reshape(n, m)
+    right, up, both = np.roll(at, -1, 0), np.roll(at, -1, 1), np.roll(at, -1, (0, 1))
+    faces = np.stack([at, right, both, up], 2)[:, : m if closed else m - 1].reshape(-1, 4).astype(np.int32)
+    return vertices.reshape(-1, 3), faces, faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), np.repeat(range(len(faces)), 2)
+
+
+@pytest.mark.parametrize("closed", [True, False], ids=["torus", "ring"])
+@pytest.mark.parametrize("seed", range(6))
+def test_polygons_stay_whole(closed, seed):
+    random = np.random.default_rng(seed)
+    vertices, faces, triangles, polygon = quads(*random.integers(5, 30, 2), closed)
+    order = random.permutation(len(triangles))
+    triangles, polygon = triangles[order], polygon[order]
+    function = koebe.torus_map if closed else koebe.ring_map
+    torn = []
+    for given in (None, polygon):
+        tile = function(vertices, triangles, polygon=given)
+        assert tile.converged
+        assert_tile(tile, triangles, rims=0 if closed else 2)
+        places = {}
+        for number, face, uv in zip(polygon, triangles, grid_points(tile).tolist(), strict=True):
+            for v, at in zip(face, uv, strict=True):
+                places.setdefault((number, v), set()).add(tuple(at))
+        torn.append(max(map(len, places.values())) > 1)
+    assert torn[1] is False
+    if seed == 0:
+        assert torn[0] is True, "the cut goes round all of them by chance"
+
+
+def test_the_command_tears_no_polygon(tmp_path):
+    vertices, faces, _, _ = quads(17, 9, True)
+    write_obj(tmp_path / "in.obj", vertices, faces)
+    call = [COMMAND, "torus", tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "out.json"]
+    assert subprocess.run(call, capture_output=True, check=False).returncode == 0
+    lines = [line.split() for line in (tmp_path / "out.obj").read_text().splitlines()]
+    uv = np.array([words[1:] for words in lines if words and words[0] == "vt"], float)
+    corners = [[int(word.split("/")[1]) - 1 for word in words[1:]] for words in lines if words and words[0] == "f"]
+    periods = np.array(json.loads((tmp_path / "out.json").read_text())["periods"])
+    points = uv[corners]
+    areas = 0.5 * cross(points[:, 2] - points[:, 0], points[:, 3] - points[:, 1])
+    assert (areas > 0).all() and abs(areas.sum() - cross(*periods)) < 1e-9
 
 
 def test_progress_and_cancel():

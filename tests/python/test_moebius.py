@@ -103,18 +103,19 @@ def ring_domain(count=6, size=40):
 
 
 def surface_of(vertices, quads):
-    """The `Surface` of a mesh of quads."""
-    count = len(quads)
+    """The `Surface` of a mesh of quads, or of faces of another size."""
+    count, size = quads.shape
     corner = quads.ravel().astype(np.int32)
     ends = np.sort(np.stack([corner, np.roll(quads, -1, axis=1).ravel()], axis=1), axis=1)
     edges, corner_edge = np.unique(ends, axis=0, return_inverse=True)
-    start = 4 * np.arange(count, dtype=np.int32)
-    triangles = (start[:, None, None] + np.array([[0, 1, 2], [0, 2, 3]])).reshape(-1, 3)
+    start = size * np.arange(count, dtype=np.int32)
+    fan = np.array([[0, k + 1, k + 2] for k in range(size - 2)])
+    triangles = (start[:, None, None] + fan).reshape(-1, 3)
     return surfaces.Surface(
         positions=vertices, corner_vertex=corner, corner_edge=corner_edge.reshape(-1).astype(np.int32),
-        face_start=start, face_size=np.full(count, 4, dtype=np.int32), seam=np.zeros(len(edges), dtype=bool),
+        face_start=start, face_size=np.full(count, size, dtype=np.int32), seam=np.zeros(len(edges), dtype=bool),
         selected=np.ones(count, dtype=bool), triangle_corners=triangles.astype(np.int32),
-        triangle_face=np.repeat(np.arange(count, dtype=np.int32), 2),
+        triangle_face=np.repeat(np.arange(count, dtype=np.int32), size - 2),
     )  # fmt: skip
 
 

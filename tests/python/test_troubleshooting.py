@@ -22,7 +22,6 @@ NOT_FROM_BLENDER = (
     "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "partners change",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
     "landmark", "the price must be positive", "an importance", "importance is of the balance",
-    "the metric is degenerate", "the annulus cannot be unrolled",
 )  # fmt: skip
 OPTION_ERRORS = "maps/options.py", "batch.py"  # the panel's fields cannot take such values
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._api import surface_of
+from ._api import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, choice, positive, token, vertex, whole
 from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
@@ -91,6 +91,7 @@ def torus_map(
     *,
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    polygon: Any = None,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> TileMap:
@@ -99,6 +100,8 @@ def torus_map(
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
     tolerance    stop when the circles move by less in a sweep; the shortest period of the torus is 1
     max_sweeps   then stop with converged = False
+    polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
+                 as the mesh has them
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
@@ -108,6 +111,7 @@ def torus_map(
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles)
+    options.polygon = polygons_of(polygon, source)
     native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
     report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
@@ -123,6 +127,7 @@ def ring_map(
     holes: str = "circles",
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    polygon: Any = None,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> TileMap:
@@ -137,6 +142,7 @@ def ring_map(
                  whose logarithm this is; 'concentric': slits along u, in the annulus arcs round its centre; 'radial':
                  slits along v, in the annulus along its radii
     tolerance, max_sweeps    of the iteration that makes holes round, as of `uniformize`
+    polygon      as of `torus_map`
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
     not one to one has converged = False, and a warning says why.
@@ -148,6 +154,7 @@ def ring_map(
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles)
+    options.polygon = polygons_of(polygon, source)
     native = _koebe.ring_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
     report["options"] = {"outer": outer, "inner": inner, "holes": holes, "tolerance": options.tolerance,

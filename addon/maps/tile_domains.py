@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The domains whose UVs are a tile, and what a surface has to be for them."""
+
+import dataclasses
+from collections.abc import Callable
+
+from .errors import MapError
+from .wording import counted
+
+
+class DomainError(MapError):
+    """A surface that is no such domain. `offer` is the operator that takes it: "parts", or a domain's name."""
+
+    def __init__(self, reason: str, offer: str) -> None:
+        super().__init__(reason)
+        self.offer = offer
+
+
+@dataclasses.dataclass(frozen=True)
+class Domain:
+    """A canonical domain whose UVs are a tile.
+
+    title  what one such map is called
+    check  of the number of handles and of boundary loops; raises DomainError
+    """
+
+    title: str
+    check: Callable[[int, int], None]
+
+
+def _check_torus(handles: int, loops: int) -> None:
+    if handles == 1:
+        return
+    if handles:
+        raise DomainError(f"this surface has {handles} handles: a torus tile needs exactly one", "parts")
+    raise DomainError(
+        "this surface has no handle: a torus tile needs one, like that of a mug", "ring" if loops > 1 else "parts"
+    )
+
+
+def _check_ring(handles: int, loops: int) -> None:
+    if handles:
+        had = counted(handles, "handle")
+        raise DomainError(f"this surface has {had}: a cylinder has none", "torus" if handles == 1 else "parts")
+    if loops < 2:
+        had = "one boundary loop" if loops else "no boundary loop"
+        raise DomainError(f"this surface has {had}: a cylinder needs two, its rims", "parts")
+
+
+# By the names that `koebe.torus_map`, `koebe.ring_map` and the operators have.
+DOMAINS = {"torus": Domain("torus tile", _check_torus), "ring": Domain("cylinder", _check_ring)}

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that map to domains whose UVs are a tile: a flat torus, a cylinder."""
+
+import bpy
+
+from ..blender import edit_mode
+from ..blender.targets import target_objects
+from ..blender.transaction import transaction
+from ..jobs.tile_job import TileJob
+from ..maps import wording
+from ..state import run_report
+from ..state.option_properties import (
+    ACCURACY_NAMES,
+    RingProperties,
+    TorusProperties,
+    tile_choice_of,
+    tile_option_names,
+    written_options_of,
+)
+from .modal_run import redraw
+from .run_operator import MapOperator
+from .select_from_report import select_offenders
+from .tooltip import tooltip
+
+
+def shown(domain: str) -> tuple[str, ...]:
+    """The options of a domain, those last that most runs leave alone."""
+    return tuple(sorted(tile_option_names(domain), key=lambda name: name in ACCURACY_NAMES))
+
+
+class TileOperator(MapOperator):
+    """Mixed into these operators. `domain` is that of a `TileChoice`."""
+
+    domain: str
+
+    def _new_job(self, context: bpy.types.Context, selected_only: bool) -> TileJob:
+        choice = tile_choice_of(self.domain, self)
+        return TileJob(target_objects(context), written_options_of(self), choice, selected_only, refused=[])
+
+    def _finish(self, context: bpy.types.Context, job: TileJob) -> set[str]:
+        """Write what was computed, each object wholly or not at all, and say what became of it."""
+        with transaction() as run:
+            with edit_mode.left_if_faster(run, context):
+                job.write(run)
+            run_report.record_tiles(run, context, job.outcomes, job.options.layer, job.refused)
+            selected = select_offenders(run, context, job)
+            redraw(context)
+            edit_mode.undo_all(context)
+            answer = self._say(job)
+            if selected and answer == {"CANCELLED"}:  # after which Blender makes no undo step
+                bpy.ops.ed.undo_push(message="Select What Is Wrong")
+            return answer
+
+    def _say(self, job: TileJob) -> set[str]:
+        failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
+        results: list[tuple[str, bool, list[str], list[str]]] = []
+        for outcome in job.outcomes:
+            if outcome.mapped:
+                found = [text for one in outcome.mapped for text in outcome.warnings(one)]
+                warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
+                results.append((outcome.line(), outcome.converged, [], warnings))
+        return self._tell(job, failures, results)
+
+
+class UV_OT_koebe_torus(TileOperator, TorusProperties, bpy.types.Operator):
+    """Unwrap a surface with one handle to a tile of a flat torus: angles are kept, holes are round, and a pattern with
+    its periods has no seam. The cut is in the UVs alone"""
+
+    bl_idname = "uv.koebe_torus"
+    bl_label = "Koebe Unwrap to Torus Tile"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
+    domain = "torus"
+    options_shown = shown("torus")
+
+
+class UV_OT_koebe_ring(TileOperator, RingProperties, bpy.types.Operator):
+    """Unwrap a surface with two rims to a cylinder, unrolled: angles are kept, the rims are straight, and a pattern
+    with its period has no seam. The cut is in the UVs alone"""
+
+    bl_idname = "uv.koebe_ring"
+    bl_label = "Koebe Unwrap to Cylinder"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
+    domain = "ring"
+    options_shown = shown("ring")
+
+
+OPERATORS = {"torus": UV_OT_koebe_torus, "ring": UV_OT_koebe_ring}
+register, unregister = bpy.utils.register_classes_factory(tuple(OPERATORS.values()))
