@@ -23,7 +23,7 @@
 namespace koebe {
 namespace {
 
-constexpr double balanced_mean = 1e-6;  // of the points, in radii of the sphere
+constexpr Index most_drawn_faces = 5000;  // of a surface that may be drawn together
 
 /// A map to the plane and the point at infinity, with all that is known of it.
 struct PlaneMap {
@@ -33,6 +33,7 @@ struct PlaneMap {
     std::vector<Index> off_circle;            // of the domain, rising
     std::size_t outer = 0;                    // loop
     bool converged = false;
+    int sweeps = 0;
     std::vector<double> changes;
     std::vector<Warning> warnings;  // with the input's vertices, and the domain's loops
 };
@@ -65,6 +66,7 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
         }
     std::ranges::sort(map.off_circle);
     map.converged = disk.converged;
+    map.sweeps = disk.sweeps;
     for (const KoebeStep& step : disk.history) map.changes.push_back(step.change);
     for (Warning warning : disk.warnings) {  // of flips and of faces too small the sphere has its own
         if (elements_of(warning.kind) == ElementKind::loops) {
@@ -103,10 +105,10 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
 /// Balanced, without flipped faces: a surface with few faces that is balanced may need faces of half the sphere; drawn
 /// together round the middle of the outer circle's other side, it needs none.
 SphericalMap drawn_together(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& balance,
-                            bool& balanced, const ExecutionContext& context)
+                            bool& drawn, const ExecutionContext& context)
 {
     SphericalMap best;
-    balanced = true;
+    drawn = false;
     for (const double farther : {0.0, 0.01, 0.04, 0.16, 0.64, 2.56}) {
         SphericalMap sphere =
             lifted_to_sphere(domain, map, {balance.shift, balance.scale * std::exp(farther)});
@@ -116,10 +118,10 @@ SphericalMap drawn_together(const PeriodicSurface& domain, const PlaneMap& map, 
             !find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps).any();
         if (first || whole) best = std::move(sphere);
         if (whole) {
-            balanced = first;
+            drawn = !first;
             break;
         }
-        if (domain.loops.empty()) break;
+        if (domain.loops.empty() || domain.surface.triangles.rows() > most_drawn_faces) break;
     }
     return best;
 }
@@ -182,7 +184,7 @@ std::vector<SphereLoop> loops_on_sphere(const PeriodicSurface& domain, const Pla
 }
 
 void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const SphericalMap& sphere,
-                    const SphereFaults& faults, bool balanced, SphereResult& result)
+                    const SphereFaults& faults, bool balanced, bool drawn, SphereResult& result)
 {
     result.warnings = map.warnings;
     if (!domain.surface.reoriented.empty())
@@ -192,10 +194,10 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
              domain.surface.reoriented});
     if (domain.loops.empty() && !map.converged)
         result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
-    if (!balanced)
+    if (drawn)
         result.warnings.push_back({WarningKind::coarse_mesh,
                                    "too few faces to be spread evenly over the sphere: they were drawn together"});
-    else if (!(result.mean_point < balanced_mean))
+    else if (!balanced)
         result.warnings.push_back({WarningKind::not_converged,
                                    "no even spread over the sphere was found: half of the surface shrinks to a point"});
     if (!sphere.off_circle.empty())
@@ -244,10 +246,9 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     SphereResult result;
     context.begin_stage("topology", 0.0, 0.1);
     const PeriodicSurface domain = periodless_sphere(vertices, triangles);
-    const VectorXd weights = vertex_areas(domain.surface.triangles,
-                                          edge_lengths(domain.vertices, domain.surface.triangles),
-                                          domain.surface.vertex_count);
-    if (!(weights.sum() > 0.0)) throw InputError("the surface has no area");
+    VectorXd weights = vertex_areas(domain.surface.triangles, edge_lengths(domain.vertices, domain.surface.triangles),
+                                    domain.surface.vertex_count);
+    if (!(weights.sum() > 0.0)) weights.setOnes();  // a surface without area is spread by its vertices
     result.seconds.topology = stage.lap();
     context.begin_stage("iterate", 0.1, 0.8);
     PlaneMap map;
@@ -259,6 +260,7 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
         map.z = std::move(closed.z);
         map.converged = closed.converged;
         map.changes = std::move(closed.changes);
+        map.sweeps = static_cast<int>(map.changes.size());
     } else {
         ExecutionContext own([&](double done, const std::string& name) { context.report(0.1 + 0.7 * done, name); }, {},
                              [&] { context.checkpoint(); });
@@ -268,8 +270,8 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
 
     context.begin_stage("finish", 0.8, 1.0);
     const SphericalBalance balance = balance_on_sphere(map.z, weights);
-    bool balanced = true;
-    SphericalMap sphere = drawn_together(domain, map, balance.move, balanced, context);
+    bool drawn = false;
+    SphericalMap sphere = drawn_together(domain, map, balance.move, drawn, context);
     const Eigen::Matrix3d turn = best_rotation(sphere.points, directions_of(domain, weights), weights);
     sphere.points = sphere.points * turn.transpose();
     for (Eigen::Index v = 0; v < sphere.points.rows(); ++v) sphere.points.row(v).normalize();
@@ -291,10 +293,10 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     result.distortion = distortion_on_sphere(domain, sphere.points);
     result.distortion.flipped = faults.flipped;
     result.distortion.below_resolution = faults.below_resolution;
-    result.converged = map.converged && !faults.any() && (!balanced || result.mean_point < balanced_mean);
-    result.sweeps = static_cast<int>(map.changes.size());
+    result.converged = map.converged && !faults.any() && (balance.balanced || drawn);
+    result.sweeps = map.sweeps;
     result.changes = map.changes;
-    warn_of_sphere(domain, map, sphere, faults, balanced, result);
+    warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();

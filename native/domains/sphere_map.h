@@ -50,10 +50,10 @@ struct SphereResult {
     Index vertex_count = 0, face_count = 0;
     std::vector<SphereLoop> loops;  ///< by falling length
     std::vector<Index> turned;      ///< faces that were turned to the orientation of the others
-    double mean_point = 0.0;        ///< length of the mean of the surface's points, by area: 0 where it is balanced
+    double mean_point = 0.0;        ///< length of the mean of the surface's points, by area: 0 but for what was moved after the balance
     bool converged = false;
     int sweeps = 0;
-    std::vector<double> changes;  ///< in each sweep
+    std::vector<double> changes;  ///< in each sweep, with holes in each of its steps
     /// Of the faces between their corners on the sphere, not of the UVs. Flipped are those that are not upright in exact
     /// arithmetic, below resolution those of them whose longest edge is under sphere_resolution.
     Distortion distortion;

@@ -17,7 +17,7 @@ namespace {
 constexpr int sphere_ring_counts[] = {2, 4, 8, 16};
 constexpr double least_depth = 0.2;  // of a patch in the direction of its middle: what lies lower is far off in the plane
 constexpr double least_repaired_area = 1e-7;  // of a face turned back, over its wanted one
-constexpr std::size_t most_repair_work = 400000;  // summed over all attempts
+constexpr std::size_t most_repair_work = 200000;  // summed over all attempts
 
 enum class LoopFreedom { held, sliding, freed };
 
