@@ -21,43 +21,68 @@
 namespace koebe {
 namespace {
 
-constexpr Index enough_faces = 2000;  // fewer are refined
+constexpr double longest_side = 0.1;  // on the sphere: longer edges are split
+constexpr int most_splits = 10;
+constexpr Index most_added_faces = 100000;
 constexpr double overlap = 0.5;       // each cap reaches so far beyond the equator, as a height: 30 degrees
 constexpr std::size_t tried_faces = 8;
 
-/// Vertices, those of the polyhedron first, and faces.
+/// Vertices, those of the surface first, and faces.
 struct Polyhedron {
     Vertices vertices;
     Triangles triangles;
 };
 
-Polyhedron refined_polyhedron(Polyhedron mesh)
+/// Splits edges in two and their faces in two to four, so that all stay flat.
+/// @param too_long of an edge's ends @return whether there was one
+template <typename TooLong>
+bool split_edges(Polyhedron& mesh, const TooLong& too_long)
 {
-    while (mesh.triangles.rows() < enough_faces) {
-        std::map<std::pair<Index, Index>, Index> middle;
-        std::vector<Eigen::RowVector3d> added;
-        const Index first = static_cast<Index>(mesh.vertices.rows());
-        Triangles finer(4 * mesh.triangles.rows(), 3);
-        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-            std::array<Index, 3> half{};
-            for (int k = 0; k < 3; ++k) {
-                const Index a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
-                const auto [at, is_new] =
-                    middle.try_emplace(std::minmax(a, b), first + static_cast<Index>(added.size()));
-                if (is_new) added.emplace_back(0.5 * (mesh.vertices.row(a) + mesh.vertices.row(b)));
-                half[static_cast<std::size_t>(k)] = at->second;
-            }
-            const auto corner = mesh.triangles.row(f);
-            finer.row(4 * f) << corner[0], half[0], half[2];
-            finer.row(4 * f + 1) << half[0], corner[1], half[1];
-            finer.row(4 * f + 2) << half[2], half[1], corner[2];
-            finer.row(4 * f + 3) << half[0], half[1], half[2];
+    std::map<std::pair<Index, Index>, Index> middle;
+    std::vector<Eigen::RowVector3d> added;
+    std::vector<std::array<Index, 3>> faces;
+    const Index first = static_cast<Index>(mesh.vertices.rows());
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        std::array<Index, 3> v{}, half{};
+        for (int k = 0; k < 3; ++k) {
+            const Index a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
+            v[static_cast<std::size_t>(k)] = a;
+            half[static_cast<std::size_t>(k)] = -1;
+            if (!too_long(a, b)) continue;
+            const auto [at, is_new] = middle.try_emplace(std::minmax(a, b), first + static_cast<Index>(added.size()));
+            if (is_new) added.emplace_back(0.5 * (mesh.vertices.row(a) + mesh.vertices.row(b)));
+            half[static_cast<std::size_t>(k)] = at->second;
         }
-        mesh.vertices.conservativeResize(first + static_cast<Eigen::Index>(added.size()), 3);
-        for (std::size_t i = 0; i < added.size(); ++i) mesh.vertices.row(first + static_cast<Index>(i)) = added[i];
-        mesh.triangles = std::move(finer);
+        const auto count = std::ranges::count_if(half, [](Index h) { return h >= 0; });
+        // Turned so that the first edge is split, and of two the first and the second.
+        std::size_t turn = 0;
+        while (count > 0 && !(half[turn] >= 0 && (count == 1 || half[(turn + 1) % 3] >= 0))) ++turn;
+        std::rotate(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(turn), v.end());
+        std::rotate(half.begin(), half.begin() + static_cast<std::ptrdiff_t>(turn), half.end());
+        if (count == 0) {
+            faces.push_back(v);
+        } else if (count == 1) {
+            faces.push_back({v[0], half[0], v[2]});
+            faces.push_back({half[0], v[1], v[2]});
+        } else if (count == 2) {
+            faces.push_back({half[0], v[1], half[1]});
+            faces.push_back({v[0], half[0], half[1]});
+            faces.push_back({v[0], half[1], v[2]});
+        } else {
+            faces.push_back({v[0], half[0], half[2]});
+            faces.push_back({half[0], v[1], half[1]});
+            faces.push_back({half[2], half[1], v[2]});
+            faces.push_back({half[0], half[1], half[2]});
+        }
     }
-    return mesh;
+    if (added.empty()) return false;
+    mesh.vertices.conservativeResize(first + static_cast<Eigen::Index>(added.size()), 3);
+    for (std::size_t i = 0; i < added.size(); ++i) mesh.vertices.row(first + static_cast<Index>(i)) = added[i];
+    mesh.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            mesh.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = faces[f][k];
+    return true;
 }
 
 /// Distances along edges from some vertices.
@@ -184,47 +209,76 @@ double turn_back(const VectorXcd& from, VectorXcd& to, const VectorXd& weights)
     return (now - old).rowwise().norm().maxCoeff();
 }
 
+/// The metric of a polyhedron and the first map of it.
+struct OpenedSphere {
+    SparseMatrix laplacian;
+    VectorXd areas;
+    VectorXcd z;
+    std::size_t turned = std::numeric_limits<std::size_t>::max();  // faces
+};
+
+OpenedSphere open_sphere(const Polyhedron& mesh, const ExecutionContext& context)
+{
+    OpenedSphere sphere;
+    const Index count = static_cast<Index>(mesh.vertices.rows());
+    const IntrinsicMetric metric = intrinsic_metric(mesh.vertices, analyze_surface(mesh.triangles, count));
+    sphere.laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), count);
+    sphere.areas = vertex_areas(mesh.triangles, edge_lengths(mesh.vertices, mesh.triangles), count);
+    if (!(sphere.areas.sum() > 0.0)) sphere.areas.setOnes();
+    SparseMatrix tied = sphere.laplacian;  // constants are in the kernel: a load without a sum draws nothing from the tie
+    tied.coeffRef(0, 0) += tied.diagonal().mean();
+    const SparseCholesky factor(tied);
+    double least = 0.0;
+    for (const Index f : faces_to_open(metric, mesh.vertices)) {
+        context.checkpoint();
+        const MatrixXd u = factor.solve(dipole_load(metric, count, f));
+        if (!u.allFinite()) continue;
+        VectorXcd opened(count);
+        opened.real() = u.col(0);
+        opened.imag() = u.col(1);
+        const double size = opened.cwiseAbs().maxCoeff();
+        if (!(size > 0.0) || !std::isfinite(size)) continue;
+        opened /= size;
+        opened = balance_on_sphere(opened, sphere.areas).move(opened);
+        const std::size_t turned = turned_count(mesh.triangles, opened);
+        const double unevenness = spherical_unevenness(opened, sphere.areas, {});
+        if (!opened.allFinite()) continue;
+        if (turned > sphere.turned || (turned == sphere.turned && unevenness >= least)) continue;
+        sphere.turned = turned;
+        least = unevenness;
+        sphere.z = std::move(opened);
+    }
+    if (sphere.z.size() == 0) throw SolverError("no finite map to the sphere: the metric is degenerate");
+    return sphere;
+}
+
+/// As open_sphere, with edges split until none is long on the sphere.
+OpenedSphere open_refined_sphere(Polyhedron& mesh, ExecutionContext& context)
+{
+    const Eigen::Index most = mesh.triangles.rows() + most_added_faces;
+    OpenedSphere sphere = open_sphere(mesh, context);
+    for (int round = 0; round < most_splits && mesh.triangles.rows() < most; ++round) {
+        context.advance(0.05 * (round + 1));
+        const Vertices points = on_sphere(sphere.z);
+        if (!split_edges(mesh, [&](Index a, Index b) { return (points.row(a) - points.row(b)).norm() > longest_side; }))
+            break;
+        sphere = open_sphere(mesh, context);
+    }
+    return sphere;
+}
+
 }  // namespace
 
 ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd& weights,
                                   const IterationOptions& options, ExecutionContext& context)
 {
-    const Polyhedron mesh = refined_polyhedron({domain.vertices, domain.surface.triangles});
-    const Index count = static_cast<Index>(mesh.vertices.rows()), own = domain.surface.vertex_count;
-    const IntrinsicMetric metric = intrinsic_metric(mesh.vertices, analyze_surface(mesh.triangles, count));
-    const SparseMatrix laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), count);
-    const VectorXd areas =
-        count == own ? weights : vertex_areas(mesh.triangles, edge_lengths(mesh.vertices, mesh.triangles), count);
-    context.advance(0.1);
-
-    VectorXcd z;
-    std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    double least = 0.0;
-    {
-        SparseMatrix tied = laplacian;  // constants are in the kernel: a load without a sum draws nothing from the tie
-        tied.coeffRef(0, 0) += laplacian.diagonal().mean();
-        const SparseCholesky factor(tied);
-        for (const Index f : faces_to_open(metric, mesh.vertices)) {
-            context.checkpoint();
-            const MatrixXd u = factor.solve(dipole_load(metric, count, f));
-            if (!u.allFinite()) continue;
-            VectorXcd opened(count);
-            opened.real() = u.col(0);
-            opened.imag() = u.col(1);
-            const double size = opened.cwiseAbs().maxCoeff();
-            if (!(size > 0.0) || !std::isfinite(size)) continue;
-            opened /= size;
-            const SphericalBalance balance = balance_on_sphere(opened, areas);
-            opened = balance.move(opened);
-            const std::size_t turned = turned_count(mesh.triangles, opened);
-            const double unevenness = spherical_unevenness(opened, areas, {});
-            if (turned > fewest || (turned == fewest && unevenness >= least)) continue;
-            fewest = turned;
-            least = unevenness;
-            z = std::move(opened);
-        }
-    }
-    if (z.size() == 0) throw SolverError("no finite map to the sphere: the metric is degenerate");
+    Polyhedron mesh{domain.vertices, domain.surface.triangles};
+    OpenedSphere sphere = open_refined_sphere(mesh, context);
+    const SparseMatrix& laplacian = sphere.laplacian;
+    const VectorXd& areas = sphere.areas;
+    std::size_t fewest = sphere.turned;
+    VectorXcd z = std::move(sphere.z);
+    const Index count = static_cast<Index>(mesh.vertices.rows());
 
     ClosedSphereMap map;
     const Vertices start = on_sphere(z);
@@ -237,7 +291,7 @@ ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd&
     VectorXcd best = z;
     double least_change = std::numeric_limits<double>::infinity();
     for (int sweep = 0; sweep < options.max_sweeps && !map.converged; ++sweep) {
-        context.advance(0.3 + 0.7 * sweep / (sweep + 4.0));
+        context.advance(0.5 + 0.5 * sweep / (sweep + 4.0));
         VectorXcd next = z;
         if (upper) upper.solve(next);
         if (lower) {
@@ -259,7 +313,7 @@ ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd&
         }
         least_change = std::min(least_change, change);
     }
-    map.z = (map.converged ? z : best).head(own);
+    map.z = best.head(domain.surface.vertex_count);
     map.z = balance_on_sphere(map.z, weights).move(map.z);
     return map;
 }

@@ -25,7 +25,7 @@ struct ClosedSphereMap {
 /// turn each of them is mapped harmonically, its rim as the other one has it (Schwarz 1870), and the whole balanced.
 /// An error z^k falls by 9^-k in a sweep; z^0 and z^1 are Moebius maps. What is left is of second order everywhere.
 ///
-/// A mesh of few faces is refined first, as a polyhedron: flat faces into four alike.
+/// Faces that the start shows large on the sphere are split first, as a polyhedron's: the surface stays as it is.
 /// @param domain without loops @param weights (V) area around each vertex
 /// @throws SolverError, Cancelled
 ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd& weights,
