@@ -9,6 +9,7 @@
 #include "domains/sphere_repair.h"
 #include "domains/spherical_balance.h"
 #include "domains/stopwatch.h"
+#include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "pipeline/uniformize.h"
 #include "surface/laplacian.h"
@@ -32,6 +33,7 @@ struct PlaneMap {
     std::vector<Roundness> roundness;         // of the loops
     std::vector<Index> off_circle;            // of the domain, rising
     std::size_t outer = 0;                    // loop
+    std::vector<Flap> flaps;                  // on the outer loop
     bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;
@@ -65,6 +67,8 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
             for (const Index v : loop.off_circle) map.off_circle.push_back(number[v]);
         }
     std::ranges::sort(map.off_circle);
+    for (Flap& flap : cut_flaps(domain.vertices, domain.surface, domain.loops).flaps)
+        if (flap.loop == static_cast<int>(map.outer)) map.flaps.push_back(std::move(flap));
     map.converged = disk.converged;
     map.sweeps = disk.sweeps;
     for (const KoebeStep& step : disk.history) map.changes.push_back(step.change);
@@ -86,6 +90,24 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
     return map;
 }
 
+/// In the disk the unit circle is convex, and what hangs on it by one edge lies behind that edge; on the sphere it would
+/// lie over its neighbours. Mirrored at the edge it hangs into the hole.
+void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMap& sphere)
+{
+    const Triangles& triangles = domain.surface.triangles;
+    std::size_t flipped = 0;
+    for (const Index f : flap.faces) flipped += upright_on_sphere(triangles, sphere.points, f) ? 0 : 1;
+    const SpherePoint normal = SpherePoint(sphere.points.row(flap.first)).cross(SpherePoint(sphere.points.row(flap.last)));
+    if (2 * flipped <= flap.faces.size() || !(normal.norm() > 0.0)) return;
+    const Eigen::RowVector3d across = normal.normalized().transpose();
+    for (const auto* vertices : {&flap.rim, &flap.interior})
+        for (const Index v : *vertices) {
+            const Eigen::RowVector3d at = sphere.points.row(v);
+            sphere.points.row(v) = (at - 2.0 * at.dot(across) * across).normalized();
+        }
+    sphere.off_circle.insert(sphere.off_circle.end(), flap.rim.begin(), flap.rim.end());
+}
+
 /// On the sphere, loops on their circles.
 SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& move)
 {
@@ -99,6 +121,9 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
             if (!std::ranges::binary_search(map.off_circle, v))
                 sphere.points.row(v) = onto_circle(sphere.caps[k], sphere.points.row(v)).transpose();
     }
+    for (const Flap& flap : map.flaps) hang_into_hole(domain, flap, sphere);
+    std::ranges::sort(sphere.off_circle);
+    sphere.off_circle.erase(std::unique(sphere.off_circle.begin(), sphere.off_circle.end()), sphere.off_circle.end());
     return sphere;
 }
 
