@@ -55,10 +55,14 @@ std::optional<double> hole_area(const VertexLoop& loop, const Vertices& points, 
         middles.push_back(mean.normalized());
         middles.push_back(-mean.normalized());
     }
+    // A loop that runs the other way round has the rest of the sphere as its hole.
+    const auto fits = [&](double area) {
+        return std::abs(area - 2.0 * std::numbers::pi * (1.0 - std::cos(cap.radius))) < 2.0 * std::numbers::pi;
+    };
     for (const SpherePoint& middle : middles)
-        if (const auto area = star_area(loop, points, middle)) return area;
+        if (const auto area = star_area(loop, points, middle); area && fits(*area)) return area;
     for (const SpherePoint& axis : {SpherePoint(-middles.back()), SpherePoint(-cap.center), cap.center})
-        if (const auto area = projected_area(loop, points, axis)) return area;
+        if (const auto area = projected_area(loop, points, axis); area && fits(*area)) return area;
     return std::nullopt;
 }
 
