@@ -21,9 +21,9 @@
 namespace koebe {
 namespace {
 
-constexpr double longest_side = 0.1;  // on the sphere: longer edges are split
+constexpr double longest_side = 0.25;  // on the sphere: longer edges are split
 constexpr int most_splits = 10;
-constexpr Index most_added_faces = 100000;
+constexpr Index most_added_faces = 30000;
 constexpr double overlap = 0.5;       // each cap reaches so far beyond the equator, as a height: 30 degrees
 constexpr std::size_t tried_faces = 8;
 

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@
 namespace koebe {
 namespace {
 
+constexpr double least_angle = 1e-7;        // between neighbours on a circle, seen from its middle
 constexpr Index most_drawn_faces = 5000;  // of a surface that may be drawn together
 
 /// A map to the plane and the point at infinity, with all that is known of it.
@@ -108,6 +110,34 @@ void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMa
     sphere.off_circle.insert(sphere.off_circle.end(), flap.rim.begin(), flap.rim.end());
 }
 
+/// Puts the vertices of a loop on its cap's circle in their order round it: two that rounding has in the other one, or
+/// on one point, are moved apart.
+void put_onto_circle(const std::vector<Index>& vertices, const Cap& cap, Vertices& points)
+{
+    if (vertices.empty()) return;
+    const SpherePoint x = cap.center.unitOrthogonal(), y = cap.center.cross(x);
+    const std::size_t count = vertices.size();
+    std::vector<double> angle;  // the loop runs clockwise
+    for (const Index v : vertices) angle.push_back(-std::atan2(points.row(v).dot(y), points.row(v).dot(x)));
+    const auto step = [&](std::size_t b) {  // from b to the next, in [-pi, pi]
+        return std::remainder(angle[(b + 1) % count] - angle[b], 2.0 * std::numbers::pi);
+    };
+    std::size_t widest = 0;
+    for (std::size_t b = 1; b < count; ++b)
+        if (step(b) > step(widest)) widest = b;
+    double at = angle[(widest + 1) % count], raised = at;
+    for (std::size_t i = 0; i < count; ++i) {  // from the end of the widest step on
+        const std::size_t b = (widest + 1 + i) % count;
+        const double following = at + step(b);
+        raised = i == 0 ? at : std::max(at, raised + least_angle);
+        const SpherePoint across = std::cos(raised) * x - std::sin(raised) * y;
+        const SpherePoint place = raised == at ? onto_circle(cap, points.row(vertices[b]).transpose())
+                                               : onto_circle(cap, across);
+        points.row(vertices[b]) = place.transpose();
+        at = following;
+    }
+}
+
 /// On the sphere, loops on their circles.
 SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& move)
 {
@@ -117,9 +147,10 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
     for (std::size_t k = 0; k < domain.loops.size(); ++k) {
         const Circle& circle = map.circles[k];
         sphere.caps.push_back(cap_of({move(circle.center), circle.radius / move.scale}, k == map.outer));
+        std::vector<Index> on;
         for (const Index v : domain.loops[k])
-            if (!std::ranges::binary_search(map.off_circle, v))
-                sphere.points.row(v) = onto_circle(sphere.caps[k], sphere.points.row(v)).transpose();
+            if (!std::ranges::binary_search(map.off_circle, v)) on.push_back(v);
+        put_onto_circle(on, sphere.caps[k], sphere.points);
     }
     for (const Flap& flap : map.flaps) hang_into_hole(domain, flap, sphere);
     std::ranges::sort(sphere.off_circle);
@@ -132,23 +163,26 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
 SphericalMap drawn_together(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& balance,
                             bool& drawn, const ExecutionContext& context)
 {
-    SphericalMap best;
+    const auto drawn_by = [&](double farther, bool repair) {
+        SphericalMap sphere = lifted_to_sphere(domain, map, {balance.shift, balance.scale * std::exp(farther)});
+        if (repair) turn_back_on_sphere(domain, sphere, context);
+        return sphere;
+    };
+    const auto whole = [&](const SphericalMap& sphere) {
+        return !find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps).any();
+    };
+    SphericalMap balanced = drawn_by(0.0, true);
     drawn = false;
-    for (const double farther : {0.0, 0.01, 0.04, 0.16, 0.64, 2.56}) {
-        SphericalMap sphere =
-            lifted_to_sphere(domain, map, {balance.shift, balance.scale * std::exp(farther)});
-        turn_back_on_sphere(domain, sphere, context);
-        const bool first = farther == 0.0;
-        const bool whole =
-            !find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps).any();
-        if (first || whole) best = std::move(sphere);
-        if (whole) {
-            drawn = !first;
-            break;
+    if (domain.loops.empty() || domain.surface.triangles.rows() > most_drawn_faces || whole(balanced)) return balanced;
+    for (const bool repair : {false, true})
+        for (const double farther : {0.01, 0.04, 0.16, 0.64, 2.56}) {
+            if (repair && farther < 0.1) continue;
+            SphericalMap sphere = drawn_by(farther, repair);
+            if (!whole(sphere)) continue;
+            drawn = true;
+            return sphere;
         }
-        if (domain.loops.empty() || domain.surface.triangles.rows() > most_drawn_faces) break;
-    }
-    return best;
+    return balanced;
 }
 
 /// (V) directions from the surface's middle.

@@ -17,7 +17,7 @@ namespace {
 constexpr int sphere_ring_counts[] = {2, 4, 8, 16};
 constexpr double least_depth = 0.2;  // of a patch in the direction of its middle: what lies lower is far off in the plane
 constexpr double least_repaired_area = 1e-7;  // of a face turned back, over its wanted one
-constexpr std::size_t most_repair_work = 200000;  // summed over all attempts
+constexpr std::size_t most_repair_work = 100000;  // summed over all attempts
 
 enum class LoopFreedom { held, sliding, freed };
 
@@ -113,6 +113,10 @@ private:
         SpherePoint axis = SpherePoint::Zero();
         for (const Index f : faces)
             for (const Index v : triangles_.row(f)) axis += map_.points.row(v).transpose();
+        if (axis.norm() < 0.6 * 3.0 * static_cast<double>(faces.size())) {  // most of the sphere: round one of them
+            axis.setZero();
+            for (const Index v : triangles_.row(before[work_ % before.size()])) axis += map_.points.row(v).transpose();
+        }
         if (!(axis.norm() > 0.0)) return;
         axis.normalize();
         // What lies too far from the middle to be seen in the plane is left out.
