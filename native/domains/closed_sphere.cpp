@@ -24,7 +24,7 @@ namespace {
 constexpr double longest_side = 0.25;  // on the sphere: longer edges are split
 constexpr int most_splits = 10;
 constexpr Index most_added_faces = 30000;
-constexpr double overlap = 0.5;       // each cap reaches so far beyond the equator, as a height: 30 degrees
+constexpr double overlap = 0.5;  // each cap reaches so far beyond the equator, as a height: 30 degrees
 constexpr std::size_t tried_faces = 8;
 
 /// Vertices, those of the surface first, and faces.
@@ -225,7 +225,8 @@ OpenedSphere open_sphere(const Polyhedron& mesh, const ExecutionContext& context
     sphere.laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), count);
     sphere.areas = vertex_areas(mesh.triangles, edge_lengths(mesh.vertices, mesh.triangles), count);
     if (!(sphere.areas.sum() > 0.0)) sphere.areas.setOnes();
-    SparseMatrix tied = sphere.laplacian;  // constants are in the kernel: a load without a sum draws nothing from the tie
+    SparseMatrix tied =
+        sphere.laplacian;  // constants are in the kernel: a load without a sum draws nothing from the tie
     tied.coeffRef(0, 0) += tied.diagonal().mean();
     const SparseCholesky factor(tied);
     double least = 0.0;

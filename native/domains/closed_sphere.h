@@ -11,7 +11,7 @@ namespace koebe {
 
 /// A map of a closed surface to the plane and the point at infinity, none of its vertices there.
 struct ClosedSphereMap {
-    VectorXcd z;                  ///< (V) finite; balanced (spherical_balance.h), up to a rotation of the sphere
+    VectorXcd z;  ///< (V) finite; balanced (spherical_balance.h), up to a rotation of the sphere
     bool converged = false;
     std::vector<double> changes;  ///< largest move of a point of the sphere in each sweep
 };

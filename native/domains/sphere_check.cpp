@@ -70,8 +70,8 @@ std::optional<double> hole_area(const VertexLoop& loop, const Vertices& points, 
 
 bool upright_on_sphere(const Triangles& triangles, const Vertices& points, Index face)
 {
-    return orientation(points.row(triangles(face, 0)), points.row(triangles(face, 1)),
-                       points.row(triangles(face, 2))) > 0;
+    return orientation(points.row(triangles(face, 0)), points.row(triangles(face, 1)), points.row(triangles(face, 2))) >
+           0;
 }
 
 double longest_edge_on_sphere(const Triangles& triangles, const Vertices& points, Index face)

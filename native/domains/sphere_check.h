@@ -22,8 +22,8 @@ struct SphereFaults {
 
 /// Whether the images of the faces, triangles with the shorter arcs as sides, cover each point of the sphere once with
 /// the holes. Where all faces are upright (exact arithmetic) and all loops simple round their hole, the map of the
-/// closed surface, its holes filled, is a covering but for branch points at vertices; the sum of all areas is 4 pi times
-/// its number of sheets. One sheet has no branch points.
+/// closed surface, its holes filled, is a covering but for branch points at vertices; the sum of all areas is 4 pi
+/// times its number of sheets. One sheet has no branch points.
 /// @param triangles in one orientation @param points (V, 3) unit vectors @param caps of the loops
 SphereFaults find_sphere_faults(const Triangles& triangles, const std::vector<VertexLoop>& loops,
                                 const Vertices& points, const std::vector<Cap>& caps);

@@ -108,7 +108,8 @@ Placed octahedral(const FaceCorners& p)
             when[i] = over ? middle[axis] / (middle[axis] - p[k][axis]) : 2.0;
         }
         FoldedSheet sheet;
-        for (const std::size_t i : when[0] <= when[1] ? std::array<std::size_t, 2>{0, 1} : std::array<std::size_t, 2>{1, 0}) {
+        for (const std::size_t i :
+             when[0] <= when[1] ? std::array<std::size_t, 2>{0, 1} : std::array<std::size_t, 2>{1, 0}) {
             if (when[i] > 1.0) continue;
             const double height = middle[2] + when[i] * (p[k][2] - middle[2]);
             if (height < 0.0) {  // the lower half: over the side that the other coordinate's sign tells
@@ -123,7 +124,8 @@ Placed octahedral(const FaceCorners& p)
         placed.uv[k] = sheet(Eigen::RowVector2d(on_steps(0.5 * at[0]) * 2.0, on_steps(0.5 * at[1]) * 2.0));
         placed.uv[k] = (0.5 * (placed.uv[k].array() + 1.0)).matrix();
     }
-    for (const SpherePoint& corner : {SpherePoint(1, 0, 0), SpherePoint(-1, 0, 0), SpherePoint(0, 1, 0), SpherePoint(0, -1, 0)})
+    for (const SpherePoint& corner :
+         {SpherePoint(1, 0, 0), SpherePoint(-1, 0, 0), SpherePoint(0, 1, 0), SpherePoint(0, -1, 0)})
         placed.torn |= std::ranges::find(p, corner) == p.end() && contains(p, corner);
     return placed;
 }

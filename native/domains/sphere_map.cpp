@@ -25,17 +25,17 @@
 namespace koebe {
 namespace {
 
-constexpr double least_angle = 1e-7;        // between neighbours on a circle, seen from its middle
+constexpr double least_angle = 1e-7;      // between neighbours on a circle, seen from its middle
 constexpr Index most_drawn_faces = 5000;  // of a surface that may be drawn together
 
 /// A map to the plane and the point at infinity, with all that is known of it.
 struct PlaneMap {
-    VectorXcd z;                              // (V) of the domain's vertices
-    std::vector<Circle> circles;              // of the domain's loops, the outer one's disk being the outside of it
-    std::vector<Roundness> roundness;         // of the loops
-    std::vector<Index> off_circle;            // of the domain, rising
-    std::size_t outer = 0;                    // loop
-    std::vector<Flap> flaps;                  // on the outer loop
+    VectorXcd z;                       // (V) of the domain's vertices
+    std::vector<Circle> circles;       // of the domain's loops, the outer one's disk being the outside of it
+    std::vector<Roundness> roundness;  // of the loops
+    std::vector<Index> off_circle;     // of the domain, rising
+    std::size_t outer = 0;             // loop
+    std::vector<Flap> flaps;           // on the outer loop
     bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;
@@ -92,14 +92,15 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
     return map;
 }
 
-/// In the disk the unit circle is convex, and what hangs on it by one edge lies behind that edge; on the sphere it would
-/// lie over its neighbours. Mirrored at the edge it hangs into the hole.
+/// In the disk the unit circle is convex, and what hangs on it by one edge lies behind that edge; on the sphere it
+/// would lie over its neighbours. Mirrored at the edge it hangs into the hole.
 void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMap& sphere)
 {
     const Triangles& triangles = domain.surface.triangles;
     std::size_t flipped = 0;
     for (const Index f : flap.faces) flipped += upright_on_sphere(triangles, sphere.points, f) ? 0 : 1;
-    const SpherePoint normal = SpherePoint(sphere.points.row(flap.first)).cross(SpherePoint(sphere.points.row(flap.last)));
+    const SpherePoint normal =
+        SpherePoint(sphere.points.row(flap.first)).cross(SpherePoint(sphere.points.row(flap.last)));
     if (2 * flipped <= flap.faces.size() || !(normal.norm() > 0.0)) return;
     const Eigen::RowVector3d across = normal.normalized().transpose();
     for (const auto* vertices : {&flap.rim, &flap.interior})
@@ -131,8 +132,8 @@ void put_onto_circle(const std::vector<Index>& vertices, const Cap& cap, Vertice
         const double following = at + step(b);
         raised = i == 0 ? at : std::max(at, raised + least_angle);
         const SpherePoint across = std::cos(raised) * x - std::sin(raised) * y;
-        const SpherePoint place = raised == at ? onto_circle(cap, points.row(vertices[b]).transpose())
-                                               : onto_circle(cap, across);
+        const SpherePoint place =
+            raised == at ? onto_circle(cap, points.row(vertices[b]).transpose()) : onto_circle(cap, across);
         points.row(vertices[b]) = place.transpose();
         at = following;
     }
@@ -254,8 +255,8 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
     if (domain.loops.empty() && !map.converged)
         result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
     if (drawn)
-        result.warnings.push_back({WarningKind::coarse_mesh,
-                                   "too few faces to be spread evenly over the sphere: they were drawn together"});
+        result.warnings.push_back(
+            {WarningKind::coarse_mesh, "too few faces to be spread evenly over the sphere: they were drawn together"});
     else if (!balanced)
         result.warnings.push_back({WarningKind::not_converged,
                                    "no even spread over the sphere was found: half of the surface shrinks to a point"});
@@ -269,10 +270,10 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
                                    counted(faults.lost_holes.size(), "loop") + " too deep for 64-bit coordinates",
                                    {faults.lost_holes.begin(), faults.lost_holes.end()}});
     if (!faults.below_resolution.empty())
-        result.warnings.push_back({WarningKind::below_resolution,
-                                   counted(faults.below_resolution.size(), "face") +
-                                       " on the sphere too small for 64-bit coordinates",
-                                   faults.below_resolution});
+        result.warnings.push_back(
+            {WarningKind::below_resolution,
+             counted(faults.below_resolution.size(), "face") + " on the sphere too small for 64-bit coordinates",
+             faults.below_resolution});
     std::vector<Index> turned_over, tiny;
     std::ranges::set_difference(result.layout.flipped, result.layout.torn, std::back_inserter(turned_over));
     std::ranges::set_intersection(turned_over, result.layout.below_resolution, std::back_inserter(tiny));
@@ -343,7 +344,8 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     result.face_count = static_cast<Index>(triangles.rows());
     result.points = Vertices::Zero(vertices.rows(), 3);
     result.points.col(2).setOnes();
-    for (Index v = 0; v < domain.surface.vertex_count; ++v) result.points.row(domain.original[v]) = sphere.points.row(v);
+    for (Index v = 0; v < domain.surface.vertex_count; ++v)
+        result.points.row(domain.original[v]) = sphere.points.row(v);
     result.turned = domain.surface.reoriented;
     std::vector<char> turned(static_cast<std::size_t>(triangles.rows()), 0);
     for (const Index f : result.turned) turned[f] = 1;

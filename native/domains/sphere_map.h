@@ -29,9 +29,9 @@ struct SphereOptions {
 
 /// A loop on the sphere.
 struct SphereLoop {
-    VertexLoop vertices;  ///< in order, the surface on the left
-    Cap cap;              ///< the hole
-    Roundness roundness;  ///< of the image in the disk before it was put on its circle
+    VertexLoop vertices;            ///< in order, the surface on the left
+    Cap cap;                        ///< the hole
+    Roundness roundness;            ///< of the image in the disk before it was put on its circle
     std::vector<Index> off_circle;  ///< vertices that are not on the cap's circle, rising
 };
 
@@ -50,12 +50,13 @@ struct SphereResult {
     Index vertex_count = 0, face_count = 0;
     std::vector<SphereLoop> loops;  ///< by falling length
     std::vector<Index> turned;      ///< faces that were turned to the orientation of the others
-    double mean_point = 0.0;        ///< length of the mean of the surface's points, by area: 0 but for what was moved after the balance
+    double mean_point =
+        0.0;  ///< length of the mean of the surface's points, by area: 0 but for what was moved after the balance
     bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;  ///< in each sweep, with holes in each of its steps
-    /// Of the faces between their corners on the sphere, not of the UVs. Flipped are those that are not upright in exact
-    /// arithmetic, below resolution those of them whose longest edge is under sphere_resolution.
+    /// Of the faces between their corners on the sphere, not of the UVs. Flipped are those that are not upright in
+    /// exact arithmetic, below resolution those of them whose longest edge is under sphere_resolution.
     Distortion distortion;
     SphereLayoutReport layout;
     StageSeconds seconds;

@@ -15,8 +15,9 @@ namespace koebe {
 namespace {
 
 constexpr int sphere_ring_counts[] = {2, 4, 8, 16};
-constexpr double least_depth = 0.2;  // of a patch in the direction of its middle: what lies lower is far off in the plane
-constexpr double least_repaired_area = 1e-7;  // of a face turned back, over its wanted one
+constexpr double least_depth =
+    0.2;  // of a patch in the direction of its middle: what lies lower is far off in the plane
+constexpr double least_repaired_area = 1e-7;      // of a face turned back, over its wanted one
 constexpr std::size_t most_repair_work = 100000;  // summed over all attempts
 
 enum class LoopFreedom { held, sliding, freed };
@@ -24,7 +25,10 @@ enum class LoopFreedom { held, sliding, freed };
 class SphereRepair {
 public:
     SphereRepair(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context)
-        : domain_(domain), triangles_(domain.surface.triangles), map_(map), context_(context),
+        : domain_(domain),
+          triangles_(domain.surface.triangles),
+          map_(map),
+          context_(context),
           loop_of_(static_cast<std::size_t>(domain.surface.vertex_count), -1),
           faces_of_(static_cast<std::size_t>(domain.surface.vertex_count))
     {
@@ -65,7 +69,8 @@ private:
     {
         std::vector<Index> result;
         for (const Index f : faces)
-            if (!upright_on_sphere(triangles_, map_.points, f) && longest_edge_on_sphere(triangles_, map_.points, f) >= sphere_resolution)
+            if (!upright_on_sphere(triangles_, map_.points, f) &&
+                longest_edge_on_sphere(triangles_, map_.points, f) >= sphere_resolution)
                 result.push_back(f);
         return result;
     }
@@ -121,9 +126,8 @@ private:
         axis.normalize();
         // What lies too far from the middle to be seen in the plane is left out.
         std::erase_if(faces, [&](Index f) {
-            return std::ranges::any_of(triangles_.row(f), [&](Index v) {
-                return !(map_.points.row(v).dot(axis.transpose()) > least_depth);
-            });
+            return std::ranges::any_of(
+                triangles_.row(f), [&](Index v) { return !(map_.points.row(v).dot(axis.transpose()) > least_depth); });
         });
         if (faces.empty()) return;
         std::vector<Index> vertices;
@@ -173,9 +177,8 @@ private:
         // Faces that cannot move would only weigh.
         std::vector<Eigen::Index> kept;
         for (Eigen::Index f = 0; f < problem.triangles.rows(); ++f)
-            if (std::ranges::any_of(problem.triangles.row(f), [&](Index v) {
-                    return problem.mobility[v] != FoldoverProblem::Mobility::held;
-                }))
+            if (std::ranges::any_of(problem.triangles.row(f),
+                                    [&](Index v) { return problem.mobility[v] != FoldoverProblem::Mobility::held; }))
                 kept.push_back(f);
         if (kept.empty()) return;
         problem.triangles = Triangles(problem.triangles(kept, Eigen::all));
@@ -189,14 +192,18 @@ private:
             const Eigen::RowVector2d a = plane.row(problem.triangles(f, 1)) - plane.row(problem.triangles(f, 0));
             const Eigen::RowVector2d b = plane.row(problem.triangles(f, 2)) - plane.row(problem.triangles(f, 0));
             const double area = 0.5 * (a[0] * b[1] - a[1] * b[0]);
-            problem.floor[f] = area > 0.0 ? std::min(least_repaired_area, 0.5 * area / shapes.areas[f]) : least_repaired_area;
+            problem.floor[f] =
+                area > 0.0 ? std::min(least_repaired_area, 0.5 * area / shapes.areas[f]) : least_repaired_area;
         }
         minimize_foldover_free(problem, context_);
         if (!problem.points.allFinite()) return;
-        take(faces, vertices, problem, [&](const Eigen::RowVector2d& at) {
-            const Eigen::RowVector2d place = middle + size * at;
-            return SpherePoint(axis + place[0] * x + place[1] * y).normalized();
-        }, before.size());
+        take(
+            faces, vertices, problem,
+            [&](const Eigen::RowVector2d& at) {
+                const Eigen::RowVector2d place = middle + size * at;
+                return SpherePoint(axis + place[0] * x + place[1] * y).normalized();
+            },
+            before.size());
     }
 
     /// The circle of the plane that touches the image of a loop's circle at a vertex best.

@@ -10,7 +10,7 @@ namespace koebe {
 namespace {
 
 constexpr int most_newton_steps = 200;
-constexpr double farthest_step = 3.0;      // hyperbolic length
+constexpr double farthest_step = 3.0;  // hyperbolic length
 constexpr double balanced_gradient = 1e-9;
 constexpr double least_gradient = 1e-15;
 
@@ -24,7 +24,8 @@ PlaneSimilarity along_geodesic(const PlaneSimilarity& from, const SpherePoint& d
 }
 
 /// Mean of the points, and the Hessian of the unevenness, 2 (1 - x x'), over 2.
-SpherePoint mean_point(const VectorXcd& z, const VectorXd& weights, const PlaneSimilarity& move, Eigen::Matrix3d& curved)
+SpherePoint mean_point(const VectorXcd& z, const VectorXd& weights, const PlaneSimilarity& move,
+                       Eigen::Matrix3d& curved)
 {
     SpherePoint mean = SpherePoint::Zero();
     curved = Eigen::Matrix3d::Zero();
@@ -44,7 +45,8 @@ double spherical_unevenness(const VectorXcd& z, const VectorXd& weights, const P
 {
     double sum = 0.0;
     for (Eigen::Index v = 0; v < z.size(); ++v)  // hypot: a far point must not overflow
-        sum += weights[v] * (2.0 * std::log(std::hypot(move.scale, std::abs(z[v] - move.shift))) - std::log(move.scale));
+        sum +=
+            weights[v] * (2.0 * std::log(std::hypot(move.scale, std::abs(z[v] - move.shift))) - std::log(move.scale));
     return 2.0 * sum / weights.sum();
 }
 

@@ -16,8 +16,8 @@ struct PlaneSimilarity {
 
 struct SphericalBalance {
     PlaneSimilarity move;
-    double gradient = 0.0;   ///< length of the mean of the points after it, 0 at the minimum
-    bool balanced = false;   ///< whether that is 0 up to rounding
+    double gradient = 0.0;  ///< length of the mean of the points after it, 0 at the minimum
+    bool balanced = false;  ///< whether that is 0 up to rounding
 };
 
 /// The similarity whose image on the sphere (on_sphere) has least area distortion: the least mean, over the surface's

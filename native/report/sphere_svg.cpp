@@ -40,8 +40,7 @@ std::string seen_edges(const Triangles& triangles, const Vertices& points, const
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     std::string path;
     for (const std::vector<Index>& trail : edge_trails(edges, static_cast<Index>(points.rows())))
-        for (std::size_t i = 0; i < trail.size(); ++i)
-            path += (i == 0 ? "M" : "L") + view.place(points.row(trail[i]));
+        for (std::size_t i = 0; i < trail.size(); ++i) path += (i == 0 ? "M" : "L") + view.place(points.row(trail[i]));
     return path;
 }
 
@@ -53,8 +52,8 @@ std::string seen_cap(const Cap& cap, const BallView& view)
     bool seen = false;
     for (int i = 0; i < cap_corners; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / cap_corners;
-        SpherePoint p = std::cos(cap.radius) * cap.center +
-                        std::sin(cap.radius) * (std::cos(angle) * x + std::sin(angle) * y);
+        SpherePoint p =
+            std::cos(cap.radius) * cap.center + std::sin(cap.radius) * (std::cos(angle) * x + std::sin(angle) * y);
         if (view.toward(p) >= 0.0) {
             seen = true;
         } else {
@@ -76,14 +75,17 @@ std::string sphere_svg(const Triangles& triangles, const SphereResult& result)
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-10500 -10500 43000 21000\" width=\"1000\">\n"
         "<title>a sphere from the front and from behind</title>\n"
         "<defs><radialGradient id=\"ball\" cx=\"0.36\" cy=\"0.3\" r=\"0.8\"><stop offset=\"0\" stop-color=\"#f4f8ff\"/>"
-        "<stop offset=\"0.6\" stop-color=\"#a9c3e8\"/><stop offset=\"1\" stop-color=\"#5d7fb0\"/></radialGradient></defs>\n"
+        "<stop offset=\"0.6\" stop-color=\"#a9c3e8\"/><stop offset=\"1\" "
+        "stop-color=\"#5d7fb0\"/></radialGradient></defs>\n"
         "<rect x=\"-10500\" y=\"-10500\" width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
     for (const BallView view : {BallView{1.0}, BallView{-1.0}}) {
-        svg += "<g transform=\"translate(" + std::string(view.side > 0.0 ? "0" : "22000") +
-               " 0)\"><circle r=\"10000\" fill=\"url(#ball)\"/>\n<path fill=\"none\" stroke=\"#33415c\" stroke-width=\"" +
-               std::to_string(std::lround(width)) + "\" stroke-linejoin=\"round\" d=\"" +
-               seen_edges(triangles, result.points, view) + "\"/>\n<path fill=\"#f4e3d0\" stroke=\"#8a5a2b\" "
-               "stroke-width=\"60\" d=\"";
+        svg +=
+            "<g transform=\"translate(" + std::string(view.side > 0.0 ? "0" : "22000") +
+            " 0)\"><circle r=\"10000\" fill=\"url(#ball)\"/>\n<path fill=\"none\" stroke=\"#33415c\" stroke-width=\"" +
+            std::to_string(std::lround(width)) + "\" stroke-linejoin=\"round\" d=\"" +
+            seen_edges(triangles, result.points, view) +
+            "\"/>\n<path fill=\"#f4e3d0\" stroke=\"#8a5a2b\" "
+            "stroke-width=\"60\" d=\"";
         for (const SphereLoop& loop : result.loops) svg += seen_cap(loop.cap, view);
         svg += "\"/></g>\n";
     }

@@ -89,7 +89,7 @@ def moved_sphere(points, move):
 
 
 def cap_through(points, inside):
-    """The cap (4,) whose circle points lie on: center and radius as an angle. inside: of the surface, not of the cap."""
+    """The cap (4,) whose circle points lie on: center and radius as an angle; the points inside are not in it."""
     middle = points.mean(axis=0)
     _, _, v = np.linalg.svd(points - middle)
     normal = v[2] / np.linalg.norm(v[2])

@@ -98,11 +98,10 @@ def spheroid_error(frequency, height):
 
 @pytest.mark.parametrize("height", [0.5, 2.0], ids=["oblate", "prolate"])
 def test_a_spheroid_is_mapped_with_second_order(height):
-    """The isometric latitude; the points' mean is 0 as by symmetry that of the exact map. Of the first mesh, about 1,000
-    faces, some are split before it is mapped: its error is less than the others lead to expect."""
+    """The isometric latitude; the points' mean is 0 as by symmetry that of the exact map."""
     errors = [spheroid_error(frequency, height) for frequency in (7, 14, 28, 56)]
-    assert errors[0] < 3e-3 and errors[1] < 1.5e-3
-    assert errors[2] < 4.5e-4 and errors[2] / errors[3] > 3.5
+    assert errors[0] < 5e-3 and errors[0] / errors[3] > 40
+    assert errors[1] / errors[2] > 3.5 and errors[2] / errors[3] > 3.5
 
 
 def test_a_sphere_pushed_by_a_moebius_map_comes_back():

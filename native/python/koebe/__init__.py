@@ -84,6 +84,7 @@ __all__ = [
     "parts",
     "plot",
     "ring_map",
+    "sphere_map",
     "torus_map",
     "transfer",
     "uniformize",

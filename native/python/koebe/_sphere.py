@@ -23,9 +23,9 @@ class SphereMap:
     uv               (F, 3, 2) float64, u and v of each triangle's corners; read-only; 32-bit floats all, cut in the UVs
                      alone. Across the cut the pattern continues: equirectangular with the period 1 along u, u in
                      [0, 2); octahedral with half turns round the middles of the square's sides, u and v in [-1, 2]
-    layout           dict: kind; crossing, the faces that go on beyond the layout's edge; torn, those round a pole of the
-                     longitudes or round the middle of a side of the square, which fit to no UVs; flipped, those without
-                     a positive area in 32-bit UVs; below_resolution, those of them too small for these
+    layout           dict: kind; crossing, the faces that go on beyond the layout's edge; torn, those round a pole of
+                     the longitudes or round the middle of a side of the square, which fit to no UVs; flipped, those
+                     without a positive area in 32-bit UVs; below_resolution, those of them too small for these
     loops            list of dicts, by falling length: vertices, center, radius (of the cap), roundness,
                      roundness_least_squares, off_circle
     mean_point       length of the mean of the surface's points by area, 0 where the map is balanced
