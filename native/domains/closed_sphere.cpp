@@ -21,7 +21,9 @@
 namespace koebe {
 namespace {
 
-constexpr double longest_side = 0.25;  // on the sphere: longer edges are split
+constexpr double longest_side = 0.25;        // on the sphere: longer edges are split
+constexpr double longest_coarse_side = 0.1;  // of a mesh of few faces
+constexpr Eigen::Index few_faces = 500;
 constexpr int most_splits = 10;
 constexpr Index most_added_faces = 30000;
 constexpr double overlap = 0.5;  // each cap reaches so far beyond the equator, as a height: 30 degrees
@@ -257,11 +259,12 @@ OpenedSphere open_sphere(const Polyhedron& mesh, const ExecutionContext& context
 OpenedSphere open_refined_sphere(Polyhedron& mesh, ExecutionContext& context)
 {
     const Eigen::Index most = mesh.triangles.rows() + most_added_faces;
+    const double longest = mesh.triangles.rows() < few_faces ? longest_coarse_side : longest_side;
     OpenedSphere sphere = open_sphere(mesh, context);
     for (int round = 0; round < most_splits && mesh.triangles.rows() < most; ++round) {
         context.advance(0.05 * (round + 1));
         const Vertices points = on_sphere(sphere.z);
-        if (!split_edges(mesh, [&](Index a, Index b) { return (points.row(a) - points.row(b)).norm() > longest_side; }))
+        if (!split_edges(mesh, [&](Index a, Index b) { return (points.row(a) - points.row(b)).norm() > longest; }))
             break;
         sphere = open_sphere(mesh, context);
     }
