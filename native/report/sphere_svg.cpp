@@ -44,8 +44,8 @@ std::string seen_edges(const Triangles& triangles, const Vertices& points, const
     return path;
 }
 
-/// The part of a cap's circle and inside that is seen: corners behind go to the rim of the ball.
-std::string seen_cap(const Cap& cap, const BallView& view)
+/// What is seen of a cap that is no more than half the sphere: corners behind go to the rim of the ball.
+std::string seen_small_cap(const Cap& cap, const BallView& view)
 {
     const SpherePoint x = cap.center.unitOrthogonal(), y = cap.center.cross(x);
     std::string path;
@@ -66,6 +66,14 @@ std::string seen_cap(const Cap& cap, const BallView& view)
     return seen ? path + "z" : "";
 }
 
+/// What is seen of a cap, to be filled by the even-odd rule: of a large one the ball without the rest.
+std::string seen_cap(const Cap& cap, const BallView& view)
+{
+    if (cap.radius <= 0.5 * std::numbers::pi) return seen_small_cap(cap, view);
+    const std::string ball = "M-10000 0A10000 10000 0 1 0 10000 0A10000 10000 0 1 0 -10000 0z";
+    return ball + seen_small_cap({-cap.center, std::numbers::pi - cap.radius}, view);
+}
+
 }  // namespace
 
 std::string sphere_svg(const Triangles& triangles, const SphereResult& result)
@@ -84,7 +92,7 @@ std::string sphere_svg(const Triangles& triangles, const SphereResult& result)
             " 0)\"><circle r=\"10000\" fill=\"url(#ball)\"/>\n<path fill=\"none\" stroke=\"#33415c\" stroke-width=\"" +
             std::to_string(std::lround(width)) + "\" stroke-linejoin=\"round\" d=\"" +
             seen_edges(triangles, result.points, view) +
-            "\"/>\n<path fill=\"#f4e3d0\" stroke=\"#8a5a2b\" "
+            "\"/>\n<path fill=\"#f4e3d0\" fill-rule=\"evenodd\" stroke=\"#8a5a2b\" "
             "stroke-width=\"60\" d=\"";
         for (const SphereLoop& loop : result.loops) svg += seen_cap(loop.cap, view);
         svg += "\"/></g>\n";
