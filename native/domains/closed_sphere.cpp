@@ -202,7 +202,7 @@ VectorXcd reciprocal(const VectorXcd& z)
 }
 
 /// Turned to lie as near to what it was as it can. @return the largest move that is left
-double turn_back(const VectorXcd& from, VectorXcd& to, const VectorXd& weights)
+double turned_towards(const VectorXcd& from, VectorXcd& to, const VectorXd& weights)
 {
     const Vertices old = on_sphere(from);
     Vertices now = on_sphere(to);
@@ -306,7 +306,7 @@ ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd&
         if (!next.allFinite()) break;
         next = balance_on_sphere(next, areas).move(next);
         if (!next.allFinite()) break;
-        const double change = turn_back(z, next, areas);
+        const double change = turned_towards(z, next, areas);
         map.changes.push_back(change);
         map.converged = change < options.tolerance;
         const std::size_t turned = turned_count(mesh.triangles, next);

@@ -4,6 +4,7 @@
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
 #include "domains/closed_sphere.h"
+#include "domains/opened_sphere.h"
 #include "domains/sphere_check.h"
 #include "domains/sphere_layout.h"
 #include "domains/sphere_repair.h"
@@ -85,7 +86,8 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
         case WarningKind::flipped:
         case WarningKind::not_one_to_one:
         case WarningKind::reoriented_faces:
-        case WarningKind::off_circle: break;
+        case WarningKind::off_circle:
+        case WarningKind::unused_vertices: break;
         default: map.warnings.push_back(std::move(warning));
         }
     }
@@ -244,7 +246,7 @@ std::vector<SphereLoop> loops_on_sphere(const PeriodicSurface& domain, const Pla
 }
 
 void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const SphericalMap& sphere,
-                    const SphereFaults& faults, bool balanced, bool drawn, SphereResult& result)
+                    const SphereFaults& faults, bool balanced, bool drawn, bool opened, SphereResult& result)
 {
     result.warnings = map.warnings;
     if (!domain.surface.reoriented.empty())
@@ -252,11 +254,22 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
             {WarningKind::reoriented_faces,
              counted(domain.surface.reoriented.size(), "face") + " turned to the orientation of the others",
              domain.surface.reoriented});
+    std::vector<Index> unused(static_cast<std::size_t>(result.vertex_count));
+    std::iota(unused.begin(), unused.end(), 0);
+    std::erase_if(unused, [&](Index v) { return std::ranges::binary_search(domain.original, v); });
+    if (!unused.empty())
+        result.warnings.push_back({WarningKind::unused_vertices,
+                                   counted(unused.size(), "vertex") + " of no face put at (0, 0, 1)",
+                                   std::move(unused)});
     if (domain.loops.empty() && !map.converged)
         result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
     if (drawn)
         result.warnings.push_back(
             {WarningKind::coarse_mesh, "too few faces to be spread evenly over the sphere: they were drawn together"});
+    else if (opened)
+        result.warnings.push_back(
+            {WarningKind::coarse_mesh,
+             "too few faces for the conformal map: a map with one vertex opened is in its place"});
     else if (!balanced)
         result.warnings.push_back({WarningKind::not_converged,
                                    "no even spread over the sphere was found: half of the surface shrinks to a point"});
@@ -332,6 +345,13 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     const SphericalBalance balance = balance_on_sphere(map.z, weights);
     bool drawn = false;
     SphericalMap sphere = drawn_together(domain, map, balance.move, drawn, context);
+    bool opened = false;
+    if (domain.loops.empty() && domain.surface.triangles.rows() <= most_drawn_faces &&
+        find_sphere_faults(domain.surface.triangles, {}, sphere.points, {}).any())
+        if (auto other = opened_at_a_vertex(domain, weights, sphere.points, context)) {
+            sphere = std::move(*other);
+            opened = true;
+        }
     const Eigen::Matrix3d turn = best_rotation(sphere.points, directions_of(domain, weights), weights);
     sphere.points = sphere.points * turn.transpose();
     for (Eigen::Index v = 0; v < sphere.points.rows(); ++v) sphere.points.row(v).normalize();
@@ -354,10 +374,10 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     result.distortion = distortion_on_sphere(domain, sphere.points);
     result.distortion.flipped = faults.flipped;
     result.distortion.below_resolution = faults.below_resolution;
-    result.converged = map.converged && !faults.any() && (balance.balanced || drawn);
+    result.converged = map.converged && !faults.any() && (balance.balanced || drawn || opened);
     result.sweeps = map.sweeps;
     result.changes = map.changes;
-    warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, result);
+    warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();
