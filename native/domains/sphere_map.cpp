@@ -268,8 +268,7 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
             {WarningKind::coarse_mesh, "too few faces to be spread evenly over the sphere: they were drawn together"});
     else if (opened)
         result.warnings.push_back(
-            {WarningKind::coarse_mesh,
-             "too few faces for the conformal map: a map with one vertex opened is in its place"});
+            {WarningKind::coarse_mesh, "faces of the balanced map turn over: one opened at a vertex is in its place"});
     else if (!balanced)
         result.warnings.push_back({WarningKind::not_converged,
                                    "no even spread over the sphere was found: half of the surface shrinks to a point"});

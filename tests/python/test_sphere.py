@@ -355,10 +355,20 @@ def test_what_has_no_map_to_the_sphere_is_refused():
 
 
 def test_a_needle_too_long_for_doubles_says_so():
-    vertices, triangles = icosphere(12)
+    vertices, triangles = icosphere(18)
     sphere = koebe.sphere_map(vertices * [1, 1, 300], triangles)
     assert_sphere(sphere, triangles)
     assert "below_resolution" in {warning.kind for warning in sphere.warnings}
+
+
+def test_a_coarse_surface_that_would_be_turned_over_is_opened_at_a_vertex():
+    vertices, triangles = icosphere(4)
+    vertices = vertices + np.random.default_rng(3).normal(0, 0.03, vertices.shape)
+    vertices[:, 0] += 60 * np.clip(vertices[:, 0] - 0.6, 0, 1)
+    sphere = koebe.sphere_map(vertices, triangles)
+    assert_sphere(sphere, triangles)
+    assert sphere.converged and not sphere.flipped
+    assert "opened at a vertex" in " ".join(warning.text for warning in sphere.warnings)
 
 
 def test_progress_and_cancel():
