@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures of docs/domains.md: docs/images/domains_torus.png and domains_ring.png.
+"""The pictures of docs/domains.md: docs/images/domains_torus.png, domains_ring.png and domains_sphere.png.
 
 Surfaces with the checker of their tiles, and the tiles with their copies. NumPy and the package alone; the surfaces are
-those of the tests and the mug of the samples. PYTHONPATH=build/python python3 scripts/domains_picture.py
+those of the tests and the mug and the head of the samples. PYTHONPATH=build/python python3 scripts/domains_picture.py
 """
 
 import struct
@@ -15,9 +15,11 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "tests" / "python"), str(ROOT / "blend_samples")]
 
+import closed_head  # noqa: E402
 import koebe  # noqa: E402
 import mug  # noqa: E402
 from domain_surfaces import holed_ring, holed_torus  # noqa: E402
+from sphere_surfaces import icosphere  # noqa: E402
 
 SIZE, FINER = 480, 2  # pixels of a panel, and how many times finer it is drawn
 PAPER = np.array([1.0, 1.0, 1.0])
@@ -182,8 +184,64 @@ def ring_picture():
     return [np.concatenate(column) for column in columns]
 
 
+def globe(points, f=None, cells=24):
+    """Dark and light fields of the sphere, so many round the equator, between circles that keep them square."""
+    points = points / np.linalg.norm(points, axis=1, keepdims=True)
+    across = np.arctan2(points[:, 1], points[:, 0]) * cells / (2 * np.pi)
+    up = np.arctanh(np.clip(points[:, 2], -0.995, 0.995)) * cells / (2 * np.pi)
+    return INKS[(np.floor(across) + np.floor(up)).astype(int) % 2]
+
+
+def globe_panel(vertices, faces, sphere, turn, tilt):
+    """A surface, or its sphere, with the fields of the sphere."""
+    points, shade = seen_from(vertices, faces, turn, tilt)
+    low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+    width = 1.06 * (high - low).max()
+    return raster(points, faces, sphere.points[faces], globe, shade, ((low + high) / 2 - width / 2, width))
+
+
+def layout_panel(faces, sphere):
+    """The UVs of a sphere, what goes beyond the unit square too."""
+    corners = sphere.uv.reshape(-1, 2)
+    tall = np.array([1.0, 0.5]) if sphere.layout["kind"] == "equirectangular" else np.ones(2)  # 2 : 1, as it is drawn
+    points = np.column_stack([corners * tall, np.zeros(len(corners))])
+    whole = np.setdiff1d(np.arange(len(faces)), sphere.layout["torn"])
+    apart = np.arange(len(corners)).reshape(-1, 3)[whole]
+    return raster(points, apart, sphere.points[faces][whole], globe, np.ones(len(whole)),
+                  (tall / 2 - 0.54, 1.08))  # fmt: skip
+
+
+def lantern():
+    """A bent body with six holes, about round."""
+    points, faces = icosphere(36)
+    middles = [(1, 0.2, 0.4), (-0.6, -1, 0.1), (0.1, -0.7, 0.8), (0.5, 1, -0.4), (0.3, -0.6, -1), (-1, 0.5, 0.3)]
+    middles = np.array(middles) / np.linalg.norm(middles, axis=1, keepdims=True)
+    near = points @ middles.T > np.cos([0.42, 0.35, 0.26, 0.45, 0.3, 0.38])
+    faces = faces[~near[faces].any(axis=(1, 2))]
+    used, faces = np.unique(faces, return_inverse=True)
+    points = points[used]
+    x, y, z = points.T
+    body = points * (1 + 0.18 * np.sin(3 * z + x)[:, None]) * [0.8, 0.8, 1.35]
+    body[:, 0] += 0.35 * z**2
+    return body, faces.reshape(-1, 3).astype(np.int32)
+
+
+def sphere_picture():
+    head, quads = closed_head.closed_head()
+    head_faces = triangulated(np.array(quads))
+    rows = []
+    for vertices, faces, turn in ((head, head_faces, 0.45), (*lantern(), 0.3)):
+        sphere = koebe.sphere_map(vertices, faces)
+        print(sphere, sphere.converged, [warning.text for warning in sphere.warnings])
+        rows.append([globe_panel(vertices, faces, sphere, turn, 0.25),
+                     globe_panel(sphere.points, faces, sphere, turn, 0.25),
+                     layout_panel(faces, sphere),
+                     layout_panel(faces, koebe.sphere_map(vertices, faces, layout="octahedral"))])  # fmt: skip
+    return [np.concatenate(column) for column in zip(*rows, strict=True)]
+
+
 def main():
-    for name, panels in (("torus", torus_picture()), ("ring", ring_picture())):
+    for name, panels in (("torus", torus_picture()), ("ring", ring_picture()), ("sphere", sphere_picture())):
         write_png(ROOT / "docs" / "images" / f"domains_{name}.png", np.concatenate(panels, axis=1))
 
 

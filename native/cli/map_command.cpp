@@ -79,7 +79,7 @@ void check_map_files(MapRequest& request)
 
 std::vector<OutputFile> map_files(const MapRequest& request)
 {
-    return {{"OUT", request.output}, {"--json", request.json}, {"--svg", request.svg}};
+    return {{"OUT", request.output}, {"--sphere", request.sphere}, {"--json", request.json}, {"--svg", request.svg}};
 }
 
 std::string rounded(const char* format, double number)

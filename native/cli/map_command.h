@@ -15,6 +15,7 @@ namespace koebe::cli {
 
 struct MapRequest {
     std::string input, output, json, svg, outer = "auto";
+    std::string sphere;                         ///< of `koebe sphere` alone: the sphere as a mesh
     WrittenFormat format = WrittenFormat::obj;  ///< of OUT
     UniformizeOptions options;
     bool quiet = false;

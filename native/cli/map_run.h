@@ -28,6 +28,7 @@ struct MapKind {
     /// All numbers in the result are the file's.
     std::function<Result(const MeshInput&, ExecutionContext&)> compute;
     std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
+    std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_sphere;  ///< of a request with such a file
     std::function<std::string(const MeshInput&, const Result&)> draw;
     std::function<nlohmann::ordered_json(const Result&)> report;
     std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
@@ -58,6 +59,7 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
     const auto begin_write = Clock::now();
     std::vector<AtomicFile> files;
     kind.write_mesh(files.emplace_back(request.output), input, result);
+    if (!request.sphere.empty()) kind.write_sphere(files.emplace_back(request.sphere), input, result);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(kind.draw(input, result));
     result.seconds.write = since(begin_write);
     result.seconds.total = since(begin);

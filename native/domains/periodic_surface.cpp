@@ -237,6 +237,16 @@ PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triang
     return domain;
 }
 
+PeriodicSurface periodless_sphere(const Vertices& vertices, const Triangles& triangles)
+{
+    PeriodicSurface domain = prepared(vertices, triangles);
+    if (domain.surface.genus != 0)
+        throw TopologyError(TopologyKind::genus, "the surface has " + std::to_string(domain.surface.genus) +
+                                                     " handles: a map to the sphere needs one without");
+    order_loops(domain, {});
+    return domain;
+}
+
 PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangles, Index outer, Index inner)
 {
     PeriodicSurface domain = prepared(vertices, triangles);

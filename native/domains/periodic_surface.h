@@ -1,4 +1,4 @@
-// A surface that a map takes to a torus or a cylinder: a vertex has one position for each sum of periods.
+// A surface that a map takes to a torus, a cylinder or a sphere: a vertex has one position for each sum of periods.
 #pragma once
 
 #include "core/topology.h"
@@ -20,7 +20,7 @@ struct PeriodicSurface {
     std::vector<VertexLoop> loops;       ///< by falling length on the surface; of a ring its two rims first
     std::vector<VectorXd> edges;         ///< length of the edge from each loop vertex to the next
     std::size_t first_hole = 0;          ///< 2 for a ring: the loops from there on are holes
-    std::vector<OneForm> shifts;         ///< two for a torus, one for a ring; 0 along holes
+    std::vector<OneForm> shifts;         ///< two for a torus, one for a ring, none for a sphere; 0 along holes
     IntrinsicMetric metric;              ///< of the surface
     std::vector<OneForm> metric_shifts;  ///< the same forms on its half-edges
     std::vector<Index> polygon;          ///< (F) faces of one number stay together in a tile; empty: each by itself
@@ -34,6 +34,10 @@ struct PeriodicSurface {
 /// holes filled, by a tree of edges and a tree of the faces across the others (Eppstein 2003). Their wedge is 1.
 /// @throws InputError, TopologyError genus and those of analyze_surface
 PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triangles);
+
+/// Of genus 0, with any number of holes or none: no periods, and no metric.
+/// @throws InputError, TopologyError genus and those of analyze_surface
+PeriodicSurface periodless_sphere(const Vertices& vertices, const Triangles& triangles);
 
 /// Of genus 0 with two loops at least, two of them the rims: the form is 1 round the outer one.
 /// @param outer, inner vertices of them; -1: the longest loops

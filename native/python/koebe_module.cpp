@@ -19,6 +19,7 @@
 #include "report/cut_json.h"
 #include "report/json.h"
 #include "report/parts_json.h"
+#include "report/sphere_json.h"
 #include "report/tile_json.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
@@ -266,6 +267,25 @@ PYBIND11_MODULE(_koebe, m)
                          const TileOptions& options, const py::object& progress, const CancelToken& cancel) {
         return without_gil(progress, cancel,
                            [&](ExecutionContext& context) { return ring_map(vertices, triangles, options, context); });
+    });
+    py::enum_<SphereLayout>(m, "SphereLayout")
+        .value("equirectangular", SphereLayout::equirectangular)
+        .value("octahedral", SphereLayout::octahedral);
+    py::class_<SphereOptions>(m, "SphereOptions")
+        .def(py::init<>())
+        .def_readwrite("tolerance", &SphereOptions::tolerance)
+        .def_readwrite("max_sweeps", &SphereOptions::max_sweeps)
+        .def_readwrite("layout", &SphereOptions::layout);
+    py::class_<SphereResult>(m, "SphereResult")
+        .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
+        .def_property_readonly("uv", [](const SphereResult& r) { return r.uv; })
+        .def_property_readonly("flipped_faces", [](const SphereResult& r) { return r.distortion.flipped; })
+        .def("report", [](const SphereResult& r, SphereLayout layout) { return to_object(to_json(r, layout)); });
+    m.def("sphere_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                           const SphereOptions& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return sphere_map(vertices, triangles, options, context);
+        });
     });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
         return detached(

@@ -33,6 +33,7 @@ from ._shapes import (
     module_error,
     module_names,
 )
+from ._sphere import SphereMap, sphere_map
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
 from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
@@ -52,6 +53,7 @@ __all__ = [
     "OptionError",
     "PartsResult",
     "SolverError",
+    "SphereMap",
     "SurfaceCut",
     "SurfacePiece",
     "TileMap",
@@ -82,6 +84,7 @@ __all__ = [
     "parts",
     "plot",
     "ring_map",
+    "sphere_map",
     "torus_map",
     "transfer",
     "uniformize",

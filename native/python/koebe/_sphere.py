@@ -1,0 +1,127 @@
+"""The map of a surface without handles to the sphere, its holes round caps."""
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ._api import surface_of
+from ._native import _koebe
+from ._options import callback, choice, positive, token, whole
+from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+
+Progress = Callable[[float, str], Any]
+
+
+class SphereMap:
+    """A map to the unit sphere, its UVs, and its report.
+
+    points           (V, 3) float64, unit vectors in the order of the vertices; read-only; seen from outside the faces
+                     are counter-clockwise as on the surface; vertices of no face are at (0, 0, 1)
+    caps             (L, 4) float64 of the holes: a unit vector to the middle, and the radius as an angle in radians
+    uv               (F, 3, 2) float64, u and v of each triangle's corners; read-only; 32-bit floats all, cut in the UVs
+                     alone. Across the cut the pattern continues: equirectangular with the period 1 along u, u in
+                     [0, 2); octahedral with half turns round the middles of the square's sides, u and v in [-1, 2]
+    layout           dict: kind; crossing, the faces that go on beyond the layout's edge; torn, those round a pole of
+                     the longitudes or round the middle of a side of the square, which fit to no UVs; flipped, those
+                     without a positive area in 32-bit UVs; below_resolution, those of them too small for these
+    loops            list of dicts, by falling length: vertices, center, radius (of the cap), roundness,
+                     roundness_least_squares, off_circle
+    mean_point       length of the mean of the surface's points by area, 0 where the map is balanced
+    converged, sweeps, changes    of the circles, or of the points of a closed surface, in each sweep
+    turned           faces turned to the orientation of the others
+    flipped, below_resolution    faces that are not upright on the sphere, in exact arithmetic, and those of them that
+                     are smaller than what 64-bit coordinates resolve there
+    angle_error_deg, beltrami, area_distortion, conformal_energy    as in UniformizeResult, of the flat faces between
+                     the points
+    seconds, peak_memory_mb, warnings, version, vertices, faces    as in UniformizeResult
+    flipped_faces    int32 array of the faces that `flipped` counts
+    """
+
+    version: str
+    options: dict[str, Any]
+    points: np.ndarray
+    caps: np.ndarray
+    uv: np.ndarray
+    layout: dict[str, Any]
+    loops: list[dict[str, Any]]
+    mean_point: float
+    vertices: int
+    faces: int
+    converged: bool
+    sweeps: int
+    changes: list[float]
+    turned: list[int]
+    angle_error_deg: AngleError
+    beltrami: Beltrami
+    area_distortion: AreaDistortion
+    conformal_energy: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    seconds: Seconds
+    peak_memory_mb: float
+    warnings: list[Warning]
+
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        self._report = report
+        self._source = source
+        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        self.points = native.points
+        self.caps = np.array([[*loop["center"], loop["radius"]] for loop in self.loops], float).reshape(-1, 4)
+        self.uv = native.uv.reshape(-1, 3, 2)
+        for array in (self.points, self.caps, self.uv):
+            array.flags.writeable = False
+        self.flipped_faces = np.asarray(native.flipped_faces, dtype=np.int32)
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        return self._source.vertices, self._source.triangles
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict, with options."""
+        return copy.deepcopy(self._report)
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.SphereMap {self.faces} faces, {len(self.loops)} loops, "
+            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+        )
+
+
+def sphere_map(
+    vertices: Any,
+    triangles: Any = None,
+    *,
+    layout: str = "equirectangular",
+    tolerance: float = 1e-6,
+    max_sweeps: int = 50,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> SphereMap:
+    """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, its holes round.
+
+    Of all such maps this is the one with the least area distortion: the mean over the surface of the log of area on the
+    surface over area on the sphere. It is turned as the surface is.
+
+    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    layout       of the UVs: 'equirectangular' (longitude and latitude) or 'octahedral' (the octahedron folded out)
+    tolerance    stop when the circles, or the points of a closed surface, move by less in a sweep
+    max_sweeps   then stop with converged = False
+    progress, cancel    as of `uniformize`
+    Raises InputError (OptionError for an option), TopologyError (genus: handles), SolverError, Cancelled, or
+    MemoryError. A map that is not one to one has converged = False, and a warning says why.
+    """
+    options = _koebe.SphereOptions()
+    options.layout = choice(layout, "layout", _koebe.SphereLayout)
+    options.tolerance = positive(tolerance, "tolerance")
+    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    source = surface_of(vertices, triangles)
+    native = _koebe.sphere_map(source.vertices, source.triangles, options, progress, cancel)
+    report = native.report(options.layout)
+    report["options"] = {"layout": layout, "tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
+    return SphereMap(report, native, source)

@@ -1,0 +1,49 @@
+#include "report/sphere_json.h"
+
+#include "report/json.h"
+
+namespace koebe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json cap_json(const SphereLoop& loop)
+{
+    return {{"vertices", loop.vertices},
+            {"center", {loop.cap.center[0], loop.cap.center[1], loop.cap.center[2]}},
+            {"radius", loop.cap.radius},
+            {"roundness", loop.roundness.paper},
+            {"roundness_least_squares", loop.roundness.least_squares},
+            {"off_circle", loop.off_circle}};
+}
+
+}  // namespace
+
+Json to_json(const SphereResult& result, SphereLayout layout)
+{
+    Json loops = Json::array();
+    for (const SphereLoop& loop : result.loops) loops.push_back(cap_json(loop));
+    Json report{{"version", KOEBE_VERSION},
+                {"input", ""},
+                {"vertices", result.vertex_count},
+                {"faces", result.face_count},
+                {"converged", result.converged},
+                {"sweeps", result.sweeps},
+                {"changes", result.changes},
+                {"mean_point", result.mean_point},
+                {"loops", std::move(loops)},
+                {"turned", result.turned},
+                {"layout",
+                 {{"kind", to_string(layout)},
+                  {"crossing", result.layout.crossing},
+                  {"torn", result.layout.torn},
+                  {"flipped", result.layout.flipped},
+                  {"below_resolution", result.layout.below_resolution}}}};
+    report.update(to_json(result.distortion));
+    report.update(Json{{"seconds", to_json(result.seconds)},
+                       {"peak_memory_mb", result.peak_memory_mb},
+                       {"warnings", to_json(result.warnings)}});
+    return report;
+}
+
+}  // namespace koebe
