@@ -11,6 +11,7 @@
 #include "core/topology.h"
 #include "core/types.h"
 #include "core/warning.h"
+#include "domains/schottky_map.h"
 #include "domains/sphere_map.h"
 #include "domains/tile_map.h"
 #include "holes/fair_filling.h"

@@ -19,6 +19,7 @@
 #include "report/cut_json.h"
 #include "report/json.h"
 #include "report/parts_json.h"
+#include "report/schottky_json.h"
 #include "report/sphere_json.h"
 #include "report/tile_json.h"
 #include "shape/conformal_module.h"
@@ -285,6 +286,21 @@ PYBIND11_MODULE(_koebe, m)
                            const SphereOptions& options, const py::object& progress, const CancelToken& cancel) {
         return without_gil(progress, cancel, [&](ExecutionContext& context) {
             return sphere_map(vertices, triangles, options, context);
+        });
+    });
+    py::class_<SchottkyOptions>(m, "SchottkyOptions")
+        .def(py::init<>())
+        .def_readwrite("tolerance", &SchottkyOptions::tolerance)
+        .def_readwrite("max_sweeps", &SchottkyOptions::max_sweeps)
+        .def_readwrite("polygon", &SchottkyOptions::polygon);
+    py::class_<SchottkyResult>(m, "SchottkyResult")
+        .def_property_readonly("uv", [](const SchottkyResult& r) { return r.uv; })
+        .def_property_readonly("flipped_faces", [](const SchottkyResult& r) { return r.distortion.flipped; })
+        .def("report", [](const SchottkyResult& r) { return to_object(to_json(r)); });
+    m.def("schottky_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                             const SchottkyOptions& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return schottky_map(vertices, triangles, options, context);
         });
     });
     m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {

@@ -33,6 +33,7 @@ from ._shapes import (
     module_error,
     module_names,
 )
+from ._schottky import SchottkyMap, schottky_map
 from ._sphere import SphereMap, sphere_map
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
@@ -52,6 +53,7 @@ __all__ = [
     "OpenedSurface",
     "OptionError",
     "PartsResult",
+    "SchottkyMap",
     "SolverError",
     "SphereMap",
     "SurfaceCut",
@@ -84,6 +86,7 @@ __all__ = [
     "parts",
     "plot",
     "ring_map",
+    "schottky_map",
     "sphere_map",
     "torus_map",
     "transfer",

@@ -1,0 +1,88 @@
+// koebe schottky IN OUT
+#include "cli/end_with_input.h"
+#include "cli/map_run.h"
+#include "cli/subcommand.h"
+#include "cli/validators.h"
+
+#include "core/counted.h"
+#include "domains/schottky_map.h"
+#include "io/corner_uvs.h"
+#include "report/schottky_json.h"
+#include "report/schottky_svg.h"
+
+#include <memory>
+#include <utility>
+
+namespace koebe::cli {
+namespace {
+
+struct SchottkyRequest : MapRequest {
+    SchottkyOptions schottky;
+    bool ends_with_input = false;
+};
+
+int run_schottky(const SchottkyRequest& request)
+{
+    if (request.ends_with_input) end_with_input();
+    MapKind<SchottkyResult> kind;
+    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        SchottkyOptions options = request.schottky;
+        options.polygon = input.triangulation.face;
+        SchottkyResult result = with_filed_faces(input, [&] {
+            return schottky_map(input.polygons.vertices, input.triangulation.triangles, options, context);
+        });
+        result.turned = filed_faces(input.triangulation, result.turned);
+        add_input_warnings(input, result.warnings);
+        return result;
+    };
+    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SchottkyResult& result) {
+        write_with_corner_uvs(file, request.format, input.polygons,
+                              polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+    };
+    kind.draw = [](const MeshInput&, const SchottkyResult& result) { return schottky_svg(result); };
+    kind.report = [](const SchottkyResult& result) { return to_json(result); };
+    kind.first_words = [](const SchottkyResult& result) {
+        return counted(result.handles.size(), "handle") + ", " + counted(result.holes.size(), "loop") + ", " +
+               counted(static_cast<std::size_t>(result.sweeps), "sweep");
+    };
+    return run_map_of(request, kind);
+}
+
+}  // namespace
+
+Subcommand add_schottky(CLI::App& app)
+{
+    auto request = std::make_shared<SchottkyRequest>();
+    CLI::App* options =
+        app.add_subcommand("schottky", "map a surface with handles into the disk, cut open, its cuts Moebius maps "
+                                       "apart and its holes round");
+    options->add_option("IN", request->input, "surface with one handle or more: OBJ, OFF, PLY or STL")->required();
+    options
+        ->add_option(
+            "OUT", request->output,
+            "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
+        ->required();
+    options
+        ->add_option("--tolerance", request->schottky.tolerance,
+                     "stop when the disks that fill the loops change by less in a sweep, relative")
+        ->check(positive_number())
+        ->type_name("NUMBER")
+        ->capture_default_str();
+    options->add_option("--max-sweeps", request->schottky.max_sweeps, "then stop, not converged")
+        ->check(whole_number(1))
+        ->type_name("N")
+        ->capture_default_str();
+    options->add_option("--json", request->json, "write the report there")->type_name("FILE");
+    options->add_option("--svg", request->svg, "write a picture there: the faces, and the circles of the copies")
+        ->type_name("FILE");
+    options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
+    options->callback([request] {
+        check_map_files(*request);
+        request->entries["options"] = {{"tolerance", request->schottky.tolerance},
+                                       {"max_sweeps", request->schottky.max_sweeps}};
+    });
+    return {options, [request] { return run_schottky(*request); }};
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,287 @@
+#include "domains/schottky_map.h"
+
+#include "balance/area_balance.h"
+#include "core/counted.h"
+#include "core/detachable_run.h"
+#include "core/peak_memory.h"
+#include "domains/circle_cut.h"
+#include "domains/glued_state.h"
+#include "domains/schottky_tile.h"
+#include "domains/stopwatch.h"
+#include "linear/dense_spd.h"
+#include "surface/intrinsic_metric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr std::size_t most_condensed = 12000;  // boundary vertices
+constexpr Index balanced_faces = 20000;        // that are looked at for it
+constexpr double worst_spread = 1e3;           // worse than any where circles are apart
+constexpr int circle_cuts = 2;                 // after the first along edges
+
+std::vector<Index> all_loop_vertices(const HandleCut& cut)
+{
+    std::vector<Index> result;
+    for (const CutLoop& loop : cut.loops) result.insert(result.end(), loop.vertices.begin(), loop.vertices.end());
+    return result;
+}
+
+/// The inside harmonic between the loops.
+void fill_inside(const CondensedLaplacian& surface, SchottkyPlane& plane)
+{
+    Eigen::Index count = 0, row = 0;
+    for (const VectorXcd& image : plane.images) count += image.size();
+    MatrixXd boundary(count, 2);
+    for (const VectorXcd& image : plane.images) {
+        boundary.middleRows(row, image.size()) << image.real(), image.imag();
+        row += image.size();
+    }
+    const MatrixXd z = surface.extend(boundary);
+    plane.z = z.col(0) + Complex(0.0, 1.0) * z.col(1);
+}
+
+PlanarPoints as_points(const VectorXcd& z)
+{
+    PlanarPoints points(z.size(), 2);
+    points << z.real(), z.imag();
+    return points;
+}
+
+/// With holes: the automorphism of the disk with the most even texels. The loops are solved for anew, not moved: where
+/// a handle's loops are tiny, a flux of the size of the mesh's errors would draw all of them to one side.
+SchottkyPlane plane_in_disk(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state)
+{
+    const VectorXcd rim = state.rim();
+    SchottkyPlane plane = schottky_plane(cut, state.images_in_disk(rim));
+    fill_inside(surface, plane);
+    double left = 0.0;
+    const Moebius map = least_area_distortion(
+        face_scales(cut.vertices, cut.surface.triangles, as_points(plane.z), balanced_faces), left);
+    plane = schottky_plane(cut, state.images_in_disk(map(rim)));
+    fill_inside(surface, plane);
+    return plane;
+}
+
+/// Without holes: of the handles whose generator can be z -> lambda z the one with the most even texels.
+SchottkyPlane annular_plane(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state)
+{
+    SchottkyPlane plane = schottky_plane(cut, state.images_round_infinity());
+    fill_inside(surface, plane);
+    SchottkyPlane best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int handle = 0; handle < cut.handles; ++handle) {
+        SchottkyPlane tried = plane;
+        make_annular(tried, handle);
+        SchottkyPlane scaled = tried;
+        const bool apart = fundamental_circles(scaled).apart;
+        const double spread = measure_distortion(cut.vertices, cut.surface.triangles, as_points(tried.z)).area.log_sd +
+                              (apart ? 0.0 : worst_spread);
+        if (handle > 0 && !(spread < least)) continue;
+        least = spread;
+        best = std::move(tried);
+    }
+    return best;
+}
+
+/// All of it as large as fits into the unit square's scale, |x| and |y| up to 1.
+void fit_into_square(SchottkyTile& tile, SchottkyPlane& plane, FundamentalCircles& circles)
+{
+    const double largest = tile.points.cwiseAbs().maxCoeff();
+    if (!(largest > 1.0) || !std::isfinite(largest)) return;
+    tile.points /= largest;
+    plane.move(linear_fractional(1.0 / largest, 0.0, 0.0, 1.0));
+    for (auto& pair : circles.pairs)
+        for (Circle& circle : pair) circle = {circle.center / largest, circle.radius / largest};
+}
+
+/// (3F, 2) by the input's faces: a turned one has its second and third corner the other way round.
+PlanarPoints corner_uvs(const Triangles& triangles, const HandleCut& cut, const SchottkyTile& tile)
+{
+    PlanarPoints uv(triangles.size(), 2);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Index vertex = cut.original[tile.vertex[tile.triangles(f, k)]];
+            int corner = 0;
+            while (triangles(f, corner) != vertex) ++corner;
+            const auto at = tile.points.row(tile.triangles(f, k));
+            for (int i = 0; i < 2; ++i) uv(3 * f + corner, i) = static_cast<float>(0.5 * (1.0 + at[i]));
+        }
+    return uv;
+}
+
+Distortion distortion_of(const SchottkyTile& tile, const HandleCut& cut)
+{
+    Vertices vertices(static_cast<Eigen::Index>(tile.vertex.size()), 3);
+    for (std::size_t i = 0; i < tile.vertex.size(); ++i)
+        vertices.row(static_cast<Eigen::Index>(i)) = cut.vertices.row(tile.vertex[i]);
+    return measure_distortion(vertices, tile.triangles, tile.points);
+}
+
+void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool iterated, SchottkyResult& result)
+{
+    if (!result.turned.empty())
+        result.warnings.push_back({WarningKind::reoriented_faces,
+                                   counted(result.turned.size(), "face") + " turned to the orientation of the others",
+                                   result.turned});
+    if (!iterated)
+        result.warnings.push_back(
+            {WarningKind::not_converged,
+             "the loops still moved after " + counted(static_cast<std::size_t>(result.sweeps), "sweep")});
+    if (!circles.apart)
+        result.warnings.push_back(
+            {WarningKind::no_circles, "circles of the handles meet each other or a hole: the UVs are cut along edges"});
+    if (!faults.any()) {
+        if (!faults.flipped.empty())
+            result.warnings.push_back(
+                {WarningKind::below_resolution,
+                 counted(faults.flipped.size(), "face") + " flipped where the map is too small for 32-bit UVs",
+                 result.distortion.below_resolution});
+        return;
+    }
+    Warning warning{WarningKind::not_one_to_one, "no one-to-one map was found: "};
+    std::ranges::set_difference(result.distortion.flipped, result.distortion.below_resolution,
+                                std::back_inserter(warning.elements));
+    if (!warning.elements.empty()) warning.sentence += counted(warning.elements.size(), "face") + " flipped";
+    if (faults.boundary)
+        warning.sentence +=
+            std::string(warning.elements.empty() ? "" : "; ") + "the boundary of the UVs crosses itself";
+    result.warnings.push_back(std::move(warning));
+}
+
+/// A cut surface and its map.
+struct CutMap {
+    HandleCut cut;
+    SchottkyPlane plane;
+    FundamentalCircles circles;
+    bool converged = false;
+    std::vector<double> changes;
+};
+
+CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& seconds, double from, double until,
+              ExecutionContext& context)
+{
+    Stopwatch stage;
+    context.begin_stage("factor", from, from + 0.6 * (until - from));
+    CutMap map;
+    map.cut = std::move(cut);
+    const IntrinsicMetric metric = intrinsic_metric(map.cut.vertices, map.cut.surface);
+    const SparseMatrix laplacian =
+        cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), map.cut.surface.vertex_count);
+    seconds.metric += stage.lap();
+    const CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut), Ordering::amd, 0, most_condensed);
+    seconds.factor += stage.lap();
+    context.begin_stage("iterate", from + 0.6 * (until - from), until);
+    GluedState state(surface, map.cut.loops);
+    while (!map.converged && static_cast<int>(map.changes.size()) < options.max_sweeps) {
+        context.checkpoint();
+        map.changes.push_back(state.sweep());
+        map.converged = map.changes.back() < options.tolerance;
+        context.advance(1.0 - std::pow(0.6, static_cast<double>(map.changes.size())));
+    }
+    map.plane = map.cut.holes > 0 ? plane_in_disk(map.cut, surface, state) : annular_plane(map.cut, surface, state);
+    map.circles = fundamental_circles(map.plane);
+    seconds.iterate += stage.lap();
+    return map;
+}
+
+SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
+                                 ExecutionContext& context)
+{
+    const SerialDenseKernels serial;
+    const Stopwatch total;
+    Stopwatch stage;
+    SchottkyResult result;
+    context.begin_stage("topology", 0.0, 0.15);
+    HandleCut first = cut_handles(vertices, triangles, context);
+    result.seconds.topology = stage.lap();
+    CutMap map = map_of(std::move(first), options, result.seconds, 0.15, 0.5, context);
+    std::vector<std::vector<Index>> paths;  // of the cuts, while they are the input's vertices
+    for (std::size_t k = map.cut.holes; k < map.cut.loops.size(); k += 2) {
+        std::vector<Index>& path = paths.emplace_back();
+        for (const Index v : map.cut.loops[k].vertices) path.push_back(map.cut.original[v]);
+    }
+    for (int i = 0; i < circle_cuts && map.circles.apart; ++i) {
+        std::optional<HandleCut> again = cut_along_circles(map.cut, map.plane, map.circles);
+        if (!again) break;
+        CutMap next = map_of(std::move(*again), options, result.seconds, 0.5 + 0.2 * i, 0.7 + 0.2 * i, context);
+        if (!next.circles.apart) break;
+        map = std::move(next);
+    }
+
+    context.begin_stage("finish", 0.9, 1.0);
+    HandleCut& cut = map.cut;
+    SchottkyPlane& plane = map.plane;
+    FundamentalCircles& circles = map.circles;
+    const SchottkyTiling tiling(cut, options.polygon);
+    SchottkyTile tile = tiling.as_cut(plane);
+    SchottkyFaults faults = find_faults(tile, cut);
+    const auto repair = [&](const SchottkyTile& where) {
+        tiling.turn_back(where, plane, context);
+        tile = tiling.as_cut(plane);
+        faults = find_faults(tile, cut);
+    };
+    if (faults.flipped.size() > faults.below_resolution.size()) repair(tile);
+    if (circles.apart) {
+        SchottkyTile round = tiling.by_circles(plane, circles);
+        if (faults.flipped.size() > faults.below_resolution.size()) {
+            repair(round);
+            round = tiling.by_circles(plane, circles);
+        }
+        SchottkyFaults own = find_faults(round, cut);
+        if (!own.any() || faults.any()) {
+            tile = std::move(round);
+            faults = std::move(own);
+            result.by_circles = true;
+        }
+    }
+    fit_into_square(tile, plane, circles);
+
+    result.vertex_count = static_cast<Index>(vertices.rows());
+    result.face_count = static_cast<Index>(triangles.rows());
+    result.uv = corner_uvs(triangles, cut, tile);
+    for (std::size_t k = 0; k < cut.holes; ++k) {
+        SchottkyHole& hole = result.holes.emplace_back();
+        for (const Index v : cut.loops[k].vertices) hole.vertices.push_back(cut.original[v]);
+        hole.circle = plane.holes[k];
+        hole.roundness = plane.roundness[k];
+    }
+    for (int j = 0; j < cut.handles; ++j) {
+        SchottkyHandle& handle = result.handles.emplace_back();
+        handle.cut = paths[j];
+        handle.generator = plane.generators[j];
+        handle.circles = circles.pairs[j];
+        handle.outer = j == plane.outer_handle;
+        handle.misfit = plane.misfit[j];
+    }
+    result.turned = cut.turned;
+    result.sweeps = static_cast<int>(map.changes.size());
+    result.changes = map.changes;
+    result.distortion = distortion_of(tile, cut);
+    result.converged = map.converged && !faults.any();
+    warn(circles, faults, map.converged, result);
+    result.seconds.finish = stage.lap();
+    result.seconds.total = total.elapsed();
+    result.peak_memory_mb = peak_memory_mb();
+    context.advance(1.0);
+    return result;
+}
+
+}  // namespace
+
+SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
+                            ExecutionContext& context)
+{
+    return run_detachable<SchottkyResult>(context, [vertices, triangles, options](ExecutionContext& own) {
+        return schottky_map_here(vertices, triangles, options, own);
+    });
+}
+
+}  // namespace koebe

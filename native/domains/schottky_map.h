@@ -1,0 +1,66 @@
+// A surface with handles in the plane, the two sides of each handle's cut Moebius maps apart: Schottky uniformization.
+#pragma once
+
+#include "circles/circle_fit.h"
+#include "core/api.h"
+#include "core/execution.h"
+#include "core/warning.h"
+#include "domains/linear_fractional.h"
+#include "pipeline/result.h"
+
+#include <array>
+#include <vector>
+
+namespace koebe {
+
+struct SchottkyOptions {
+    double tolerance = 1e-6;  ///< on the relative change, in a sweep, of the matrices of the disks that fill the loops
+    int max_sweeps = 50;
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+};
+
+/// A handle: all in the plane of the unit disk, z = 2 (u + i v) - 1 - i.
+struct SchottkyHandle {
+    std::vector<Index> cut;         ///< vertices of the loop that it was cut along, in its order
+    LinearFractional generator;     ///< continues the pattern: from one circle, and side of the cut, to the other
+    std::array<Circle, 2> circles;  ///< paired by the generator, the outside of the first with the inside of the second
+    bool outer = false;             ///< the inside of the first with the outside of the second
+    double misfit = 0.0;            ///< of the sides of the cut before they were made to fit, over their radius
+};
+
+/// A hole of the surface.
+struct SchottkyHole {
+    VertexLoop vertices;  ///< in order, the surface on the left
+    Circle circle;        ///< where the map has it; the copy in the UVs may be another
+    Roundness roundness;  ///< of the image before it was put on its circle
+};
+
+struct SchottkyResult {
+    PlanarPoints uv;  ///< (3F, 2) in [0, 1]^2 of corner 3 f + k of the input's face f
+    Index vertex_count = 0, face_count = 0;
+    std::vector<SchottkyHole> holes;      ///< by falling length, the first on the unit circle
+    std::vector<SchottkyHandle> handles;  ///< by falling length of their cuts
+    bool by_circles = false;    ///< the UVs are cut along the pairs of circles, as exactly as faces can be; else along
+                                ///< the edges of the cuts, as the circles meet each other or a hole
+    std::vector<Index> turned;  ///< faces that were turned to the orientation of the others
+    bool converged = false;
+    int sweeps = 0;
+    std::vector<double> changes;  ///< in each sweep
+    Distortion distortion;        ///< of the UVs
+    StageSeconds seconds;
+    double peak_memory_mb = 0.0;
+    std::vector<Warning> warnings;
+};
+
+/// Maps a surface of genus 1 and more, with any number of holes, conformally to a fundamental domain of a Schottky
+/// group, its holes round: the copies of the UVs under the group fill the plane up to a set of no area, continuing the
+/// pattern. Handles are cut along short loops, which decide on the group; their sides differ by its generators
+/// [Koebe 1908; Maskit 1988, chapter X.H]. With holes the longest is the unit circle, and the map the one of its
+/// automorphisms with the least area distortion. Without holes one handle's generator is z -> lambda z: that for which
+/// texel density is most even.
+/// @throws InputError, TopologyError genus (no handle, or cuts that touch each other) and those of analyze_surface,
+/// SolverError, Cancelled; what is not one to one is reported as not converged
+KOEBE_API SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles,
+                                      const SchottkyOptions& options, ExecutionContext& context);
+
+}  // namespace koebe

@@ -1,0 +1,135 @@
+"""Maps of surfaces with handles to fundamental domains of Schottky groups, their holes round."""
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ._api import polygons_of, surface_of
+from ._native import _koebe
+from ._options import callback, positive, token, whole
+from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+
+Progress = Callable[[float, str], Any]
+
+
+class SchottkyMap:
+    """A map of a surface with handles into the unit disk, cut in its UVs alone, and its report.
+
+    Circles and generators are given in the plane of z = 2 (u + i v) - 1 - i.
+
+    uv               (F, 3, 2) float64 in [0, 1]^2, u and v of each triangle's corners; read-only; 32-bit floats all
+    generators       (G, 2, 2) complex128 of determinant 1, a, b; c, d of z -> (a z + b) / (c z + d), one for each
+                     handle: the pattern of the UVs goes on across a cut by it, or by its inverse
+    multipliers      (G,) complex128: by what a generator multiplies in a coordinate that is 0 and infinity at its fixed
+                     points; below 1 in size. Free of Moebius maps, as the traces of products are
+    circles          (G, 2, 3) float64, x and y of the center and the radius of each pair: a generator takes the outside
+                     of the first circle to the inside of the second. Both are equally large but for an `outer` handle,
+                     for which it takes the inside of the first, which is round 0, to that of the second
+    by_circles       whether the UVs are cut along these circles, as closely as faces can be; else along the edges of
+                     `cut`, as the circles meet each other or a hole
+    handles          list of dicts, longer cuts first: generator, multiplier, circles, outer; cut, the vertices of the
+                     loop it was cut along; misfit, by how much the two sides of the cut missed a Moebius map before
+                     they were made to fit, over their radius: an estimate of the error
+    loops            list of dicts of the holes, by falling length, the first on the unit circle (scaled where the UVs
+                     would not fit in the square): vertices, center, radius, roundness, roundness_least_squares
+    converged, sweeps, changes    of the disks that fill the loops, in each sweep
+    turned           faces turned to the orientation of the others
+    angle_error_deg, beltrami, area_distortion, conformal_energy, flipped, below_resolution, seconds, peak_memory_mb,
+    warnings, version, vertices, faces    as in UniformizeResult
+    flipped_faces    int32 array of the faces that `flipped` counts
+    """
+
+    version: str
+    options: dict[str, Any]
+    uv: np.ndarray
+    generators: np.ndarray
+    multipliers: np.ndarray
+    circles: np.ndarray
+    by_circles: bool
+    handles: list[dict[str, Any]]
+    loops: list[dict[str, Any]]
+    vertices: int
+    faces: int
+    converged: bool
+    sweeps: int
+    changes: list[float]
+    turned: list[int]
+    angle_error_deg: AngleError
+    beltrami: Beltrami
+    area_distortion: AreaDistortion
+    conformal_energy: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    seconds: Seconds
+    peak_memory_mb: float
+    warnings: list[Warning]
+
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        self._report = report
+        self._source = source
+        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        self.uv = native.uv.reshape(-1, 3, 2)
+        matrices = np.array([handle["generator"] for handle in self.handles], float)
+        self.generators = matrices[..., 0] + 1j * matrices[..., 1]
+        self.multipliers = np.array([complex(*handle["multiplier"]) for handle in self.handles])
+        self.circles = np.array(
+            [[(*circle["center"], circle["radius"]) for circle in handle["circles"]] for handle in self.handles]
+        )
+        for array in (self.uv, self.generators, self.multipliers, self.circles):
+            array.flags.writeable = False
+        self.flipped_faces = np.asarray(native.flipped_faces, dtype=np.int32)
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        return self._source.vertices, self._source.triangles
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict, with options."""
+        return copy.deepcopy(self._report)
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.SchottkyMap {self.faces} faces, {len(self.handles)} handles, {len(self.loops)} loops, "
+            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+        )
+
+
+def schottky_map(
+    vertices: Any,
+    triangles: Any = None,
+    *,
+    tolerance: float = 1e-6,
+    max_sweeps: int = 50,
+    polygon: Any = None,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> SchottkyMap:
+    """Map a surface with one handle or more, and any number of holes, conformally into the disk, its holes round.
+
+    Each handle is cut along a short loop; the two sides of a cut come to lie a Moebius map apart, so that copies of the
+    UVs continue them across every cut: they are a fundamental domain of a Schottky group.
+
+    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    tolerance    stop when, in a sweep, the disks that fill the loops change by less, as matrices and relative
+    max_sweeps   then stop with converged = False
+    polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
+                 as the mesh has them
+    progress, cancel    as of `uniformize`
+    Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
+    SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning says why.
+    """
+    options = _koebe.SchottkyOptions()
+    options.tolerance = positive(tolerance, "tolerance")
+    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    source = surface_of(vertices, triangles)
+    options.polygon = polygons_of(polygon, source)
+    native = _koebe.schottky_map(source.vertices, source.triangles, options, progress, cancel)
+    report = native.report()
+    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
+    return SchottkyMap(report, native, source)
