@@ -28,13 +28,15 @@ double share_before(const Circle& circle, Complex from, Complex to)
 
 class CircleCutter {
 public:
-    CircleCutter(const HandleCut& cut, const SchottkyPlane& plane, const FundamentalCircles& circles)
-        : cut_(cut), plane_(plane), circles_(circles), tiling_(cut, {})
+    CircleCutter(const HandleCut& cut, const FinerFaces& faces, const SchottkyPlane& plane,
+                 const FundamentalCircles& circles)
+        : cut_(cut), plane_(plane), circles_(circles), tiling_(cut, faces, {})
     {
     }
 
     std::optional<HandleCut> run()
     {
+        largest_ = *std::ranges::max_element(cut_.original);
         take_vertices();
         for (std::size_t f = 0; f < cut_.corners.size(); ++f)
             if (!divide(static_cast<Index>(f))) return {};
@@ -45,7 +47,6 @@ public:
         for (std::size_t f = 0; f < faces_.size(); ++f)
             for (int k = 0; k < 3; ++k) triangles(static_cast<Eigen::Index>(f), k) = faces_[f][k];
         result_.handles = cut_.handles;
-        result_.turned = cut_.turned;
         try {
             if (!find_loops(result_, triangles, handle_of_)) return {};
         } catch (const TopologyError&) {
@@ -74,7 +75,6 @@ private:
                 const Complex first = plane_.z[tiling_.first_side_of(v)];
                 place.out = way_out(first, plane_, circles_);
                 place.at = applied(place.out, plane_.generators, first);
-                largest_ = std::max(largest_, cut_.original[v]);
             }
     }
 
@@ -173,10 +173,10 @@ private:
 
 }  // namespace
 
-std::optional<HandleCut> cut_along_circles(const HandleCut& cut, const SchottkyPlane& plane,
+std::optional<HandleCut> cut_along_circles(const HandleCut& cut, const FinerFaces& faces, const SchottkyPlane& plane,
                                            const FundamentalCircles& circles)
 {
-    return CircleCutter(cut, plane, circles).run();
+    return CircleCutter(cut, faces, plane, circles).run();
 }
 
 }  // namespace koebe

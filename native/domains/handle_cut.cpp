@@ -2,7 +2,6 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/memory_limit.h"
 #include "cut/open_surface.h"
 #include "surface/loop_edges.h"
 
@@ -120,11 +119,7 @@ bool find_loops(HandleCut& cut, const Triangles& triangles, const std::vector<st
 
 HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, ExecutionContext& context)
 {
-    validate_arrays(vertices, triangles);
-    require_memory_for_faces(triangles.rows());
     const Surface input = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
-    if (input.genus == 0)
-        throw TopologyError(TopologyKind::genus, "the surface has no handle: a Schottky group needs one at least");
     OpenOptions options;
     options.long_slit = false;
     options.slit_beside_handles = false;
@@ -133,7 +128,6 @@ HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, Exec
     const SurfacePiece& piece = opened.pieces.front();
     HandleCut cut;
     cut.handles = input.genus;
-    cut.turned = input.reoriented;
     cut.original = piece.source_vertex;
     cut.input_face = piece.source_face;
     cut.vertices = in_unit_cube(piece.vertices);

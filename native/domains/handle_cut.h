@@ -31,8 +31,6 @@ struct HandleCut {
     std::vector<CutLoop> loops;  ///< holes by falling length, then the two sides of each handle, longer cuts first
     std::size_t holes = 0;       ///< so many of the loops
     int handles = 0;
-
-    bool divides_faces() const { return input_face.size() > corners.size(); }
 };
 
 /// Vertices (n, 3) moved and scaled into [-1, 1]. @throws InputError all on one point
@@ -46,8 +44,8 @@ Vertices in_unit_cube(const Vertices& vertices);
 bool find_loops(HandleCut& cut, const Triangles& triangles, const std::vector<std::array<int, 2>>& handle_of);
 
 /// Cut along short loops that share no vertex with each other or with a hole (handle_loops.h).
-/// @throws InputError, TopologyError genus: no handle, or loops that cannot keep apart along the edges; and those of
-/// analyze_surface
+/// @param vertices, triangles of one orientation, of genus 1 at least
+/// @throws TopologyError genus: loops that cannot keep apart along the edges
 HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, ExecutionContext& context);
 
 }  // namespace koebe

@@ -226,6 +226,26 @@ FundamentalCircles fundamental_circles(SchottkyPlane& plane)
     return result;
 }
 
+FundamentalCircles circles_beside(const SchottkyPlane& plane, const FundamentalCircles& circles, double factor)
+{
+    FundamentalCircles result;
+    std::vector<Circle> inside;
+    for (std::size_t j = 0; j < circles.pairs.size(); ++j) {
+        const Circle first{circles.pairs[j][0].center, factor * circles.pairs[j][0].radius};
+        result.pairs.push_back({first, plane.generators[j](first)});
+        const bool outer = static_cast<int>(j) == plane.outer_handle;
+        if (!outer) inside.push_back(first);
+        inside.push_back(result.pairs.back()[1]);
+    }
+    for (std::size_t k = 1; k < plane.holes.size(); ++k)
+        inside.push_back(applied(way_out(plane.holes[k].center, plane, result), plane.generators, plane.holes[k]));
+    const double rim = plane.outer_handle >= 0 ? factor : 1.0;
+    result.apart = room_among(inside) > 0.0 && std::ranges::all_of(inside, [&](const Circle& circle) {
+                       return std::abs(circle.center) + circle.radius < rim;
+                   });
+    return result;
+}
+
 GroupWord way_out(Complex at, const SchottkyPlane& plane, const FundamentalCircles& circles)
 {
     GroupWord word;

@@ -46,6 +46,9 @@ struct FundamentalCircles {
 /// radius, keeps clear of the others.
 FundamentalCircles fundamental_circles(SchottkyPlane& plane);
 
+/// Others round the same cuts: the first one of each pair so many times as large.
+FundamentalCircles circles_beside(const SchottkyPlane& plane, const FundamentalCircles& circles, double factor);
+
 /// What brings a point out of all circles.
 GroupWord way_out(Complex at, const SchottkyPlane& plane, const FundamentalCircles& circles);
 

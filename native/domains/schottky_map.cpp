@@ -3,8 +3,11 @@
 #include "balance/area_balance.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
+#include "core/errors.h"
+#include "core/memory_limit.h"
 #include "core/peak_memory.h"
 #include "domains/circle_cut.h"
+#include "domains/finer_faces.h"
 #include "domains/glued_state.h"
 #include "domains/schottky_tile.h"
 #include "domains/stopwatch.h"
@@ -25,7 +28,9 @@ namespace {
 constexpr std::size_t most_condensed = 12000;  // boundary vertices
 constexpr Index balanced_faces = 20000;        // that are looked at for it
 constexpr double worst_spread = 1e3;           // worse than any where circles are apart
-constexpr int circle_cuts = 2;                 // after the first along edges
+constexpr Index enough_faces = 6000;           // a surface of fewer is split finer, at most so many times:
+constexpr int most_levels = 2;
+constexpr int circle_cuts = 2;  // after the first along edges
 
 std::vector<Index> all_loop_vertices(const HandleCut& cut)
 {
@@ -89,17 +94,6 @@ SchottkyPlane annular_plane(const HandleCut& cut, const CondensedLaplacian& surf
         best = std::move(tried);
     }
     return best;
-}
-
-/// All of it as large as fits into the unit square's scale, |x| and |y| up to 1.
-void fit_into_square(SchottkyTile& tile, SchottkyPlane& plane, FundamentalCircles& circles)
-{
-    const double largest = tile.points.cwiseAbs().maxCoeff();
-    if (!(largest > 1.0) || !std::isfinite(largest)) return;
-    tile.points /= largest;
-    plane.move(linear_fractional(1.0 / largest, 0.0, 0.0, 1.0));
-    for (auto& pair : circles.pairs)
-        for (Circle& circle : pair) circle = {circle.center / largest, circle.radius / largest};
 }
 
 /// (3F, 2) by the input's faces: a turned one has its second and third corner the other way round.
@@ -192,64 +186,126 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
     return map;
 }
 
-SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
-                                 ExecutionContext& context)
+/// A map, put together to the UVs.
+struct LaidMap {
+    CutMap map;
+    SchottkyTile tile;
+    SchottkyFaults faults;
+    bool by_circles = false;
+
+    bool tangled() const { return faults.flipped.size() > faults.below_resolution.size(); }
+    /// So many flips that repairs would take long and leave some.
+    bool hopeless() const { return faults.flipped.size() > faults.below_resolution.size() + tile.triangles.rows() / 5; }
+};
+
+/// All of it as large as fits into the unit square's scale, |x| and |y| up to 1, and then judged.
+void fit_and_judge(LaidMap& map)
 {
-    const SerialDenseKernels serial;
+    const double largest = map.tile.points.cwiseAbs().maxCoeff();
+    if (largest > 1.0 && std::isfinite(largest)) {
+        map.tile.points /= largest;
+        map.map.plane.move(linear_fractional(1.0 / largest, 0.0, 0.0, 1.0));
+        for (auto& pair : map.map.circles.pairs)
+            for (Circle& circle : pair) circle = {circle.center / largest, circle.radius / largest};
+    }
+    map.faults = find_faults(map.tile, map.map.cut);
+}
+
+/// Flipped faces are turned back in tiles that are bounded elsewhere, too: their boundaries are held.
+LaidMap laid(CutMap map, const FinerFaces& faces, const std::vector<Index>& polygon, ExecutionContext& context)
+{
+    LaidMap result;
+    result.map = std::move(map);
+    SchottkyPlane& plane = result.map.plane;
+    const FundamentalCircles& circles = result.map.circles;
+    const SchottkyTiling tiling(result.map.cut, faces, polygon);
+    result.by_circles = circles.apart;
+    const auto put_together = [&] {
+        result.tile = circles.apart ? tiling.by_circles(plane, circles) : tiling.as_cut(plane);
+        fit_and_judge(result);
+    };
+    const auto repair = [&](const SchottkyTile& tile) {
+        tiling.turn_back(tile, plane, context);
+        put_together();
+    };
+    put_together();
+    if (result.hopeless()) return result;
+    if (result.tangled()) repair(result.tile);
+    if (circles.apart)
+        for (const double factor : {1.6, 0.6}) {
+            if (!result.tangled()) break;
+            const FundamentalCircles beside = circles_beside(plane, circles, factor);
+            if (beside.apart) repair(tiling.by_circles(plane, beside));
+        }
+    if (!circles.apart || !result.faults.any()) return result;
+    if (const SchottkyTile by_cut = tiling.as_cut(plane); !find_faults(by_cut, result.map.cut).any()) {
+        result.tile = by_cut;
+        result.by_circles = false;
+        fit_and_judge(result);
+    }
+    return result;
+}
+
+/// Maps of the surface cut along edges, and then along circles as long as there are some.
+std::vector<CutMap> maps_of(HandleCut cut, const FinerFaces& faces, const SchottkyOptions& options,
+                            StageSeconds& seconds, ExecutionContext& context)
+{
+    std::vector<CutMap> maps;
+    maps.push_back(map_of(std::move(cut), options, seconds, 0.15, 0.5, context));
+    for (int i = 0; i < circle_cuts && maps.back().circles.apart; ++i) {
+        std::optional<HandleCut> again =
+            cut_along_circles(maps.back().cut, faces, maps.back().plane, maps.back().circles);
+        if (!again) break;
+        maps.push_back(map_of(std::move(*again), options, seconds, 0.5 + 0.2 * i, 0.7 + 0.2 * i, context));
+    }
+    return maps;
+}
+
+/// @param finer how often coarse faces are split
+SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
+                         int finer, ExecutionContext& context)
+{
     const Stopwatch total;
     Stopwatch stage;
     SchottkyResult result;
-    context.begin_stage("topology", 0.0, 0.15);
-    HandleCut first = cut_handles(vertices, triangles, context);
-    result.seconds.topology = stage.lap();
-    CutMap map = map_of(std::move(first), options, result.seconds, 0.15, 0.5, context);
-    std::vector<std::vector<Index>> paths;  // of the cuts, while they are the input's vertices
-    for (std::size_t k = map.cut.holes; k < map.cut.loops.size(); k += 2) {
-        std::vector<Index>& path = paths.emplace_back();
-        for (const Index v : map.cut.loops[k].vertices) path.push_back(map.cut.original[v]);
-    }
-    for (int i = 0; i < circle_cuts && map.circles.apart; ++i) {
-        std::optional<HandleCut> again = cut_along_circles(map.cut, map.plane, map.circles);
-        if (!again) break;
-        CutMap next = map_of(std::move(*again), options, result.seconds, 0.5 + 0.2 * i, 0.7 + 0.2 * i, context);
-        if (!next.circles.apart) break;
-        map = std::move(next);
-    }
-
-    context.begin_stage("finish", 0.9, 1.0);
-    HandleCut& cut = map.cut;
-    SchottkyPlane& plane = map.plane;
-    FundamentalCircles& circles = map.circles;
-    const SchottkyTiling tiling(cut, options.polygon);
-    SchottkyTile tile = tiling.as_cut(plane);
-    SchottkyFaults faults = find_faults(tile, cut);
-    const auto repair = [&](const SchottkyTile& where) {
-        tiling.turn_back(where, plane, context);
-        tile = tiling.as_cut(plane);
-        faults = find_faults(tile, cut);
-    };
-    if (faults.flipped.size() > faults.below_resolution.size()) repair(tile);
-    if (circles.apart) {
-        SchottkyTile round = tiling.by_circles(plane, circles);
-        if (faults.flipped.size() > faults.below_resolution.size()) {
-            repair(round);
-            round = tiling.by_circles(plane, circles);
-        }
-        SchottkyFaults own = find_faults(round, cut);
-        if (!own.any() || faults.any()) {
-            tile = std::move(round);
-            faults = std::move(own);
-            result.by_circles = true;
-        }
-    }
-    fit_into_square(tile, plane, circles);
-
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
-    result.uv = corner_uvs(triangles, cut, tile);
+    context.begin_stage("topology", 0.0, 0.15);
+    validate_arrays(vertices, triangles);
+    require_memory_for_faces(triangles.rows());
+    const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
+    if (surface.genus == 0)
+        throw TopologyError(TopologyKind::genus, "the surface has no handle: a Schottky group needs one at least");
+    const FinerFaces faces = finer_faces(vertices, surface.triangles, enough_faces, finer);
+    HandleCut first = cut_handles(faces.vertices, faces.triangles, context);
+    result.seconds.topology = stage.lap();
+    std::vector<std::vector<Index>> paths;  // of the cuts along edges
+    for (std::size_t k = first.holes; k < first.loops.size(); k += 2) {
+        std::vector<Index>& path = paths.emplace_back();
+        for (const Index v : first.loops[k].vertices)
+            if (first.original[v] < result.vertex_count) path.push_back(first.original[v]);
+    }
+    std::vector<CutMap> maps = maps_of(std::move(first), faces, options, result.seconds, context);
+
+    context.begin_stage("finish", 0.9, 1.0);
+    stage.lap();
+    LaidMap best;
+    for (std::size_t i = maps.size(); i-- > 0;) {  // the last one is the best, if it is one to one
+        LaidMap laid_map = laid(std::move(maps[i]), faces, options.polygon, context);
+        const bool better = i + 1 == maps.size() || !laid_map.faults.any();
+        if (better) best = std::move(laid_map);
+        if (!best.faults.any()) break;
+    }
+    const HandleCut& cut = best.map.cut;
+    const SchottkyPlane& plane = best.map.plane;
+    const FundamentalCircles& circles = best.map.circles;
+
+    result.by_circles = best.by_circles;
+    result.uv = corner_uvs(triangles, cut, best.tile);
     for (std::size_t k = 0; k < cut.holes; ++k) {
         SchottkyHole& hole = result.holes.emplace_back();
-        for (const Index v : cut.loops[k].vertices) hole.vertices.push_back(cut.original[v]);
+        for (const Index v : cut.loops[k].vertices)
+            if (cut.original[v] < result.vertex_count) hole.vertices.push_back(cut.original[v]);
         hole.circle = plane.holes[k];
         hole.roundness = plane.roundness[k];
     }
@@ -261,16 +317,34 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
         handle.outer = j == plane.outer_handle;
         handle.misfit = plane.misfit[j];
     }
-    result.turned = cut.turned;
-    result.sweeps = static_cast<int>(map.changes.size());
-    result.changes = map.changes;
-    result.distortion = distortion_of(tile, cut);
-    result.converged = map.converged && !faults.any();
-    warn(circles, faults, map.converged, result);
+    result.turned = surface.reoriented;
+    result.sweeps = static_cast<int>(best.map.changes.size());
+    result.changes = best.map.changes;
+    result.distortion = distortion_of(best.tile, cut);
+    result.converged = best.map.converged && !best.faults.any();
+    warn(circles, best.faults, best.map.converged, result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();
     context.advance(1.0);
+    return result;
+}
+
+/// Where a hole has few vertices, faces that were split leave no room for whole ones beside its chords: then they stay
+/// whole.
+SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
+                                 ExecutionContext& context)
+{
+    const SerialDenseKernels serial;
+    SchottkyResult result = map_split(vertices, triangles, options, most_levels, context);
+    if (result.converged || triangles.rows() >= enough_faces) return result;
+    try {
+        SchottkyResult whole = map_split(vertices, triangles, options, 0, context);
+        if (whole.converged) return whole;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const KoebeError&) {  // too coarse to be cut: what there is has to do
+    }
     return result;
 }
 

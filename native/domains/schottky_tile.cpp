@@ -73,8 +73,11 @@ void put_outer_first(std::vector<VertexLoop>& loops, const PlanarPoints& points)
 
 }  // namespace
 
-SchottkyTiling::SchottkyTiling(const HandleCut& cut, const std::vector<Index>& polygon)
-    : cut_(cut), across_(static_cast<std::size_t>(cut.surface.triangles.size())), letter_(cut.original.size(), 0)
+SchottkyTiling::SchottkyTiling(const HandleCut& cut, const FinerFaces& faces, const std::vector<Index>& polygon)
+    : cut_(cut),
+      faces_(faces),
+      across_(static_cast<std::size_t>(cut.surface.triangles.size())),
+      letter_(cut.original.size(), 0)
 {
     const Triangles& triangles = cut.surface.triangles;
     first_side_.resize(cut.original.size());
@@ -99,9 +102,11 @@ SchottkyTiling::SchottkyTiling(const HandleCut& cut, const std::vector<Index>& p
             }
         }
     }
-    const bool joins = !polygon.empty() || cut.divides_faces();
+    const bool joins =
+        !polygon.empty() || cut.surface.triangles.rows() > static_cast<Eigen::Index>(faces.corners.size());
     const auto number = [&](Index face) {
-        return polygon.empty() ? cut.input_face[face] : polygon[cut.input_face[face]];
+        const Index own = faces.input_face[cut.input_face[face]];
+        return polygon.empty() ? own : polygon[own];
     };
     const auto face_count = static_cast<Index>(triangles.rows());
     unit_.assign(face_count, -1);
@@ -208,11 +213,11 @@ std::vector<GroupWord> SchottkyTiling::joined(std::vector<GroupWord> words) cons
 SchottkyTile SchottkyTiling::put_together(const SchottkyPlane& plane, const std::vector<GroupWord>& words) const
 {
     SchottkyTile tile;
-    tile.triangles.resize(static_cast<Eigen::Index>(cut_.corners.size()), 3);
+    tile.triangles.resize(static_cast<Eigen::Index>(faces_.corners.size()), 3);
     Copies copies(static_cast<Index>(cut_.original.size()), tile);
-    for (std::size_t f = 0; f < cut_.corners.size(); ++f)
+    for (std::size_t f = 0; f < faces_.corners.size(); ++f)
         for (int k = 0; k < 3; ++k) {
-            const Index h = cut_.corners[f][k];
+            const Index corner = faces_.corners[f][k], h = cut_.corners[corner / 3][corner % 3];
             tile.triangles(static_cast<Eigen::Index>(f), k) = copies.number(
                 first_side_[origin(cut_.surface.triangles, h)], product(words[unit_[face_of(h)]], corner_word(h)));
         }

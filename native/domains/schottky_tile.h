@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/execution.h"
+#include "domains/finer_faces.h"
 #include "domains/handle_cut.h"
 #include "domains/schottky_group.h"
 
@@ -28,8 +29,9 @@ struct SchottkyFaults {
 
 class SchottkyTiling {
 public:
+    /// @param faces what was cut, as the input's faces; both must outlive this
     /// @param polygon (F) faces of the input with one number stay together; empty: each by itself
-    SchottkyTiling(const HandleCut& cut, const std::vector<Index>& polygon);
+    SchottkyTiling(const HandleCut& cut, const FinerFaces& faces, const std::vector<Index>& polygon);
 
     /// The cut surface as the map has it, but for polygons that the cut divides.
     SchottkyTile as_cut(const SchottkyPlane& plane) const;
@@ -58,6 +60,7 @@ private:
     GroupWord word_of(const GroupWord& unit, Index face) const;
 
     const HandleCut& cut_;
+    const FinerFaces& faces_;
     std::vector<Step> across_;                  // (3F) of each half-edge
     std::vector<Index> unit_;                   // (F)
     std::vector<std::vector<Index>> faces_of_;  // of each unit
