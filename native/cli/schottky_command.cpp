@@ -10,7 +10,9 @@
 #include "report/schottky_json.h"
 #include "report/schottky_svg.h"
 
+#include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace koebe::cli {
@@ -62,6 +64,15 @@ Subcommand add_schottky(CLI::App& app)
             "OUT", request->output,
             "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
         ->required();
+    const std::map<std::string, SchottkyNormalization> names{
+        {to_string(SchottkyNormalization::area), SchottkyNormalization::area},
+        {to_string(SchottkyNormalization::circles), SchottkyNormalization::circles}};
+    options
+        ->add_option("--normalization", request->schottky.normalization,
+                     "with holes: the least area distortion, or the most room for equally large circles of handles")
+        ->transform(CLI::Transformer(names))
+        ->type_name("area|circles")
+        ->default_str("area");
     options
         ->add_option("--tolerance", request->schottky.tolerance,
                      "stop when the disks that fill the loops change by less in a sweep, relative")
@@ -79,7 +90,8 @@ Subcommand add_schottky(CLI::App& app)
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
     options->callback([request] {
         check_map_files(*request);
-        request->entries["options"] = {{"tolerance", request->schottky.tolerance},
+        request->entries["options"] = {{"normalization", to_string(request->schottky.normalization)},
+                                       {"tolerance", request->schottky.tolerance},
                                        {"max_sweeps", request->schottky.max_sweeps}};
     });
     return {options, [request] { return run_schottky(*request); }};

@@ -108,6 +108,25 @@ std::vector<VectorXcd> GluedState::images_round_infinity() const
     return split(spd_solve((filled_.array() + alpha).matrix(), load));
 }
 
+std::vector<Complex> GluedState::shifts_without_flux(const std::vector<VectorXcd>& images) const
+{
+    const auto count = static_cast<Eigen::Index>(images.size());
+    MatrixXd boundary(sigma_.rows(), 2), ones = MatrixXd::Zero(sigma_.rows(), count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const VectorXcd& image = images[static_cast<std::size_t>(k)];
+        const Eigen::Index begin = begin_[static_cast<std::size_t>(k)];
+        boundary.middleRows(begin, image.size()) << image.real(), image.imag();
+        ones.col(k).segment(begin, image.size()).setOnes();
+    }
+    const MatrixXd capacities = ones.transpose() * (sigma_ * ones);
+    const MatrixXd flux = ones.transpose() * (sigma_ * boundary);
+    std::vector<Complex> shifts(images.size(), 0.0);
+    const Eigen::Index rest = count - 1;
+    const MatrixXd solved = spd_solve(capacities.bottomRightCorner(rest, rest), -flux.bottomRows(rest));
+    for (Eigen::Index k = 0; k < rest; ++k) shifts[static_cast<std::size_t>(k) + 1] = {solved(k, 0), solved(k, 1)};
+    return shifts;
+}
+
 void GluedState::fill(std::size_t k, VectorXd angles)
 {
     angles_[k] = std::move(angles);

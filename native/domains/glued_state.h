@@ -36,6 +36,10 @@ public:
     /// The same with infinity in the disk of the first loop, which lies round the others.
     std::vector<VectorXcd> images_round_infinity() const;
 
+    /// By what each loop has to be shifted, the first one by 0, so that no flux runs through any: the map is regular
+    /// beyond each of them. @param images of the loops, near those above
+    std::vector<Complex> shifts_without_flux(const std::vector<VectorXcd>& images) const;
+
 private:
     void fill(std::size_t k, VectorXd angles);
     VectorXd flux_through(std::size_t k, const MatrixXd& inverse_factor) const;

@@ -146,7 +146,44 @@ CirclesInPlace roomiest(const SchottkyPlane& plane)
     return best;
 }
 
+/// Points of the disk, from its middle out.
+std::vector<Complex> tried_centers()
+{
+    std::vector<Complex> result{0.0};
+    for (const double radius : {0.3, 0.6, 0.8, 0.9, 0.95})
+        for (int turn = 0; turn < tried_turns; ++turn)
+            result.push_back(std::polar(radius, 2.0 * std::numbers::pi * turn / tried_turns));
+    return result;
+}
+
+/// Without the inside of the surface.
+SchottkyPlane moved_loops(const SchottkyPlane& plane, const Moebius& map)
+{
+    SchottkyPlane moved;
+    moved.images = plane.images;
+    moved.generators = plane.generators;
+    moved.holes = plane.holes;
+    moved.move(linear_fractional(map.turn, -map.turn * map.a, -std::conj(map.a), 1.0));
+    moved.holes.front() = Circle{};
+    return moved;
+}
+
 }  // namespace
+
+Moebius roomiest_automorphism(const SchottkyPlane& plane)
+{
+    Moebius best;
+    double room = -std::numeric_limits<double>::infinity();
+    const std::vector<PairKind> isometric(plane.generators.size(), PairKind::isometric);
+    for (const Complex center : tried_centers()) {
+        const Moebius away{center, 1.0};
+        const double own = circles_of(moved_loops(plane, away), isometric).room;
+        if (!(own > room)) continue;
+        room = own;
+        best = away;
+    }
+    return best;
+}
 
 void SchottkyPlane::move(const LinearFractional& map)
 {
@@ -157,6 +194,17 @@ void SchottkyPlane::move(const LinearFractional& map)
         generator = linear_fractional(moved.a, moved.b, moved.c, moved.d);
     }
     for (Circle& hole : holes) hole = map(hole);
+}
+
+void SchottkyPlane::shift(const std::vector<Complex>& shifts)
+{
+    for (std::size_t k = 0; k < images.size(); ++k) images[k].array() += shifts[k];
+    for (std::size_t k = 0; k < holes.size(); ++k) holes[k].center += shifts[k];
+    for (std::size_t j = 0; j < generators.size(); ++j) {
+        const LinearFractional back = linear_fractional(1.0, -shifts[holes.size() + 2 * j], 0.0, 1.0);
+        const LinearFractional ahead = linear_fractional(1.0, shifts[holes.size() + 2 * j + 1], 0.0, 1.0);
+        generators[j] = ahead * generators[j] * back;
+    }
 }
 
 SchottkyPlane schottky_plane(const HandleCut& cut, std::vector<VectorXcd> images)
@@ -198,21 +246,15 @@ FundamentalCircles fundamental_circles(SchottkyPlane& plane)
     CirclesInPlace best = roomiest(plane);
     if (plane.outer_handle < 0 && !(best.room > 0.0))
         // Circles stay apart under automorphisms of the disk: perhaps there are some after one of these.
-        for (const double radius : {0.3, 0.6, 0.8, 0.9})
-            for (int turn = 0; turn < tried_turns && !(best.room > 0.0); ++turn) {
-                const Complex center = std::polar(radius, 2.0 * std::numbers::pi * turn / tried_turns);
-                const LinearFractional away = linear_fractional(1.0, -center, -std::conj(center), 1.0);
-                SchottkyPlane moved;
-                moved.images = plane.images;
-                moved.generators = plane.generators;
-                moved.holes = plane.holes;
-                moved.move(away);
-                CirclesInPlace circles = roomiest(moved);
-                if (!(circles.room > best.room)) continue;
-                best = std::move(circles);
-                for (auto& pair : best.pairs)
-                    for (Circle& circle : pair) circle = away.inverse()(circle);
-            }
+        for (const Complex center : tried_centers()) {
+            const Moebius away{center, 1.0};
+            CirclesInPlace circles = roomiest(moved_loops(plane, away));
+            if (!(circles.room > best.room)) continue;
+            best = std::move(circles);
+            for (auto& pair : best.pairs)
+                for (Circle& circle : pair) circle = away.inverse()(circle);
+            if (best.room > 0.0) break;
+        }
     if (plane.outer_handle >= 0 && best.log_scale != 0.0) {
         const double scale = std::exp(-best.log_scale);
         plane.move(linear_fractional(scale, 0.0, 0.0, 1.0));

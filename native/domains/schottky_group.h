@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle_fit.h"
+#include "circles/moebius.h"
 #include "domains/group_word.h"
 #include "domains/handle_cut.h"
 #include "domains/linear_fractional.h"
@@ -23,6 +24,8 @@ struct SchottkyPlane {
     std::vector<Roundness> roundness;  ///< of the holes' images before they were put on their circles
     int outer_handle = -1;             ///< without holes: the one whose generator is z -> lambda z, |lambda| < 1
 
+    /// Each loop shifted by itself.
+    void shift(const std::vector<Complex>& shifts);
     /// Moved by a Moebius map of the plane, but for its holes, which have to be none or the unit disk's.
     void move(const LinearFractional& map);
 };
@@ -45,6 +48,10 @@ struct FundamentalCircles {
 /// cuts that keep apart, if there are such. Without holes the plane is scaled so that the outer one, which can have any
 /// radius, keeps clear of the others.
 FundamentalCircles fundamental_circles(SchottkyPlane& plane);
+
+/// The automorphism of the unit disk after which isometric circles have the most room, of some that are tried.
+/// @param plane with holes
+Moebius roomiest_automorphism(const SchottkyPlane& plane);
 
 /// Others round the same cuts: the first one of each pair so many times as large.
 FundamentalCircles circles_beside(const SchottkyPlane& plane, const FundamentalCircles& circles, double factor);

@@ -39,9 +39,11 @@ std::vector<Index> all_loop_vertices(const HandleCut& cut)
     return result;
 }
 
-/// The inside harmonic between the loops.
-void fill_inside(const CondensedLaplacian& surface, SchottkyPlane& plane)
+/// The inside harmonic between the loops. These were moved a little, onto circles and to fit each other: without a
+/// shift a flux would run to the smallest of them, and be all that the map is near there.
+void fill_inside(const CondensedLaplacian& surface, const GluedState& state, SchottkyPlane& plane)
 {
+    plane.shift(state.shifts_without_flux(plane.images));
     Eigen::Index count = 0, row = 0;
     for (const VectorXcd& image : plane.images) count += image.size();
     MatrixXd boundary(count, 2);
@@ -60,18 +62,25 @@ PlanarPoints as_points(const VectorXcd& z)
     return points;
 }
 
-/// With holes: the automorphism of the disk with the most even texels. The loops are solved for anew, not moved: where
-/// a handle's loops are tiny, a flux of the size of the mesh's errors would draw all of them to one side.
-SchottkyPlane plane_in_disk(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state)
+/// With holes: the automorphism of the disk with the most even texels, or with the most room for equal circles. The
+/// loops are solved for anew, not moved: where a handle's loops are tiny, a flux of the size of the mesh's errors would
+/// draw all of them to one side.
+SchottkyPlane plane_in_disk(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state,
+                            SchottkyNormalization normalization)
 {
     const VectorXcd rim = state.rim();
     SchottkyPlane plane = schottky_plane(cut, state.images_in_disk(rim));
-    fill_inside(surface, plane);
-    double left = 0.0;
-    const Moebius map = least_area_distortion(
-        face_scales(cut.vertices, cut.surface.triangles, as_points(plane.z), balanced_faces), left);
+    fill_inside(surface, state, plane);
+    Moebius map;
+    if (normalization == SchottkyNormalization::circles) {
+        map = roomiest_automorphism(plane);
+    } else {
+        double left = 0.0;
+        map = least_area_distortion(
+            face_scales(cut.vertices, cut.surface.triangles, as_points(plane.z), balanced_faces), left);
+    }
     plane = schottky_plane(cut, state.images_in_disk(map(rim)));
-    fill_inside(surface, plane);
+    fill_inside(surface, state, plane);
     return plane;
 }
 
@@ -79,7 +88,7 @@ SchottkyPlane plane_in_disk(const HandleCut& cut, const CondensedLaplacian& surf
 SchottkyPlane annular_plane(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state)
 {
     SchottkyPlane plane = schottky_plane(cut, state.images_round_infinity());
-    fill_inside(surface, plane);
+    fill_inside(surface, state, plane);
     SchottkyPlane best;
     double least = std::numeric_limits<double>::infinity();
     for (int handle = 0; handle < cut.handles; ++handle) {
@@ -180,7 +189,8 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
         map.converged = map.changes.back() < options.tolerance;
         context.advance(1.0 - std::pow(0.6, static_cast<double>(map.changes.size())));
     }
-    map.plane = map.cut.holes > 0 ? plane_in_disk(map.cut, surface, state) : annular_plane(map.cut, surface, state);
+    map.plane = map.cut.holes > 0 ? plane_in_disk(map.cut, surface, state, options.normalization)
+                                  : annular_plane(map.cut, surface, state);
     map.circles = fundamental_circles(map.plane);
     seconds.iterate += stage.lap();
     return map;
@@ -238,11 +248,22 @@ LaidMap laid(CutMap map, const FinerFaces& faces, const std::vector<Index>& poly
             if (beside.apart) repair(tiling.by_circles(plane, beside));
         }
     if (!circles.apart || !result.faults.any()) return result;
-    if (const SchottkyTile by_cut = tiling.as_cut(plane); !find_faults(by_cut, result.map.cut).any()) {
-        result.tile = by_cut;
-        result.by_circles = false;
+    // The boundary of the UVs may be wrong on one circle and right on another.
+    for (const double factor : {1.6, 0.6, 2.5, 0.4}) {
+        const FundamentalCircles beside = circles_beside(plane, circles, factor);
+        if (!beside.apart) continue;
+        SchottkyTile tile = tiling.by_circles(plane, beside);
+        if (find_faults(tile, result.map.cut).any()) continue;
+        result.tile = std::move(tile);
+        result.map.circles = beside;
         fit_and_judge(result);
+        return result;
     }
+    SchottkyTile by_cut = tiling.as_cut(plane);
+    if (find_faults(by_cut, result.map.cut).any()) return result;
+    result.tile = std::move(by_cut);
+    result.by_circles = false;
+    fit_and_judge(result);
     return result;
 }
 
@@ -349,6 +370,11 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
 }
 
 }  // namespace
+
+const char* to_string(SchottkyNormalization normalization) noexcept
+{
+    return normalization == SchottkyNormalization::area ? "area" : "circles";
+}
 
 SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                             ExecutionContext& context)

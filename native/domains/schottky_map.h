@@ -13,7 +13,17 @@
 
 namespace koebe {
 
+/// Which of the maps that automorphisms of the disk lead to each other, where there are holes.
+enum class SchottkyNormalization {
+    area,     ///< that of the least area distortion
+    circles,  ///< that where equally large circles of each handle have the most room
+};
+
+/// As in the JSON report: the enumerator's name.
+KOEBE_API const char* to_string(SchottkyNormalization normalization) noexcept;
+
 struct SchottkyOptions {
+    SchottkyNormalization normalization = SchottkyNormalization::area;
     double tolerance = 1e-6;  ///< on the relative change, in a sweep, of the matrices of the disks that fill the loops
     int max_sweeps = 50;
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
@@ -56,8 +66,8 @@ struct SchottkyResult {
 /// group, its holes round: the copies of the UVs under the group fill the plane up to a set of no area, continuing the
 /// pattern. Handles are cut along short loops, which decide on the group; their sides differ by its generators
 /// [Koebe 1908; Maskit 1988, chapter X.H]. With holes the longest is the unit circle, and the map the one of its
-/// automorphisms with the least area distortion. Without holes one handle's generator is z -> lambda z: that for which
-/// texel density is most even.
+/// automorphisms with the least area distortion, or with the most room for equal circles. Without holes one handle's
+/// generator is z -> lambda z: that for which texel density is most even.
 /// @throws InputError, TopologyError genus (no handle, or cuts that touch each other) and those of analyze_surface,
 /// SolverError, Cancelled; what is not one to one is reported as not converged
 KOEBE_API SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles,

@@ -288,8 +288,12 @@ PYBIND11_MODULE(_koebe, m)
             return sphere_map(vertices, triangles, options, context);
         });
     });
+    py::enum_<SchottkyNormalization>(m, "SchottkyNormalization")
+        .value("area", SchottkyNormalization::area)
+        .value("circles", SchottkyNormalization::circles);
     py::class_<SchottkyOptions>(m, "SchottkyOptions")
         .def(py::init<>())
+        .def_readwrite("normalization", &SchottkyOptions::normalization)
         .def_readwrite("tolerance", &SchottkyOptions::tolerance)
         .def_readwrite("max_sweeps", &SchottkyOptions::max_sweeps)
         .def_readwrite("polygon", &SchottkyOptions::polygon);

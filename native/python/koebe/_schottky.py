@@ -8,7 +8,7 @@ import numpy as np
 
 from ._api import polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, positive, token, whole
+from ._options import callback, choice, positive, token, whole
 from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
 
 Progress = Callable[[float, str], Any]
@@ -25,8 +25,9 @@ class SchottkyMap:
     multipliers      (G,) complex128: by what a generator multiplies in a coordinate that is 0 and infinity at its fixed
                      points; below 1 in size. Free of Moebius maps, as the traces of products are
     circles          (G, 2, 3) float64, x and y of the center and the radius of each pair: a generator takes the outside
-                     of the first circle to the inside of the second. Both are equally large but for an `outer` handle,
-                     for which it takes the inside of the first, which is round 0, to that of the second
+                     of the first circle to the inside of the second. Both are equally large where such circles keep
+                     apart; else they are others. Of an `outer` handle, of a surface without holes, the inside of the
+                     first, which is round 0, goes to that of the second
     by_circles       whether the UVs are cut along these circles, as closely as faces can be; else along the edges of
                      `cut`, as the circles meet each other or a hole
     handles          list of dicts, longer cuts first: generator, multiplier, circles, outer; cut, the vertices of the
@@ -103,6 +104,7 @@ def schottky_map(
     vertices: Any,
     triangles: Any = None,
     *,
+    normalization: str = "area",
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
     polygon: Any = None,
@@ -115,6 +117,8 @@ def schottky_map(
     UVs continue them across every cut: they are a fundamental domain of a Schottky group.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    normalization    with holes, which of the maps that differ by an automorphism of the disk: 'area', that of the least area
+                 distortion; 'circles', that where equally large circles of each handle have the most room
     tolerance    stop when, in a sweep, the disks that fill the loops change by less, as matrices and relative
     max_sweeps   then stop with converged = False
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
@@ -124,6 +128,7 @@ def schottky_map(
     SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
     options = _koebe.SchottkyOptions()
+    options.normalization = choice(normalization, "normalization", _koebe.SchottkyNormalization)
     options.tolerance = positive(tolerance, "tolerance")
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
@@ -131,5 +136,5 @@ def schottky_map(
     options.polygon = polygons_of(polygon, source)
     native = _koebe.schottky_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
-    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
+    report["options"] = {"normalization": normalization, "tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
     return SchottkyMap(report, native, source)
