@@ -25,7 +25,7 @@ class Touched:
     def on_error(self, key):
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
-        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring")
+        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere")
         if self._name not in (*selecting, "uv.koebe_parts"):
             return False
         return key == "file: report" or (self._name in selecting and self._selects(owner, what))
