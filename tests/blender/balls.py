@@ -81,7 +81,7 @@ def led_back(uv, layout):
 
 
 def sides_of_edges(mesh, uv):
-    """Of each edge with two faces its two ends, of each end the UVs on both sides (n, 2, 2, 2); and the faces (n, 2)."""
+    """Of each edge with two faces: of each end the UVs on both sides (n, 2, 2, 2), and the faces (n, 2)."""
     found = {}
     for face in mesh.polygons:
         loops = list(face.loop_indices)
