@@ -46,7 +46,7 @@ class SphereOutcome(DomainOutcome):
 
     def notes(self, one: SphereIsland) -> list[str]:
         count = len(one.torn_faces)
-        text = f"{counted(count, 'face')} {WHERE_TORN[self.choice.layout]}: torn in the UVs, as none fit there"
+        text = f"{counted(count, 'face')} {WHERE_TORN[self.choice.layout]} torn in the UVs: none fit there"
         return [text] if count else []
 
     def figures(self) -> list[str]:

@@ -274,7 +274,7 @@ RIMS = EnumProperty(
 LAYOUT = EnumProperty(
     name="Layout",
     items=[
-        ("equirectangular", "Longitude, Latitude", "U runs once round the sphere, V from pole to pole, as in images of "
+        ("equirectangular", "Longitudes", "U runs once round the sphere, V from pole to pole, as in images of "
          "skies and worlds. Faces over the cut go on beyond U = 1, where the image repeats"),
         ("octahedral", "Octahedron", "The upper half is the middle of the UV square, the lower one is folded out into "
          "its corners: texels are more even. Faces over the cut go on beyond the square"),

@@ -52,7 +52,7 @@ def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
     assert 1 <= len(torn) <= (2 if layout == "equirectangular" else 4)
     assert entry.flipped == len(np.setdiff1d(ball.layout["flipped"], ball.layout["torn"]))
     assert entry.angle_error == pytest.approx(ball.angle_error_deg["mean"], rel=1e-6)
-    assert 1.0 <= entry.density < 10.0 and "torn in the UVs" in entry.note
+    assert 1.0 <= entry.density < 10.0 and "torn in the UVs: none fit there" in entry.note
     assert [loop.radius for loop in entry.loops] == pytest.approx(ball.caps[:, 3].tolist(), rel=1e-6)
     assert len(entry.loops) == len(scenes.boundary_loops(obj.data))
     whole = np.ones(len(uv), bool)

@@ -68,7 +68,7 @@ class Touched:
             or (self._options.get("checker", True) and self._dresses(owner, what))
         )  # fmt: skip
 
-    _torus = _ring = _uniformize
+    _torus = _ring = _sphere = _uniformize
 
     def _parts(self, owner, what):
         seams = owner in self._meshes and self._options.get("write_seams") and what in SEAMS
@@ -119,7 +119,7 @@ class Touched:
             return True  # Edit Mode is another representation: what is in it is compared where it is not changed
         return what == "mode" or what.startswith("selected in ")
 
-    _select_loop = _select_cuts = _select_flipped = _select_offenders = _select
+    _select_loop = _select_cuts = _select_flipped = _select_torn = _select_offenders = _select
 
     def _reset(self, owner, what):
         return owner == "file" and what.endswith(" settings")
