@@ -3,16 +3,23 @@
 
 from typing import Any
 
+import bpy
+import numpy as np
+
 from ..blender import checker, map_writing
+from ..blender.copied_object import add_copied_object
 from ..blender.mesh_object import MeshObject
+from ..blender.transaction import Transaction
 from ..maps.domain_outcomes import DomainChoice, DomainOutcome
 from ..maps.json_report import domain_entries
 from ..maps.options import Options, SphereChoice
 from ..maps.outcomes import LATER, Progress, Task, share_of
-from ..maps.spheres import map_spheres
+from ..maps.sphere_copy import sphere_copy
+from ..maps.spheres import SphereOutcome, map_spheres
 from ..maps.tile_pattern import Pattern
 from .map_job import Job
 
+BESIDE = 0.1  # of an object's size, between it and its sphere
 OTHER_PERIODS = "its tiles have other periods: the checker runs over the cuts of the largest one"
 
 
@@ -63,9 +70,21 @@ class DomainJob(Job):
 
 
 class SphereJob(DomainJob):
-    """Maps to spheres."""
+    """Maps to spheres. Asked to, it adds these as objects, beside their sources."""
 
     choice: SphereChoice
+    outcomes: list[SphereOutcome]  # type: ignore[assignment]
 
-    def _map(self, task: Task, progress: Progress | None) -> DomainOutcome:
+    def _map(self, task: Task, progress: Progress | None) -> SphereOutcome:
         return map_spheres(self.koebe, task, self.choice, progress, self.cancel_token)
+
+    def _write_one(
+        self, run: Transaction, outcome: SphereOutcome, plan: map_writing.Plan, material: bpy.types.Material | None
+    ) -> None:
+        super()._write_one(run, outcome, plan, material)  # type: ignore[arg-type]
+        if self.choice.add_sphere:
+            origin: Any = plan.obj.matrix_world.translation
+            across = outcome.task.surface.positions[:, 0]
+            right = origin.x + float(across.max() + BESIDE * np.ptp(across))
+            place, copy = (right, origin.y, origin.z), sphere_copy(outcome)
+            add_copied_object(run, bpy.context, plan.obj, copy, self.options.layer, plan.uv, place, "Sphere")

@@ -153,12 +153,14 @@ class TileChoice:
 class SphereChoice:
     """What to compute of a map to the sphere.
 
-    layout  how the sphere becomes UVs: "equirectangular" (u the longitude, v the latitude) or "octahedral"
+    layout      how the sphere becomes UVs: "equirectangular" (u the longitude, v the latitude) or "octahedral"
+    add_sphere  whether to add the sphere itself as an object, too
     """
 
     layout: str = "equirectangular"
     tolerance: float = 1e-6
     max_sweeps: int = 50
+    add_sphere: bool = False
 
     def __post_init__(self) -> None:
         _one_of("layout", self.layout, LAYOUTS)

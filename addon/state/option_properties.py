@@ -284,6 +284,14 @@ LAYOUT = EnumProperty(
 )
 
 
+ADD_SPHERE = BoolProperty(
+    name="Add the Sphere",
+    default=DEFAULT_SPHERE.add_sphere,
+    description="Add the sphere itself as an object beside its source: the same faces, UVs and materials, and as large "
+    "in area",
+)
+
+
 class DomainProperties:
     """What the artist can choose of other domains, of the options of all maps."""
 
@@ -299,6 +307,7 @@ class SphereProperties(DomainProperties):
     """What the artist can choose of a sphere."""
 
     layout: LAYOUT
+    add_sphere: ADD_SPHERE
 
 
 class TorusProperties(DomainProperties):
@@ -334,6 +343,7 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     holes: HOLES
     rims: RIMS
     layout: LAYOUT
+    add_sphere: ADD_SPHERE
 
 
 SETTING_NAMES = tuple(

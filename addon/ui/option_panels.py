@@ -77,7 +77,8 @@ class DomainsPanel(ClosedPanel):
         for name in ("holes", "rims", "fit"):
             draw_option(column, settings, name, context)
         draw_domain_button(column, settings, "sphere")
-        draw_option(column, settings, "layout", context)
+        for name in ("layout", "add_sphere"):
+            draw_option(column, settings, name, context)
 
 
 class LayerPanel(ClosedPanel):

@@ -215,7 +215,7 @@ class RandomRun:
                 "uv.koebe_torus": {"fit": one(["inside", "period", "square"])},
                 "uv.koebe_ring": {"fit": one(["inside", "period", "square"]), "rims": one(["auto", "auto", "selected"]),
                                   "holes": one(["circles", "concentric", "radial"])},
-                "uv.koebe_sphere": {"layout": one(["equirectangular", "octahedral"])},
+                "uv.koebe_sphere": {"layout": one(["equirectangular", "octahedral"]), "add_sphere": one([True, False])},
             }[name]  # fmt: skip
             return {"layer": layer, "checker": one([True, False]), "checker_even": one([True, False]),
                     "checker_size": one([8.0, 32.0]), "max_sweeps": one([1, 50]), **own}  # fmt: skip

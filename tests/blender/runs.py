@@ -173,6 +173,8 @@ RUNS = {
     "sphere": (states.many, "uv.koebe_sphere", {}),
     "sphere of what is worn": (states.worn, "uv.koebe_sphere", {"layout": "octahedral", "checker_size": 16.0}),
     "sphere in Edit Mode": (states.edited, "uv.koebe_sphere", {"layout": "octahedral", "checker": False}),
+    "sphere added": (states.many, "uv.koebe_sphere", {"add_sphere": True}),
+    "sphere added in Edit Mode": (states.edited, "uv.koebe_sphere", {"add_sphere": True}),
     "checker on tiles": (bare_tori, "uv.koebe_checker", {}),
     "checker off tiles": (mapped_tori, "uv.koebe_checker", {}),
     "checker on": (states.many, "uv.koebe_checker", {}),

@@ -68,7 +68,14 @@ class Touched:
             or (self._options.get("checker", True) and self._dresses(owner, what))
         )  # fmt: skip
 
-    _torus = _ring = _sphere = _uniformize
+    _torus = _ring = _uniformize
+
+    def _sphere(self, owner, what):
+        """With new data, if asked for: a copy of the object, which shares the materials."""
+        added = " Sphere" in owner or owner in ("names of objects", "names of meshes", "names of collections") or (
+            owner.startswith("material ") and what == "users"
+        )
+        return self._uniformize(owner, what) or (self._options.get("add_sphere", False) and added)
 
     def _parts(self, owner, what):
         seams = owner in self._meshes and self._options.get("write_seams") and what in SEAMS
