@@ -21,6 +21,7 @@ def _parts() -> tuple[ModuleType, ...]:
         checker,
         compare_shapes,
         distortion,
+        domains,
         fill_holes,
         flat_copy,
         moebius,
@@ -28,7 +29,6 @@ def _parts() -> tuple[ModuleType, ...]:
         parts,
         select_from_report,
         symmetrize,
-        tiles,
         uniformize,
     )
     from .state import moved_circles, option_properties, run_report, shape_report
@@ -45,7 +45,7 @@ def _parts() -> tuple[ModuleType, ...]:
 
     return (
         option_properties, run_report, moved_circles, shape_report,
-        uniformize, parts, tiles, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture,
+        uniformize, parts, domains, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture,
         option_presets, moebius, symmetrize, flat_copy,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip

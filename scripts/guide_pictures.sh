@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The guide's pictures.
 # Usage: scripts/guide_pictures.sh window     cut out of those that `make test-gui` leaves in out/gui
-#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and mug in parts, a torus tile
+#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and mug in parts, a torus tile, a sphere
 set -euo pipefail
 cd "$(dirname "$0")/.."
 images=docs/images
@@ -29,6 +29,7 @@ drawn)
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
     draw mug parts_picture.py --output "$images/guide_parts_mug.jpg" --size 1000x500
     draw mug tile_picture.py "$images/guide_tile.jpg"  # which takes nothing of the file
+    draw closed_head sphere_picture.py "$images/guide_sphere.jpg"
     ;;
 *)
     echo "window or drawn" >&2

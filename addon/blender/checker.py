@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..maps.sphere_pattern import sphere_pattern
 from ..maps.surface import Surface
 from ..maps.tile_pattern import Pattern, fits, fitting_pattern, lattices_of
 from . import material_slots
@@ -50,10 +51,14 @@ def even_sizes(size: float, densities: list[float]) -> list[float]:
 
 
 def pattern_for(surface: Surface, uv: np.ndarray, size: float) -> tuple[Pattern, bool]:
-    """The checker with about so many squares across the UV square, and whether it runs over all cuts of all tiles.
+    """The checker with about so many squares across the UV square, and whether it runs over all cuts of all tiles, or
+    of spheres.
 
     surface, uv  all of a mesh, and its UVs (C, 2)
     """
+    of_sphere = sphere_pattern(surface, uv, size)
+    if of_sphere is not None:
+        return of_sphere, True
     lattices = lattices_of(surface, uv)
     pattern = fitting_pattern(lattices[0], size) if lattices else Pattern(size)
     return pattern, all(fits(pattern, periods) for periods in lattices)

@@ -12,7 +12,7 @@ from .exit_and_signals import USAGE, Stop
 LARGEST = 2**31 - 1  # of the native module's whole numbers
 CHECKER_SIZES = (1e-3, 1e6)  # squares across the UV square that a 32-bit texture coordinate can tell apart
 DISK = "disk"
-OF_TILES = ("domain", "holes", "fit")
+OF_DOMAINS = ("domain", "holes", "fit", "layout")
 OF_ALL = {"tolerance", "max_sweeps", "layer", "checker", "checker_size", "checker_even", "threads"}  # of every domain
 IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
 WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
@@ -30,7 +30,7 @@ class Library:
 class Request:
     """What to do: files as they were given, names of objects or None for all, and the options of the map.
 
-    tile  of a map whose UVs are a tile, else None
+    domain  of a map that is to no disk, else None
     """
 
     sources: list[str]
@@ -38,7 +38,7 @@ class Request:
     report: str | None
     names: list[str] | None
     options: options.Options
-    tile: options.TileChoice | None
+    domain: options.TileChoice | options.SphereChoice | None
     library: Library
     ends_with_input: bool
 
@@ -73,10 +73,12 @@ def parse(arguments: list[str]) -> Request:
         help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
     )  # fmt: skip
     parser.add_argument(
-        "--domain", choices=(DISK, *options.TILE_DOMAINS), default=DISK, help="torus, ring: UVs that are a tile"
-    )
+        "--domain", choices=(DISK, *options.TILE_DOMAINS, options.SPHERE), default=DISK,
+        help="torus, ring: UVs that are a tile; sphere: its layout",
+    )  # fmt: skip
     parser.add_argument("--holes", choices=options.HOLES, help="of --domain ring")
     parser.add_argument("--fit", choices=options.FITS, help="of --domain torus and ring")
+    parser.add_argument("--layout", choices=options.LAYOUTS, help="of --domain sphere")
     parser.add_argument("--method", choices=options.METHODS, default=default.method)
     parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
     parser.add_argument(
@@ -110,7 +112,7 @@ def parse(arguments: list[str]) -> Request:
     each = _words({name: value for name, value in values.items() if value != parser.get_default(name)})
     names = values.pop("objects")
     given = {name for name, value in values.items() if value != parser.get_default(name)}
-    tile = _tile_choice({name: values.pop(name) for name in OF_TILES}, values, given)
+    domain = _domain_choice({name: values.pop(name) for name in OF_DOMAINS}, values, given)
     if values["center"] is not None and values["balance"] == "area":
         raise Stop(USAGE, "--center excludes --balance area: both choose the centre of the disk")
     for name in ("center", "point", "balance"):
@@ -121,24 +123,29 @@ def parse(arguments: list[str]) -> Request:
     except (options.OptionError, UnicodeError) as error:
         raise Stop(USAGE, error) from None
     return Request(
-        **files, names=None if names is None else _split(names), options=chosen, tile=tile,
+        **files, names=None if names is None else _split(names), options=chosen, domain=domain,
         library=Library(batch, each), ends_with_input=ends_with_input,
     )  # fmt: skip
 
 
-def _tile_choice(own: dict[str, Any], values: dict[str, Any], given: set[str]) -> options.TileChoice | None:
-    """What is asked for of a tile, or None for a disk; options of another domain are wrong usage."""
+def _domain_choice(
+    own: dict[str, Any], values: dict[str, Any], given: set[str]
+) -> options.TileChoice | options.SphereChoice | None:
+    """What is asked for of a domain, or None for a disk; options of another domain are wrong usage."""
     domain = own["domain"]
-    others = {
-        DISK: {"holes", "fit"}, "torus": {"holes", *values.keys() - OF_ALL}, "ring": values.keys() - OF_ALL
-    }[domain]  # fmt: skip
+    known = {DISK: set(values), "torus": {"fit"}, "ring": {"holes", "fit"}, options.SPHERE: {"layout"}}[domain]
+    others = {*own, *values} - known - OF_ALL - {"domain"}
     for name in sorted(given & others):
         raise Stop(USAGE, f"--{name.replace('_', '-')} is not of --domain {domain}")
     if domain == DISK:
         return None
     try:
         asked = {name: value for name, value in own.items() if value is not None}
-        return options.TileChoice(**asked, tolerance=values["tolerance"], max_sweeps=values["max_sweeps"])
+        asked.update(tolerance=values["tolerance"], max_sweeps=values["max_sweeps"])
+        if domain == options.SPHERE:
+            del asked["domain"]
+            return options.SphereChoice(**asked)
+        return options.TileChoice(**asked)
     except options.OptionError as error:
         raise Stop(USAGE, error) from None
 

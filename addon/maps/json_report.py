@@ -5,10 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import elements_of, kind_of
 from .opening import Opening
 from .outcomes import Failure, IslandOutcome, SurfaceOutcome, Task
 from .rounding import RESOLUTION
+from .spheres import SphereIsland, SphereOutcome
 from .tiles import TileIsland, TileOutcome
 from .triangles import longest_edges
 from .wording import cut_line, in_mesh, warnings
@@ -44,9 +46,40 @@ def _cuts(opening: Opening) -> dict[str, Any]:
     }
 
 
-def tile_entries(outcome: TileOutcome) -> list[dict[str, Any]]:
-    """One dict per island: `result.to_dict()` of the tile in the mesh's numbers, as it is in the UVs, or the error."""
-    return [_tile_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
+def domain_entries(outcome: DomainOutcome) -> list[dict[str, Any]]:
+    """One dict per island: `result.to_dict()` in the mesh's numbers, as it is in the UVs, or the error."""
+    if isinstance(outcome, TileOutcome):
+        return [_tile_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
+    assert isinstance(outcome, SphereOutcome)
+    return [_sphere_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
+
+
+def _sphere_entry(outcome: SphereOutcome, index: int, one: SphereIsland) -> dict[str, Any]:
+    """Of the sphere; `layout` is of the UVs."""
+    entry = _head(outcome.task, index, one)
+    if one.error is not None:
+        return entry
+    result, source = one.result.to_dict(), one.island.source_vertex
+    for loop in result["loops"]:
+        for key in ("vertices", "off_circle"):
+            loop[key] = source[np.asarray(loop[key], dtype=np.int64)].tolist()
+    result["turned"] = _faces(one, result["turned"])
+    for key in ("crossing", "torn", "flipped", "below_resolution"):
+        result["layout"][key] = _faces(one, result["layout"][key])
+    result["warnings"] = _domain_warnings(outcome, one)
+    return {**result, **entry, "domain": outcome.choice.domain}
+
+
+def _faces(one: DomainIsland, triangles: list[int]) -> list[int]:
+    """The surface's faces that triangles of an island are of."""
+    return np.unique(one.island.triangle_face[np.asarray(triangles, dtype=np.int64)]).tolist()
+
+
+def _domain_warnings(outcome: DomainOutcome, one: DomainIsland) -> list[dict[str, Any]]:
+    return [
+        *(in_mesh(one.island, warning) for warning in one.result.warnings),
+        *({"kind": kind, "elements": [], "text": text} for kind, text in outcome.own_warnings(one)),
+    ]
 
 
 def _tile_entry(outcome: TileOutcome, index: int, one: TileIsland) -> dict[str, Any]:
@@ -66,14 +99,11 @@ def _tile_entry(outcome: TileOutcome, index: int, one: TileIsland) -> dict[str, 
             else:
                 center, loop["radius"] = one.circle(loop, outcome.choice.fit)
                 loop["center"] = list(center)
-    result["turned"] = np.unique(one.island.triangle_face[np.asarray(result["turned"], dtype=np.int64)]).tolist()
+    result["turned"] = _faces(one, result["turned"])
     result["periods"] = one.tile.periods.tolist()
     result.update(one.distortion or {})
     result["flipped"] = len(one.flipped)
-    result["warnings"] = [
-        *(in_mesh(one.island, warning) for warning in one.result.warnings),
-        *({"kind": kind, "elements": [], "text": text} for kind, text in outcome.own_warnings(one)),
-    ]
+    result["warnings"] = _domain_warnings(outcome, one)
     return {**result, **entry, "domain": outcome.choice.domain, "fit": outcome.choice.fit}
 
 

@@ -14,6 +14,8 @@ TUBES = ("annulus", "unroll")
 SYMMETRIES = ("off", "auto")
 PLACEMENTS = ("pack", "together", "keep")
 TILE_DOMAINS = ("torus", "ring")
+SPHERE = "sphere"
+LAYOUTS = ("equirectangular", "octahedral")
 HOLES = ("circles", "concentric", "radial")
 RIMS = ("auto", "selected")
 FITS = ("inside", "period", "square")
@@ -145,6 +147,29 @@ class TileChoice:
         _one_of("rims", self.rims, RIMS)
         _one_of("fit", self.fit, FITS)
         _check_iteration(self.tolerance, self.max_sweeps)
+
+
+@dataclasses.dataclass(frozen=True)
+class SphereChoice:
+    """What to compute of a map to the sphere.
+
+    layout      how the sphere becomes UVs: "equirectangular" (u the longitude, v the latitude) or "octahedral"
+    add_sphere  whether to add the sphere itself as an object, too
+    """
+
+    layout: str = "equirectangular"
+    tolerance: float = 1e-6
+    max_sweeps: int = 50
+    add_sphere: bool = False
+
+    def __post_init__(self) -> None:
+        _one_of("layout", self.layout, LAYOUTS)
+        _check_iteration(self.tolerance, self.max_sweeps)
+
+    @property
+    def domain(self) -> str:
+        """As of a `TileChoice`."""
+        return SPHERE
 
 
 def _check_iteration(tolerance: float, max_sweeps: int) -> None:

@@ -45,9 +45,22 @@ def lattices_of(surface: Surface, uv: np.ndarray) -> list[np.ndarray]:
     return [np.array(basis) / GRID for _, basis in sorted(found, reverse=True)]
 
 
-def _shifts(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of the cuts within each piece of the UVs, if all of them are shifts: these (n, 2), in steps of the grid, and
-    their pieces (n,); and the faces (P,) of each piece, by the number of its first face."""
+@dataclasses.dataclass(frozen=True)
+class CutSides:
+    """The cuts of UVs with the same piece of these on both sides.
+
+    ends     (n, 2, 2, 2) UVs, 64 bits: of each cut its two ends, of each end both sides
+    piece    (n,) the cut's piece, by the number of its first face
+    of_face  (P,) the piece of each face
+    """
+
+    ends: np.ndarray
+    piece: np.ndarray
+    of_face: np.ndarray
+
+
+def cut_sides(surface: Surface, uv: np.ndarray) -> CutSides:
+    """The edges with two faces where UVs (C, 2) lie apart, but are connected elsewhere."""
     following = next_corners(surface)
     order = np.argsort(surface.corner_edge, kind="stable")
     edge = surface.corner_edge[order]
@@ -57,17 +70,24 @@ def _shifts(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     there_end = following[there]
     opposed = surface.corner_vertex[here] != surface.corner_vertex[there]
     start, end = np.where(opposed, there_end, there), np.where(opposed, there, there_end)
-    points = uv.astype(np.float64)
-    with np.errstate(invalid="ignore"):
-        at_start, at_end = points[here] - points[start], points[following[here]] - points[end]
-    joined = (at_start == 0.0).all(axis=1) & (at_end == 0.0).all(axis=1)
+    joined = (uv[here] == uv[start]).all(axis=1) & (uv[following[here]] == uv[end]).all(axis=1)
     face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
     piece = connected_components(len(surface.face_size), face[here[joined]], face[there[joined]])
     own = ~joined & (piece[face[here]] == piece[face[there]])
-    steps = at_start[own] * GRID
-    whole = (at_start[own] == at_end[own]).all(axis=1) & (steps == np.rint(steps)).all(axis=1)
+    corners = np.stack([np.stack([here, start], axis=1), np.stack([following[here], end], axis=1)], axis=1)[own]
+    return CutSides(uv[corners].astype(np.float64), piece[face[here[own]]], piece)
+
+
+def _shifts(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of the cuts within each piece of the UVs, if all of them are shifts: these (n, 2), in steps of the grid, and
+    their pieces (n,); and the faces (P,) of each piece, by the number of its first face."""
+    sides = cut_sides(surface, uv)
+    with np.errstate(invalid="ignore"):
+        at_start, at_end = (sides.ends[:, end, 0] - sides.ends[:, end, 1] for end in (0, 1))
+    steps = at_start * GRID
+    whole = (at_start == at_end).all(axis=1) & (steps == np.rint(steps)).all(axis=1)
     whole &= (np.abs(steps) < FARTHEST * GRID).all(axis=1)  # nor what is not finite
-    of_piece = piece[face[here[own]]]
+    of_piece, piece = sides.piece, sides.of_face
     is_tile = np.ones(len(surface.face_size), dtype=bool)
     is_tile[of_piece[~whole]] = False
     kept = is_tile[of_piece]

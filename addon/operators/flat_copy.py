@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..blender.flat_object import add_flat_object
+from ..blender.copied_object import add_copied_object
 from ..blender.targets import attempt, target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.flat_job import Flat, read_flat
@@ -65,7 +65,9 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
             x, y, z = context.scene.cursor.location
             for flat in found:
                 with attempt(run, flat.obj.name, problems):
-                    made.append(add_flat_object(run, context, flat.obj, flat.layout, flat.layer, flat.uv, (x, y, z)))
+                    place = (x, y, z)
+                    copy = add_copied_object(run, context, flat.obj, flat.layout, flat.layer, flat.uv, place, "Flat")
+                    made.append(copy)
                     done.append(flat)
                     x += (1.0 + GAP) * float(flat.layout.points[:, 0].max())
             if made:

@@ -86,6 +86,18 @@ class UV_OT_koebe_select_flipped(ReportOperator, bpy.types.Operator):
         return FACES, json.loads(entry.flipped_faces or "[]")
 
 
+class UV_OT_koebe_select_torn(ReportOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the faces of this island that fit to no UVs of the sphere's layout, as they lie round a
+    pole or round the middle of a side of the square"""
+
+    bl_idname = "uv.koebe_select_torn"
+    bl_label = "Select Torn Faces"
+    bl_description = tooltip(__doc__)
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        return FACES, json.loads(entry.torn_faces or "[]")
+
+
 class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
     """Select, in Edit Mode, the edges of a boundary loop of this island: the rim of the disk or a hole"""
 
@@ -150,5 +162,11 @@ def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> 
     return bool(chosen)
 
 
-CLASSES = (UV_OT_koebe_select_offenders, UV_OT_koebe_select_flipped, UV_OT_koebe_select_loop, UV_OT_koebe_select_cuts)
+CLASSES = (
+    UV_OT_koebe_select_offenders,
+    UV_OT_koebe_select_flipped,
+    UV_OT_koebe_select_torn,
+    UV_OT_koebe_select_loop,
+    UV_OT_koebe_select_cuts,
+)
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -7,10 +7,11 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from ..maps.options import Options, TileChoice
+from ..maps.options import Options, SphereChoice, TileChoice
 
 DEFAULTS = Options()
 DEFAULT_TILE = TileChoice()
+DEFAULT_SPHERE = SphereChoice()
 
 
 class UniformizeProperties:
@@ -270,16 +271,49 @@ RIMS = EnumProperty(
 )
 
 
-class TorusProperties:
-    """What the artist can choose of a torus tile, beside the options of all maps that it has."""
+LAYOUT = EnumProperty(
+    name="Layout",
+    items=[
+        ("equirectangular", "Longitudes", "U runs once round the sphere, V from pole to pole, as in images of "
+         "skies and worlds. Faces over the cut go on beyond U = 1, where the image repeats"),
+        ("octahedral", "Octahedron", "The upper half is the middle of the UV square, the lower one is folded out into "
+         "its corners: texels are more even. Faces over the cut go on beyond the square"),
+    ],
+    default=DEFAULT_SPHERE.layout,
+    description="How the sphere is laid out as UVs",
+)
 
-    fit: FIT
+
+ADD_SPHERE = BoolProperty(
+    name="Add the Sphere",
+    default=DEFAULT_SPHERE.add_sphere,
+    description="Add the sphere itself as an object beside its source: the same faces, UVs and materials, and as large "
+    "in area",
+)
+
+
+class DomainProperties:
+    """What the artist can choose of other domains, of the options of all maps."""
+
     tolerance: option("tolerance")
     max_sweeps: option("max_sweeps")
     layer: option("layer")
     checker: option("checker")
     checker_size: option("checker_size")
     checker_even: option("checker_even")
+
+
+class SphereProperties(DomainProperties):
+    """What the artist can choose of a sphere."""
+
+    layout: LAYOUT
+    add_sphere: ADD_SPHERE
+
+
+class TorusProperties(DomainProperties):
+    """What the artist can choose of a torus tile."""
+
+    fit: FIT
 
 
 class RingProperties(TorusProperties):
@@ -289,13 +323,14 @@ class RingProperties(TorusProperties):
     rims: RIMS
 
 
-TORUS_OPTION_NAMES = tuple(TorusProperties.__annotations__)
+TORUS_OPTION_NAMES = (*TorusProperties.__annotations__, *DomainProperties.__annotations__)
 RING_OPTION_NAMES = (*RingProperties.__annotations__, *TORUS_OPTION_NAMES)
+SPHERE_OPTION_NAMES = (*SphereProperties.__annotations__, *DomainProperties.__annotations__)
 
 
-def tile_option_names(domain: str) -> tuple[str, ...]:
+def domain_option_names(domain: str) -> tuple[str, ...]:
     """The options of the operator of a domain."""
-    return {"torus": TORUS_OPTION_NAMES, "ring": RING_OPTION_NAMES}[domain]
+    return {"torus": TORUS_OPTION_NAMES, "ring": RING_OPTION_NAMES, "sphere": SPHERE_OPTION_NAMES}[domain]
 
 
 class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
@@ -307,9 +342,13 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     fit: FIT
     holes: HOLES
     rims: RIMS
+    layout: LAYOUT
+    add_sphere: ADD_SPHERE
 
 
-SETTING_NAMES = tuple(dict.fromkeys((*OPTION_NAMES, *PART_OPTION_NAMES, *RING_OPTION_NAMES)))
+SETTING_NAMES = tuple(
+    dict.fromkeys((*OPTION_NAMES, *PART_OPTION_NAMES, *RING_OPTION_NAMES, *SPHERE_OPTION_NAMES))
+)
 
 
 def settings_of(context: bpy.types.Context) -> KoebeSettings:
@@ -329,16 +368,18 @@ def copy_part_options(source: Any, target: Any) -> None:
         setattr(target, name, getattr(source, name))
 
 
-def copy_tile_options(source: Any, target: Any, domain: str) -> None:
+def copy_domain_options(source: Any, target: Any, domain: str) -> None:
     """Set the options of the operator of a domain from the settings."""
-    for name in tile_option_names(domain):
+    for name in domain_option_names(domain):
         setattr(target, name, getattr(source, name))
 
 
-def tile_choice_of(domain: str, properties: Any) -> TileChoice:
-    """The `TileChoice` of the operator of a domain. Raises OptionError."""
-    known = {field.name for field in dataclasses.fields(TileChoice)}.intersection(tile_option_names(domain))
-    return TileChoice(domain, **{name: getattr(properties, name) for name in known})
+def domain_choice_of(domain: str, properties: Any) -> TileChoice | SphereChoice:
+    """The `TileChoice` or `SphereChoice` of the operator of a domain. Raises OptionError."""
+    kind = SphereChoice if domain == "sphere" else TileChoice
+    known = {field.name for field in dataclasses.fields(kind)}.intersection(domain_option_names(domain))
+    values = {name: getattr(properties, name) for name in known}
+    return SphereChoice(**values) if domain == "sphere" else TileChoice(domain, **values)
 
 
 def written_options_of(properties: Any) -> Options:

@@ -4,6 +4,7 @@
 import contextlib
 import json
 from collections.abc import Iterator
+from typing import Any
 
 import bpy
 import numpy as np
@@ -21,9 +22,11 @@ from ..blender.noted_properties import note_group
 from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried
 from ..maps.circle_fit import fitted_circle
+from ..maps.domain_outcomes import DomainOutcome
 from ..maps.offending_elements import offending_elements
 from ..maps.outcomes import IslandOutcome, SurfaceOutcome
 from ..maps.parts import PartsOutcome
+from ..maps.spheres import SphereIsland, SphereOutcome
 from ..maps.surface import Island
 from ..maps.tiles import TileIsland, TileOutcome, modulus_text, periods_text
 from ..maps.wording import cut_line, explain, notes, too_uneven, warnings
@@ -33,7 +36,7 @@ class KoebeLoopReport(bpy.types.PropertyGroup):
     """A boundary loop of an island."""
 
     vertices: StringProperty(description="Vertices of the mesh along the loop, as JSON")
-    radius: FloatProperty(description="Radius of its circle in the unit disk")
+    radius: FloatProperty(description="Radius of its circle in the unit disk; of a cap of the sphere, in radians")
     roundness: FloatProperty(description="Deviation from a circle before the last step, as in the paper")
     uv_center: FloatVectorProperty(size=2, description="Centre of its circle in the UVs")
     uv_radius: FloatProperty(description="Radius of its circle in the UVs, 0 if it is no circle there")
@@ -59,12 +62,14 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     cuts: StringProperty(description="Vertices of the mesh along each cut, as JSON, with the first of its pieces")
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
-    density: FloatProperty(description="Of parts: texel density at 95 % of the area over that at 5 %")
+    density: FloatProperty(description="Of parts, or on a sphere: density at 95 % of the area over that at 5 %")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
-    tile: StringProperty(description="Of a tile: torus or ring, else empty")
+    domain: StringProperty(description="The domain: torus, ring or sphere; else empty")
     modulus: StringProperty(description="Of a torus the ratio of its periods, of a cylinder i times height over period")
     periods: StringProperty(description="Of a tile: its periods in the UVs")
+    layout: StringProperty(description="Of a sphere: how it is laid out as UVs")
+    torn_faces: StringProperty(description="Of a sphere: the faces that fit to no UVs of its layout, as JSON")
     offer: StringProperty(description="The operator that takes an island that this one does not: parts, torus or ring")
     moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
     corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
@@ -172,14 +177,14 @@ def record_parts(
                 entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
 
 
-def record_tiles(
+def record_domains(
     run: Transaction,
     context: bpy.types.Context,
-    outcomes: list[TileOutcome],
+    outcomes: list[DomainOutcome],
     layer: str,
     refused: list[tuple[str, str]],
 ) -> None:
-    """Replace the report by the tiles of objects, an entry for each island."""
+    """Replace the report by the tiles or spheres of objects, an entry for each island."""
     with _new_report(run, context, refused) as report:
         for outcome in outcomes:
             if outcome.not_written:
@@ -189,27 +194,43 @@ def record_tiles(
                 entry = report.islands.add()
                 entry.object_name, entry.island, entry.layer = outcome.name, index, layer
                 if one.error is None:
-                    _record_tile(entry, outcome, one)
+                    _record_domain(entry, outcome, one)
                     continue
                 entry.message, entry.offer = explain(one.error), getattr(one.error, "offer", "")
                 kind, elements = offending_elements(outcome.task.surface, one)
                 entry.offenders = json.dumps([kind, elements.tolist()])
 
 
-def _record_tile(entry: KoebeIslandReport, outcome: TileOutcome, one: TileIsland) -> None:
+def _record_domain(entry: KoebeIslandReport, outcome: DomainOutcome, one: Any) -> None:
     result = one.result
     entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
-    entry.tile, entry.modulus, entry.periods = outcome.choice.domain, modulus_text(result), periods_text(one.tile)
+    entry.domain = outcome.choice.domain
     entry.angle_error, entry.seconds = one.angle_error, result.seconds["total"]
     entry.flipped, entry.flipped_faces = len(one.flipped), json.dumps(one.flipped_faces.tolist())
-    entry.uneven = too_uneven(one)
-    entry.cut_length, entry.cut_edges = result.cut_length, json.dumps(np.flatnonzero(one.cuts).tolist())
+    entry.uneven, entry.cut_edges = too_uneven(one), json.dumps(np.flatnonzero(one.cuts).tolist())
     entry.message = "; ".join([*outcome.warnings(one), *outcome.remarks])
-    for number, of_loop in enumerate(result.loops):
-        loop = entry.loops.add()
-        loop.vertices = json.dumps(one.island.source_vertex[of_loop["vertices"]].tolist())
+    entry.note = "; ".join(outcome.notes(one))
+    for of_loop in result.loops:
+        entry.loops.add().vertices = json.dumps(one.island.source_vertex[of_loop["vertices"]].tolist())
+    if isinstance(outcome, TileOutcome):
+        _record_tile(entry, outcome, one)
+    elif isinstance(outcome, SphereOutcome):
+        _record_sphere(entry, outcome, one)
+
+
+def _record_tile(entry: KoebeIslandReport, outcome: TileOutcome, one: TileIsland) -> None:
+    entry.modulus, entry.periods = modulus_text(one.result), periods_text(one.tile)
+    entry.cut_length = one.result.cut_length
+    for number, (loop, of_loop) in enumerate(zip(entry.loops, one.result.loops, strict=True)):
         loop.uv_center, loop.uv_radius = one.circle(of_loop, outcome.choice.fit)
-        loop.name = ("Rim", "Rim 2")[number] if of_loop["rim"] else f"{number + 1 - 2 * (entry.tile == 'ring')}"
+        loop.name = ("Rim", "Rim 2")[number] if of_loop["rim"] else f"{number + 1 - 2 * (entry.domain == 'ring')}"
+
+
+def _record_sphere(entry: KoebeIslandReport, outcome: SphereOutcome, one: SphereIsland) -> None:
+    entry.layout, entry.density = outcome.choice.layout, one.density_ratio
+    entry.torn_faces = json.dumps(one.torn_faces.tolist())
+    for number, (loop, of_loop) in enumerate(zip(entry.loops, one.result.loops, strict=True)):
+        loop.radius, loop.name = of_loop["radius"], f"{number + 1}"
 
 
 def _record_failure(report: KoebeReport, name: str, text: str) -> None:

@@ -3,13 +3,13 @@
 
 import bpy
 
+from ..operators.domains import OPERATORS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.parts import UV_OT_koebe_parts
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
-from ..operators.tiles import OPERATORS
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import copy_options, copy_part_options, copy_tile_options, settings_of
+from ..state.option_properties import copy_domain_options, copy_options, copy_part_options, settings_of
 
 
 def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -20,7 +20,7 @@ def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     copy_options(settings_of(context), layout.operator(UV_OT_koebe_uniformize.bl_idname))
     copy_part_options(settings_of(context), layout.operator(UV_OT_koebe_parts.bl_idname))
     for domain, operator in OPERATORS.items():
-        copy_tile_options(settings_of(context), layout.operator(operator.bl_idname), domain)
+        copy_domain_options(settings_of(context), layout.operator(operator.bl_idname), domain)
     layout.operator(UV_OT_koebe_symmetrize.bl_idname)
 
 

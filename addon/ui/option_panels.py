@@ -11,7 +11,7 @@ from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.run_operator import draw_option, is_used
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..state.option_properties import ACCURACY_NAMES, KoebeSettings, settings_of
-from .panel_parts import KoebePanel, draw_tile_button
+from .panel_parts import KoebePanel, draw_domain_button
 
 
 class ClosedPanel(KoebePanel):
@@ -66,15 +66,18 @@ class PartsPanel(ClosedPanel):
 
 
 class DomainsPanel(ClosedPanel):
-    """Maps to domains whose UVs are a tile, and their options."""
+    """Maps to domains that are no disk, and their options."""
 
     bl_label = "Other Domains"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        draw_tile_button(column, settings, "torus")
-        draw_tile_button(column, settings, "ring")
+        draw_domain_button(column, settings, "torus")
+        draw_domain_button(column, settings, "ring")
         for name in ("holes", "rims", "fit"):
+            draw_option(column, settings, name, context)
+        draw_domain_button(column, settings, "sphere")
+        for name in ("layout", "add_sphere"):
             draw_option(column, settings, name, context)
 
 

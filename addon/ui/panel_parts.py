@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Literal
 
 import bpy
 
+from ..operators.domains import OPERATORS
 from ..operators.parts import UV_OT_koebe_parts
-from ..operators.tiles import OPERATORS
-from ..state.option_properties import KoebeSettings, copy_part_options, copy_tile_options
+from ..state.option_properties import KoebeSettings, copy_domain_options, copy_part_options
 
 CHARACTER = 7.8  # pixels of the sidebar's width for each character of a line of text, at a resolution scale of 1
 
@@ -45,16 +45,17 @@ def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial:
     copy_part_options(settings, button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
 
 
-TILE_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER"]]] = {
+DOMAIN_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER", "MESH_UVSPHERE"]]] = {
     "torus": ("Unwrap to Torus Tile", "MESH_TORUS"),
     "ring": ("Unwrap to Cylinder", "MESH_CYLINDER"),
+    "sphere": ("Unwrap to Sphere", "MESH_UVSPHERE"),
 }
 
 
-def draw_tile_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:
-    """The button that maps to a domain that is a tile."""
-    text, icon = TILE_BUTTONS[domain]
-    copy_tile_options(settings, column.operator(OPERATORS[domain].bl_idname, text=text, icon=icon), domain)
+def draw_domain_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:
+    """The button that maps to a domain that is no disk."""
+    text, icon = DOMAIN_BUTTONS[domain]
+    copy_domain_options(settings, column.operator(OPERATORS[domain].bl_idname, text=text, icon=icon), domain)
 
 
 def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The part of the panel that shows the last run, island by island."""
 
+import json
 from typing import Any, Literal
 
 import bpy
@@ -11,11 +12,12 @@ from ..operators.select_from_report import (
     UV_OT_koebe_select_flipped,
     UV_OT_koebe_select_loop,
     UV_OT_koebe_select_offenders,
+    UV_OT_koebe_select_torn,
 )
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import copy_options, settings_of
 from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object, report_of
-from .panel_parts import TILE_BUTTONS, KoebePanel, draw_message, draw_parts_button, draw_tile_button
+from .panel_parts import DOMAIN_BUTTONS, KoebePanel, draw_domain_button, draw_message, draw_parts_button
 
 MAX_LOOP_BUTTONS = 40
 MOST_LINES = 6  # of each message, until all is asked for
@@ -85,10 +87,8 @@ class ReportPanel(KoebePanel):
 def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     """Figures of a mapped island, and buttons that select its loops and its flipped faces."""
     table = column.column(align=True)
-    of_circles = [
-        ("Roundness", f"{entry.roundness:.1e}"),
-        ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged"),
-    ]
+    sweeps = ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
+    of_circles = [("Roundness", f"{entry.roundness:.1e}"), sweeps]
     of_parts = [
         ("Parts", f"{entry.parts}"),
         ("Cut length", f"{entry.cut_length:.1f} × √area"),
@@ -97,11 +97,19 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     of_tile = [
         ("Modulus", entry.modulus),
         *(("Period" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
-        ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged"),
+        sweeps,
     ]
+    torn = len(json.loads(entry.torn_faces or "[]"))
+    of_sphere = [
+        ("Scale", f"1 : {entry.density:.1f}, on 90 %"),
+        ("Caps", f"{len(entry.loops)}"),
+        ("Torn", f"{torn}"),
+        sweeps,
+    ]
+    of_domain = of_sphere if entry.domain == "sphere" else of_tile
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),
-        *(of_parts if entry.parts else of_tile if entry.tile else of_circles),
+        *(of_parts if entry.parts else of_domain if entry.domain else of_circles),
         ("Flipped", f"{entry.flipped}"),
         ("Time", f"{entry.seconds:.2f} s"),
     ):
@@ -112,6 +120,8 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         column.operator(UV_OT_koebe_select_cuts.bl_idname, icon="RESTRICT_SELECT_OFF")
     if entry.flipped:
         column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
+    if torn:
+        column.operator(UV_OT_koebe_select_torn.bl_idname, icon="RESTRICT_SELECT_OFF")
     if not entry.loops:
         return
     column.label(text="Select Loop")
@@ -123,15 +133,15 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
 
 def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """The button of what takes a surface that is no such domain."""
-    if entry.offer in TILE_BUTTONS:
-        draw_tile_button(column, settings_of(context), entry.offer)
+    if entry.offer in DOMAIN_BUTTONS:
+        draw_domain_button(column, settings_of(context), entry.offer)
     elif entry.offer:
         draw_parts_button(column, settings_of(context), dial=False)
 
 
 def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """The offer to unroll a long tube."""
-    if entry.tile or len(entry.loops) != 2:
+    if entry.domain or len(entry.loops) != 2:
         return
     if entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
         button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")

@@ -1,4 +1,5 @@
 // koebe sphere IN OUT
+#include "cli/end_with_input.h"
 #include "cli/map_run.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
@@ -19,6 +20,7 @@ namespace {
 
 struct SphereRequest : MapRequest {
     SphereOptions sphere_options;
+    bool ends_with_input = false;
 };
 
 PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
@@ -36,10 +38,13 @@ void write_sphere_mesh(AtomicFile& file, WrittenFormat format, const PolygonMesh
 
 int run_sphere(const SphereRequest& request)
 {
+    if (request.ends_with_input) end_with_input();
     MapKind<SphereResult> kind;
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        SphereOptions options = request.sphere_options;
+        options.polygon = input.triangulation.face;
         SphereResult result = with_filed_faces(input, [&] {
-            return sphere_map(input.polygons.vertices, input.triangulation.triangles, request.sphere_options, context);
+            return sphere_map(input.polygons.vertices, input.triangulation.triangles, options, context);
         });
         result.turned = filed_faces(input.triangulation, result.turned);
         for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::torn, &SphereLayoutReport::flipped,
@@ -104,6 +109,7 @@ Subcommand add_sphere(CLI::App& app)
     options->add_option("--svg", request->svg, "write a picture of the sphere there, front and back")
         ->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
     options->callback([request] {
         check_map_files(*request);
         if (!request->sphere.empty()) required_format(request->sphere);

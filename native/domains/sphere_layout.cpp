@@ -1,6 +1,7 @@
 #include "domains/sphere_layout.h"
 
 #include "core/tolerances.h"
+#include "domains/sphere_polygons.h"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +15,6 @@ constexpr double uv_steps = 8388608.0;  // 2^23 to 1: as fine as 32-bit floats a
 
 using FaceCorners = std::array<SpherePoint, 3>;
 using CornerUvs = std::array<Eigen::RowVector2d, 3>;
-
-double on_steps(double t) { return std::round(t * uv_steps) / uv_steps; }
 
 /// Whether the triangle, its sides the shorter arcs, has a point inside or on its sides.
 bool contains(const FaceCorners& p, const SpherePoint& point)
@@ -43,7 +42,7 @@ Placed equirectangular(const FaceCorners& p)
     std::size_t known = 3;  // a corner with a longitude
     for (std::size_t k = 0; k < 3; ++k) {
         if (at_pole(p[k])) continue;
-        double own = on_steps(std::atan2(p[k][1], p[k][0]) / (2.0 * std::numbers::pi) + 0.5);
+        double own = on_uv_steps(std::atan2(p[k][1], p[k][0]) / (2.0 * std::numbers::pi) + 0.5);
         if (own >= 1.0) own = 0.0;
         turns[k] = own;
         if (known == 3) known = k;
@@ -55,7 +54,7 @@ Placed equirectangular(const FaceCorners& p)
     for (std::size_t k = 0; k < 3; ++k) {
         if (!at_pole(p[k])) continue;
         const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-        turns[k] = on_steps(at_pole(p[a]) ? turns[b] : at_pole(p[b]) ? turns[a] : 0.5 * (turns[a] + turns[b]));
+        turns[k] = on_uv_steps(at_pole(p[a]) ? turns[b] : at_pole(p[b]) ? turns[a] : 0.5 * (turns[a] + turns[b]));
     }
     placed.torn = poles == 0 && (contains(p, {0.0, 0.0, 1.0}) || contains(p, {0.0, 0.0, -1.0}));
     if (placed.torn) {
@@ -66,7 +65,7 @@ Placed equirectangular(const FaceCorners& p)
     const double back = std::floor(least);
     for (std::size_t k = 0; k < 3; ++k) {
         const double latitude = std::atan2(p[k][2], std::hypot(p[k][0], p[k][1]));
-        placed.uv[k] << turns[k] - back, on_steps(latitude / std::numbers::pi + 0.5);
+        placed.uv[k] << turns[k] - back, on_uv_steps(latitude / std::numbers::pi + 0.5);
         placed.crossing |= placed.uv[k][0] >= 1.0;
     }
     return placed;
@@ -121,7 +120,7 @@ Placed octahedral(const FaceCorners& p)
             sign[i] = -sign[i];
         }
         const Eigen::RowVector2d at = folded_out(p[k], sign[0], sign[1]);
-        placed.uv[k] = sheet(Eigen::RowVector2d(on_steps(0.5 * at[0]) * 2.0, on_steps(0.5 * at[1]) * 2.0));
+        placed.uv[k] = sheet(Eigen::RowVector2d(on_uv_steps(0.5 * at[0]) * 2.0, on_uv_steps(0.5 * at[1]) * 2.0));
         placed.uv[k] = (0.5 * (placed.uv[k].array() + 1.0)).matrix();
     }
     for (const SpherePoint& corner :
@@ -132,22 +131,30 @@ Placed octahedral(const FaceCorners& p)
 
 }  // namespace
 
+double on_uv_steps(double t) { return std::round(t * uv_steps) / uv_steps; }
+
 PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, const std::vector<char>& turned,
-                           SphereLayout layout, SphereLayoutReport& report)
+                           const std::vector<Index>& polygon, SphereLayout layout, SphereLayoutReport& report)
 {
     PlanarPoints uv(triangles.size(), 2);
-    report = {};
+    const auto count = static_cast<std::size_t>(triangles.rows());
+    LayoutMarks marks{std::vector<char>(count, 0), std::vector<char>(count, 0)};
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
         FaceCorners p;
         for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = points.row(triangles(f, k)).transpose();
         const Placed placed = layout == SphereLayout::octahedral ? octahedral(p) : equirectangular(p);
+        for (int k = 0; k < 3; ++k) uv.row(3 * f + k) = placed.uv[static_cast<std::size_t>(k)];
+        marks.crossing[static_cast<std::size_t>(f)] = placed.crossing ? 1 : 0;
+        marks.torn[static_cast<std::size_t>(f)] = placed.torn ? 1 : 0;
+    }
+    join_polygons(triangles, points, polygon, layout, uv, marks);
+    report = {};
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
         std::array<Eigen::RowVector2d, 3> stored;
-        for (int k = 0; k < 3; ++k) {
-            uv.row(3 * f + k) = placed.uv[static_cast<std::size_t>(k)];
+        for (int k = 0; k < 3; ++k)
             stored[static_cast<std::size_t>(k)] = uv.row(3 * f + k).cast<float>().cast<double>();
-        }
-        if (placed.crossing) report.crossing.push_back(f);
-        if (placed.torn) report.torn.push_back(f);
+        if (marks.crossing[static_cast<std::size_t>(f)]) report.crossing.push_back(f);
+        if (marks.torn[static_cast<std::size_t>(f)]) report.torn.push_back(f);
         const Eigen::RowVector2d a = stored[1] - stored[0], b = stored[2] - stored[0], c = stored[2] - stored[1];
         const double area = (a[0] * b[1] - a[1] * b[0]) * (turned[static_cast<std::size_t>(f)] ? -1.0 : 1.0);
         if (area > 0.0) continue;

@@ -17,9 +17,14 @@ namespace koebe {
 /// equator, (+-1, 0, 0) and (0, +-1, 0), which are the middles of the square's sides; the pattern continues over a side
 /// turned by half a turn round its middle. A face across the cut goes on so from where its own middle is, beyond the
 /// square. A face round one of the four is torn.
+/// Polygons are put together by join_polygons.
 /// @param points (V, 3) unit vectors @param turned (F) 1 for faces whose orientation is the other one
+/// @param polygon (F) faces of one number are a polygon; empty: each face is one by itself
 /// @param report out, all of it
 PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, const std::vector<char>& turned,
-                           SphereLayout layout, SphereLayoutReport& report);
+                           const std::vector<Index>& polygon, SphereLayout layout, SphereLayoutReport& report);
+
+/// The nearest multiple of 2^-23.
+double on_uv_steps(double t);
 
 }  // namespace koebe

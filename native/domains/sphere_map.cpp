@@ -368,7 +368,7 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     result.turned = domain.surface.reoriented;
     std::vector<char> turned(static_cast<std::size_t>(triangles.rows()), 0);
     for (const Index f : result.turned) turned[f] = 1;
-    result.uv = sphere_layout(triangles, result.points, turned, options.layout, result.layout);
+    result.uv = sphere_layout(triangles, result.points, turned, options.polygon, options.layout, result.layout);
     result.loops = loops_on_sphere(domain, map, sphere);
     result.distortion = distortion_on_sphere(domain, sphere.points);
     result.distortion.flipped = faults.flipped;

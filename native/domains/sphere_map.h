@@ -25,6 +25,7 @@ struct SphereOptions {
     double tolerance = 1e-6;  ///< on the circles' change in a sweep, in the unit disk; closed: on the points' change
     int max_sweeps = 50;
     SphereLayout layout = SphereLayout::equirectangular;
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
 };
 
 /// A loop on the sphere.

@@ -276,7 +276,8 @@ PYBIND11_MODULE(_koebe, m)
         .def(py::init<>())
         .def_readwrite("tolerance", &SphereOptions::tolerance)
         .def_readwrite("max_sweeps", &SphereOptions::max_sweeps)
-        .def_readwrite("layout", &SphereOptions::layout);
+        .def_readwrite("layout", &SphereOptions::layout)
+        .def_readwrite("polygon", &SphereOptions::polygon);
     py::class_<SphereResult>(m, "SphereResult")
         .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
         .def_property_readonly("uv", [](const SphereResult& r) { return r.uv; })

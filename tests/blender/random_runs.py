@@ -1,5 +1,6 @@
 """Random files, random acts of an artist, and random calls of the operators, all from one number."""
 
+import bmesh
 import bpy
 import faults
 import fingerprint
@@ -155,9 +156,17 @@ class RandomRun:
                 bpy.ops.mesh.select_random(ratio=0.6, seed=int(self._random.integers(1000)))
 
     def _pick(self):
-        """Another select mode, of all the meshes that are edited."""
+        """Another select mode, of all the meshes that are edited: Blender leaves out those that are hidden, but gives
+        it to them when it undoes."""
         if bpy.context.mode == "EDIT_MESH" and bpy.ops.mesh.select_mode.poll():
             bpy.ops.mesh.select_mode(type=self._one(["VERT", "EDGE", "FACE"]))
+            modes = zip(("VERT", "EDGE", "FACE"), bpy.context.tool_settings.mesh_select_mode)
+            chosen = {mode for mode, on in modes if on}
+            for obj in [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH" and obj.mode == "EDIT"]:
+                edited = bmesh.from_edit_mesh(obj.data)
+                if edited.select_mode != chosen:
+                    edited.select_mode = chosen
+                    edited.select_flush_mode()
 
     def _twin(self):
         """Another object with the same mesh, which may be in Edit Mode."""
@@ -201,11 +210,15 @@ class RandomRun:
         if name == "uv.koebe_parts":
             return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5, 1.0]),
                     "seams": one(["add", "only"]), "write_seams": one([True, False])}  # fmt: skip
-        if name in ("uv.koebe_torus", "uv.koebe_ring"):
-            of_ring = {"holes": one(["circles", "concentric", "radial"]), "rims": one(["auto", "auto", "selected"])}
+        if name in ("uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere"):
+            own = {
+                "uv.koebe_torus": {"fit": one(["inside", "period", "square"])},
+                "uv.koebe_ring": {"fit": one(["inside", "period", "square"]), "rims": one(["auto", "auto", "selected"]),
+                                  "holes": one(["circles", "concentric", "radial"])},
+                "uv.koebe_sphere": {"layout": one(["equirectangular", "octahedral"]), "add_sphere": one([True, False])},
+            }[name]  # fmt: skip
             return {"layer": layer, "checker": one([True, False]), "checker_even": one([True, False]),
-                    "checker_size": one([8.0, 32.0]), "fit": one(["inside", "period", "square"]),
-                    "max_sweeps": one([1, 50]), **(of_ring if name == "uv.koebe_ring" else {})}  # fmt: skip
+                    "checker_size": one([8.0, 32.0]), "max_sweeps": one([1, 50]), **own}  # fmt: skip
         if name == "uv.koebe_checker":
             return {"layer": layer, "checker_even": one([True, False])}
         if name == "uv.koebe_distortion":
@@ -224,10 +237,11 @@ class RandomRun:
     def _call(self):
         name = self._one([
             "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_checker",
-            "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_ring",
+            "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_sphere",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
+            "uv.koebe_select_torn",
             "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize",
         ])  # fmt: skip
         options, fault = self._options(name), None

@@ -1,5 +1,6 @@
 """Objects to test with, made from nothing, and ways to look at them that do not use the add-on."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -92,6 +93,28 @@ def read(collection, name, dtype, width=1):
     values = np.empty(len(collection) * width, dtype=dtype)
     collection.foreach_get(name, values)
     return values.reshape(-1, width) if width > 1 else values
+
+
+def with_polygons(obj):
+    """The same object with some of its quadrilaterals joined to larger polygons, and some cut in two, inside: a face
+    with all its vertices on a slit has no place."""
+    edited = bmesh.new()
+    edited.from_mesh(obj.data)
+    edited.edges.ensure_lookup_table()
+    chosen, met = [], {vert for vert in edited.verts if vert.is_boundary}
+    for edge in edited.edges:
+        around = {vert for face in edge.link_faces for vert in face.verts}
+        if len(edge.link_faces) == 2 and not met & around:  # two polygons along two edges have one diagonal
+            chosen.append(edge)
+            met |= around
+    bmesh.ops.dissolve_edges(edited, edges=chosen)
+    inner = [face for face in edited.faces if not any(vert.is_boundary for vert in face.verts)]
+    bmesh.ops.triangulate(edited, faces=inner[::7])
+    edited.to_mesh(obj.data)
+    edited.free()
+    sizes = {len(face.vertices) for face in obj.data.polygons}
+    assert {3, 4, 6} <= sizes
+    return obj
 
 
 def corner_uv(mesh, layer):

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import balls
 import bpy
 import numpy as np
 import pytest
@@ -89,6 +90,22 @@ def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
     assert {frozenset(loop["vertices"]) for loop in entry["loops"]} == loops
     if options.get("fit"):
         assert entry["periods"][0] == [1.0, 0.0]
+
+
+@pytest.mark.parametrize("layout", balls.LAYOUTS)
+def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
+    obj = balls.add_ball(holes=((3, 4),))
+    words = ["--domain", "sphere", "--layout", layout, "--layer", "Own"]
+    done = batch("--output", "out.blend", "--report", "out.json", *words)
+    assert done.returncode == 0, done.stderr
+    assert f"Ball: 1 sphere, {layout}, 1 cap, " in done.stdout
+    assert bpy.ops.uv.koebe_sphere(layer="Own", layout=layout) == {"FINISHED"}
+    expected = scenes.corner_uv(obj.data, "Own").copy()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Ball"].data, "Own"), expected)
+    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    assert entry["domain"] == "sphere" and entry["layout"]["kind"] == layout and entry["converged"] is True
+    assert entry["flipped"] == 0 and len(entry["loops"]) == 1 and 0 < entry["loops"][0]["radius"] < 1
 
 
 def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):

@@ -3,7 +3,6 @@
 import math
 import os
 
-import bmesh
 import bpy
 import fingerprint
 import numpy as np
@@ -42,28 +41,6 @@ def unwrap(kind, **options):
     return getattr(bpy.ops.uv, f"koebe_{kind}")(**options)
 
 
-def with_polygons(obj):
-    """The same object with some of its quadrilaterals joined to larger polygons, and some cut in two, inside: a face
-    with all its vertices on a slit has no place."""
-    edited = bmesh.new()
-    edited.from_mesh(obj.data)
-    edited.edges.ensure_lookup_table()
-    chosen, met = [], {vert for vert in edited.verts if vert.is_boundary}
-    for edge in edited.edges:
-        around = {vert for face in edge.link_faces for vert in face.verts}
-        if len(edge.link_faces) == 2 and not met & around:  # two polygons along two edges have one diagonal
-            chosen.append(edge)
-            met |= around
-    bmesh.ops.dissolve_edges(edited, edges=chosen)
-    inner = [face for face in edited.faces if not any(vert.is_boundary for vert in face.verts)]
-    bmesh.ops.triangulate(edited, faces=inner[::7])
-    edited.to_mesh(obj.data)
-    edited.free()
-    sizes = {len(face.vertices) for face in obj.data.polygons}
-    assert {3, 4, 6} <= sizes
-    return obj
-
-
 def of_the_package(koebe, obj, function, **options):
     """UVs of the corners as the package has them, of Blender's own triangles."""
     vertices = scenes.read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
@@ -83,7 +60,7 @@ HOLES = (*block(2, 3), *block(9, 7, 3))
 def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
     obj = add_torus(holes=holes)
     if polygons:
-        with_polygons(obj)
+        scenes.with_polygons(obj)
     before = scenes.mesh_state(obj.data)
     assert torus(checker=False) == {"FINISHED"}
     expected, tile = of_the_package(koebe, obj, koebe.torus_map)
@@ -95,7 +72,7 @@ def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
         lifts = np.linalg.solve(steps.T.astype(float), np.array(shift, float))
         assert (np.rint(lifts).astype(int) @ steps == shift).all()
     entry = last_run()
-    assert entry.mapped and entry.converged and entry.flipped == 0 and entry.tile == "torus"
+    assert entry.mapped and entry.converged and entry.flipped == 0 and entry.domain == "torus"
     assert entry.angle_error == pytest.approx(tile.angle_error_deg["mean"], rel=1e-6)
     assert complex(entry.modulus.replace(" i", "j").replace(" ", "")) == pytest.approx(tile.modulus, abs=1e-3)
     assert len(entry.loops) == len(scenes.boundary_loops(obj.data))
@@ -106,7 +83,7 @@ def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
 def test_a_cylinder_is_what_the_package_makes_of_it(koebe, how, polygons):
     obj = add_tube(holes=HOLES)
     if polygons:
-        with_polygons(obj)
+        scenes.with_polygons(obj)
     before = scenes.mesh_state(obj.data)
     assert ring(holes=how, checker=False) == {"FINISHED"}
     loops = sorted(scenes.boundary_loops(obj.data), key=len)[-2:]
@@ -118,7 +95,7 @@ def test_a_cylinder_is_what_the_package_makes_of_it(koebe, how, polygons):
     assert scenes.mesh_state(obj.data, but_layer="Koebe") == before
     assert assert_ring(obj) == round(tile.periods[0, 0] * GRID)
     entry = last_run()
-    assert entry.mapped and entry.tile == "ring" and entry.modulus == f"{tile.modulus.imag:.3f} i"
+    assert entry.mapped and entry.domain == "ring" and entry.modulus == f"{tile.modulus.imag:.3f} i"
     assert [loop.name for loop in entry.loops] == ["Rim", "Rim 2", "1", "2"]
 
 

@@ -66,7 +66,7 @@ def test_undo_and_redo(run):
 @pytest.mark.parametrize("name, options", [
     ("uv.koebe_uniformize", {"checker": False, "upright": False}), ("uv.koebe_moebius", {"rim": 1}),
     ("uv.koebe_parts", {"checker": False}), ("uv.koebe_parts", {"checker": False, "write_seams": True}),
-    ("uv.koebe_ring", {"checker": False}),
+    ("uv.koebe_ring", {"checker": False}), ("uv.koebe_sphere", {"checker": False}),
 ])  # fmt: skip
 def test_a_layer_that_is_written_again_comes_back_unseen(name, options):
     """Nothing reads the UVs between the undo step and the operator: that would part what they share."""

@@ -25,7 +25,7 @@ class Touched:
     def on_error(self, key):
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
-        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring")
+        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere")
         if self._name not in (*selecting, "uv.koebe_parts"):
             return False
         return key == "file: report" or (self._name in selecting and self._selects(owner, what))
@@ -69,6 +69,13 @@ class Touched:
         )  # fmt: skip
 
     _torus = _ring = _uniformize
+
+    def _sphere(self, owner, what):
+        """With new data, if asked for: a copy of the object, which shares the materials."""
+        added = " Sphere" in owner or owner in ("names of objects", "names of meshes", "names of collections") or (
+            owner.startswith("material ") and what == "users"
+        )
+        return self._uniformize(owner, what) or (self._options.get("add_sphere", False) and added)
 
     def _parts(self, owner, what):
         seams = owner in self._meshes and self._options.get("write_seams") and what in SEAMS
@@ -119,7 +126,7 @@ class Touched:
             return True  # Edit Mode is another representation: what is in it is compared where it is not changed
         return what == "mode" or what.startswith("selected in ")
 
-    _select_loop = _select_cuts = _select_flipped = _select_offenders = _select
+    _select_loop = _select_cuts = _select_flipped = _select_torn = _select_offenders = _select
 
     def _reset(self, owner, what):
         return owner == "file" and what.endswith(" settings")

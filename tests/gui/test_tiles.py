@@ -40,7 +40,7 @@ def test_a_torus_by_its_button(window):
     window.move(*window.middle("IMAGE_EDITOR"))
     window.key("Home")
     window.picture("71_torus")
-    assert window.ask(f"[{ENTRY}.tile, {ENTRY}.mapped, {ENTRY}.flipped]") == ["torus", True, 0]
+    assert window.ask(f"[{ENTRY}.domain, {ENTRY}.mapped, {ENTRY}.flipped]") == ["torus", True, 0]
     window.move(*window.middle("VIEW_3D"))
     layers = "len(bpy.context.view_layer.objects.active.data.uv_layers)"
     assert window.ask(layers) == 1
@@ -57,7 +57,7 @@ def test_a_tube_is_no_torus_and_the_report_has_the_button(window):
     window.picture("72_no_torus")
     assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.offer]") == [False, "ring"]
     window.click(*window.find_button("VIEW_3D", "koebe_ring"))
-    window.wait(f"{DONE} and {ENTRY}.tile == 'ring'", 30.0)
+    window.wait(f"{DONE} and {ENTRY}.domain == 'ring'", 30.0)
     window.move(*window.middle("IMAGE_EDITOR"))
     window.key("Home")
     window.picture("73_cylinder")

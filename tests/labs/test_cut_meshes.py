@@ -123,3 +123,52 @@ def test_what_comes_back_is_the_cut_surface():
 def test_arrays_have_no_mesh_to_give_back():
     with pytest.raises(koebe.InputError, match="no mesh to give back"):
         koebe.uniformize(VERTICES[:-1], TRIANGLES, cut=True).to_mesh()
+
+
+def ball(kind):
+    """A closed ball of quadrilaterals, or of their triangles, stretched and turned away from its axis."""
+    n, m = 20, 11
+    i, j = (a.ravel() for a in np.meshgrid(np.arange(n), np.arange(m), indexing="ij"))
+    u, v = 2 * np.pi * i / n, np.pi * (j + 0.5) / m - np.pi / 2
+    points = np.stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)], axis=1)
+    ends = np.array([[0, 0, -1.0], [0, 0, 1.0]])
+    turn = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    points = np.vstack([points, ends]) @ turn.T * [1, 1.2, 1.5]
+    at = lambda i, j: i % n * m + j  # noqa: E731
+    quads = [[at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)] for i in range(n) for j in range(m - 1)]
+    fans = [[at(i + 1, 0), at(i, 0), n * m] for i in range(n)] + [
+        [at(i, m - 1), at(i + 1, m - 1), n * m + 1] for i in range(n)
+    ]
+    if kind == "meshio":
+        return meshio.Mesh(points, [("quad", quads), ("triangle", fans)])
+    if kind == "PolyData":
+        return pyvista.PolyData(points, np.concatenate([[len(face), *face] for face in [*quads, *fans]]))
+    triangles = np.array([half for a, b, c, d in quads for half in ((a, b, c), (a, c, d))] + fans)
+    return trimesh.Trimesh(points, triangles, process=False)
+
+
+@pytest.mark.parametrize("layout", ["equirectangular", "octahedral"])
+@pytest.mark.parametrize("kind", ["meshio", "PolyData", "trimesh"])
+def test_a_sphere_comes_back_as_the_same_kind(kind, layout):
+    """Its faces in their order, its vertices in their places, doubled along the cut; the UVs those of the corners."""
+    mesh = ball(kind)
+    sphere = koebe.sphere_map(mesh, layout=layout)
+    assert sphere.converged
+    back = sphere.to_mesh()
+    assert type(back) is type(mesh)
+    points, faces, fields = parts_of(back)
+    old_points, old_faces, _ = parts_of(mesh)
+    vertex = np.asarray(fields["koebe_vertex"], int)
+    assert len(points) > len(old_points) and np.allclose(points, np.asarray(old_points)[vertex])
+    assert [[int(vertex[v]) for v in face] for face in faces] == [list(map(int, face)) for face in old_faces]
+    uv = np.asarray(fields["koebe_uv"], float)
+    given = zip(sphere.surface[1].ravel().tolist(), np.round(sphere.uv.reshape(-1, 2), 5).tolist(), strict=True)
+    corners = {(v, *place) for v, place in given}
+    assert {(int(vertex[v]), *np.round(uv[v], 5)) for face in faces for v in face} == corners
+
+
+def test_a_sphere_of_arrays_has_no_mesh():
+    mesh = ball("trimesh")
+    with pytest.raises(koebe.InputError, match="arrays"):
+        koebe.sphere_map(mesh.vertices, mesh.faces).to_mesh()

@@ -38,9 +38,13 @@ WRONG = [
     *([*OUT, f"--{name}", "nonsense"] for name in ("method", "engine", "balance", "tube", "placement")),
     *([*OUT, "--objects", value] for value in ("", ",", "A,", ",A", '"A', '"A"B', '""')),
     [*OUT, "--polish=yes"], [*OUT, "--objects"],
-    [*OUT, "--domain", "sphere"], [*OUT, "--holes", "circles"], [*OUT, "--fit", "square"],
+    [*OUT, "--domain", "ball"], [*OUT, "--layout", "octahedral"],
+    [*OUT, "--holes", "circles"], [*OUT, "--fit", "square"],
     *([*OUT, "--domain", "torus", *words] for words in
-      (["--holes", "radial"], ["--tube", "unroll"], ["--no-cut"], ["--outer", "3"], ["--tolerance", "0"])),
+      (["--layout", "octahedral"],
+       ["--holes", "radial"], ["--tube", "unroll"], ["--no-cut"], ["--outer", "3"], ["--tolerance", "0"])),
+    *([*OUT, "--domain", "sphere", *words] for words in
+      (["--layout", "flat"], ["--holes", "radial"], ["--fit", "inside"], ["--tube", "unroll"], ["--max-sweeps", "0"])),
     *([*OUT, "--domain", "ring", *words] for words in
       (["--holes", "square"], ["--fit", "tight"], ["--balance", "none"], ["--symmetry", "auto"], ["--margin", "0"])),
 ]  # fmt: skip
@@ -116,10 +120,13 @@ def test_help_tells_the_exit_codes(batch, capsys):
 
 def test_the_options_of_a_tile(batch):
     parse = batch("headless.arguments").parse
-    assert parse(OUT).tile is None
+    assert parse(OUT).domain is None
     words = ["--domain", "ring", "--holes", "radial", "--fit", "period", "--max-sweeps", "7", "--layer", "Own"]
     request = parse([*OUT, *words])
     choice = batch("maps.options").TileChoice
-    assert request.tile == choice("ring", "radial", "auto", "period", 1e-6, 7) and request.options.layer == "Own"
-    assert parse([*OUT, "--domain", "torus"]).tile == choice()
+    assert request.domain == choice("ring", "radial", "auto", "period", 1e-6, 7) and request.options.layer == "Own"
+    assert parse([*OUT, "--domain", "torus"]).domain == choice()
     assert request.library.each == ["--domain=ring", "--holes=radial", "--fit=period", "--max-sweeps=7", "--layer=Own"]
+    sphere = batch("maps.options").SphereChoice
+    assert parse([*OUT, "--domain", "sphere", "--layout", "octahedral"]).domain == sphere("octahedral")
+    assert parse([*OUT, "--domain", "sphere", "--tolerance", "1e-4"]).domain == sphere(tolerance=1e-4)

@@ -188,10 +188,30 @@ def test_other_domains_are_those_of_their_commands(tiles, tmp_path, words):
     assert "unchanged" not in other.stdout
 
 
+@pytest.mark.parametrize("layout", ["equirectangular", "octahedral"])
+def test_spheres_are_those_of_the_command(tiles, tmp_path, layout):
+    """The tetrahedron and the annulus are; the layout is a part of the recipe."""
+    out, words = tmp_path / "out", ["--domain", "sphere", "--layout", layout]
+    done = batch(tiles, "--output", out, *words)
+    assert done.returncode == CANNOT_BE_MAPPED and done.stdout.startswith("3 files: 2 done, 1 failed;")
+    table = rows(out)
+    assert table["torus.obj"]["error"] == "TopologyError(genus)"
+    for source in ("ring.obj", "closed.off"):
+        row = table[source]
+        assert row["options"] == {"domain": "sphere", "layout": layout, "tolerance": 1e-6, "max_sweeps": 50}
+        assert row["flipped"] == 0 and row["faces"] > 0 and row["angle_error_deg"] > 0
+        koebe("sphere", tiles / source, tmp_path / "alone.obj", "--layout", layout)
+        assert (tmp_path / "alone.obj").read_bytes() == (out / source).with_suffix(".obj").read_bytes()
+    assert "(3 unchanged)" in batch(tiles, "--output", out, *words).stdout
+    other = {"equirectangular": "octahedral", "octahedral": "equirectangular"}[layout]
+    assert "unchanged" not in batch(tiles, "--output", out, "--domain", "sphere", "--layout", other).stdout
+
+
 @pytest.mark.parametrize("words", [
-    ["--domain", "sphere"], ["--holes", "radial"], ["--domain", "torus", "--holes", "radial"],
+    ["--domain", "ball"], ["--holes", "radial"], ["--layout", "octahedral"], ["--domain", "torus", "--holes", "radial"],
     ["--domain", "torus", "--balance", "area"], ["--domain", "ring", "--cut"], ["--domain", "ring", "--outer", "3"],
-    ["--domain", "ring", "--holes", "square"],
+    ["--domain", "ring", "--holes", "square"], ["--domain", "ring", "--layout", "octahedral"],
+    ["--domain", "sphere", "--layout", "flat"], ["--domain", "sphere", "--polish"],
 ], ids=" ".join)  # fmt: skip
 def test_options_of_another_domain_are_wrong_usage(tiles, tmp_path, words):
     done = batch(tiles, "--output", tmp_path / "out", *words)
@@ -207,6 +227,8 @@ def test_files_of_blender_are_told_the_domain(blends, tmp_path):
     assert "(1 unchanged)" in batch(*files.words, "--output", out, "--domain", "ring", "--holes", "radial").stdout
     assert "unchanged" not in batch(*files.words, "--output", out, "--domain", "torus").stdout
     assert len(files.runs("a")) == 2
+    assert batch(*files.words, "--output", out, "--domain", "sphere", "--layout", "octahedral").returncode == 0
+    assert rows(out)["a.blend"]["options"]["arguments"] == ["--domain=sphere", "--layout=octahedral"]
 
 
 def test_each_file_has_a_result_a_report_and_a_row(library, tmp_path):

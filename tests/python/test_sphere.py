@@ -259,6 +259,90 @@ def test_the_layout_is_the_sphere(layout):
     assert len(flipped) <= 4
 
 
+def led_back(uv, layout):
+    """The points of the sphere that UVs (n, 2) show: both patterns, wherever they continue."""
+    uv = np.asarray(uv, float)
+    if layout == "equirectangular":
+        longitude, latitude = 2 * np.pi * uv[:, 0] - np.pi, np.pi * uv[:, 1] - np.pi / 2
+        return np.stack([np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude),
+                         np.sin(latitude)], axis=-1)  # fmt: skip
+    at = 2 * uv - 1
+    for _ in range(6):  # half turns round the middles of the sides, until it is in the square
+        for axis in (0, 1):
+            for side in (1, -1):
+                over = side * at[:, axis] > 1
+                middle = np.zeros(2)
+                middle[axis] = side
+                at[over] = 2 * middle - at[over]
+    z = 1 - np.abs(at).sum(axis=1)
+    x = np.where(z < 0, np.copysign(1 - np.abs(at[:, 1]), at[:, 0]), at[:, 0])
+    y = np.where(z < 0, np.copysign(1 - np.abs(at[:, 0]), at[:, 1]), at[:, 1])
+    back = np.stack([x, y, z], axis=-1)
+    return back / np.linalg.norm(back, axis=-1, keepdims=True)
+
+
+def joined_at_random(random, triangles, most):
+    """(F,) numbers of polygons: trees of up to `most` triangles, no vertex inside."""
+    sides = {}
+    for f, face in enumerate(triangles.tolist()):
+        for k in range(3):
+            sides.setdefault(frozenset((face[k], face[(k + 1) % 3])), []).append(f)
+    polygon = np.full(len(triangles), -1)
+    for seed in random.permutation(len(triangles)):
+        if polygon[seed] >= 0:
+            continue
+        polygon[seed], size, vertices, ring = seed, 1, set(triangles[seed].tolist()), [int(seed)]
+        while size < most and ring:
+            f = ring.pop(0)
+            face = triangles[f].tolist()
+            for k in range(3):
+                for g in sides[frozenset((face[k], face[(k + 1) % 3]))]:
+                    new = set(triangles[g].tolist()) - vertices
+                    if polygon[g] < 0 and len(new) == 1 and size < most:  # a new vertex: a tree
+                        polygon[g], size = seed, size + 1
+                        vertices |= new
+                        ring.append(g)
+    return polygon
+
+
+@pytest.mark.parametrize("layout", ["equirectangular", "octahedral"])
+@pytest.mark.parametrize("seed", range(12))
+def test_polygons_are_whole_in_the_layout(layout, seed):
+    """Each corner of a polygon has one place, which is its point; none is torn but round the layout's few points."""
+    random = np.random.default_rng(seed)
+    vertices, triangles = icosphere(int(random.integers(2, 12)))
+    if seed % 3:
+        vertices = vertices @ np.linalg.qr(random.normal(size=(3, 3)))[0]
+        triangles = triangles[:, ::-1].copy() if np.linalg.det(vertices[triangles[0]]) < 0 else triangles
+    vertices = vertices * [1, 1.2, 1.5]
+    if seed % 2:
+        triangles = np.delete(triangles, random.choice(len(triangles), 3, replace=False), 0)
+    polygon = joined_at_random(random, triangles, int(random.choice([2, 3, 8])))
+    single = koebe.sphere_map(vertices, triangles, layout=layout)
+    sphere = koebe.sphere_map(vertices, triangles, layout=layout, polygon=polygon)
+    assert np.array_equal(single.points, sphere.points)
+    stored = sphere.uv.astype(np.float32).astype(float)
+    assert np.array_equal(stored, sphere.uv)
+    torn = np.isin(polygon, polygon[sphere.layout["torn"]])
+    assert set(single.layout["torn"]) <= set(sphere.layout["torn"])
+    round_points = np.unique(polygon[single.layout["torn"]])
+    assert set(np.unique(polygon[torn])) == set(round_points)
+    places = {}
+    for f in range(len(triangles)):
+        for k in range(3):
+            places.setdefault((polygon[f], triangles[f, k]), set()).add(tuple(sphere.uv[f, k].tolist()))
+    assert all(len(found) == 1 for found in places.values())
+    assert any(len({tuple(p) for f in np.flatnonzero(polygon == one) for p in single.uv[f][triangles[f] == v]}) > 1
+               for one, v in places) or len(triangles) < 100  # fmt: skip
+    points = sphere.points[triangles[~torn]].reshape(-1, 3)
+    pole = np.hypot(points[:, 0], points[:, 1]) == 0.0
+    assert np.abs(led_back(sphere.uv[~torn].reshape(-1, 2), layout) - points)[~pole].max() < 3e-6
+    low, high = ((0, 0), (2, 1)) if layout == "equirectangular" else ((-2, -2), (2, 2))
+    assert (sphere.uv >= low).all() and (sphere.uv <= high).all()
+    flipped = set(sphere.layout["flipped"]) - set(np.flatnonzero(torn).tolist())
+    assert flipped == set(single.layout["flipped"]) - set(np.flatnonzero(torn).tolist())
+
+
 def test_a_vertex_at_a_pole_has_a_place():
     vertices, triangles = icosphere(1)
     sphere = koebe.sphere_map(vertices @ np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), triangles)

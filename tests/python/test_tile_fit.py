@@ -123,11 +123,13 @@ def test_flipped_triangles_are_counted_with_their_direction():
 @pytest.mark.parametrize("handles, loops, domain, offer", [
     (0, 0, "torus", "parts"), (0, 1, "torus", "parts"), (0, 2, "torus", "ring"), (2, 0, "torus", "parts"),
     (1, 3, "ring", "torus"), (2, 2, "ring", "parts"), (0, 0, "ring", "parts"), (0, 1, "ring", "parts"),
+    (1, 0, "sphere", "torus"), (1, 2, "sphere", "torus"), (2, 1, "sphere", "parts"),
 ])  # fmt: skip
 def test_what_is_no_such_domain_is_offered_another(handles, loops, domain, offer):
-    domains = maps_module("tile_domains")
+    domains = maps_module("domains")
     with pytest.raises(domains.DomainError, match="this surface has") as caught:
         domains.DOMAINS[domain].check(handles, loops)
     assert caught.value.offer == offer
     domains.DOMAINS["torus"].check(1, loops)
     domains.DOMAINS["ring"].check(0, 2 + loops)
+    domains.DOMAINS["sphere"].check(0, loops)

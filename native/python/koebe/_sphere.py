@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ._api import surface_of
+from ._api import polygons_of, surface_of
+from ._corner_mesh import mesh_with_corner_uv
 from ._native import _koebe
 from ._options import callback, choice, positive, token, whole
 from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
@@ -22,7 +23,8 @@ class SphereMap:
     caps             (L, 4) float64 of the holes: a unit vector to the middle, and the radius as an angle in radians
     uv               (F, 3, 2) float64, u and v of each triangle's corners; read-only; 32-bit floats all, cut in the UVs
                      alone. Across the cut the pattern continues: equirectangular with the period 1 along u, u in
-                     [0, 2); octahedral with half turns round the middles of the square's sides, u and v in [-1, 2]
+                     [0, 2); octahedral with half turns round the middles of the square's sides, u and v in [-1, 2].
+                     Triangles of a polygon lie side by side, if need be farther out, up to 2 from 0
     layout           dict: kind; crossing, the faces that go on beyond the layout's edge; torn, those round a pole of
                      the longitudes or round the middle of a side of the square, which fit to no UVs; flipped, those
                      without a positive area in 32-bit UVs; below_resolution, those of them too small for these
@@ -81,6 +83,13 @@ class SphereMap:
         """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
         return self._source.vertices, self._source.triangles
 
+    def to_mesh(self) -> Any:
+        """The mesh that was given, of the same kind, with fields as of CutResult.to_mesh, without the torn faces'. Its
+        vertices are doubled where the UVs are cut. Raises InputError if arrays were given."""
+        whole = np.ones(len(self.uv), bool)
+        whole[self.layout["torn"]] = False
+        return mesh_with_corner_uv(self._source, self.uv, whole)
+
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
         return copy.deepcopy(self._report)
@@ -99,6 +108,7 @@ def sphere_map(
     layout: str = "equirectangular",
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    polygon: Any = None,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> SphereMap:
@@ -111,6 +121,8 @@ def sphere_map(
     layout       of the UVs: 'equirectangular' (longitude and latitude) or 'octahedral' (the octahedron folded out)
     tolerance    stop when the circles, or the points of a closed surface, move by less in a sweep
     max_sweeps   then stop with converged = False
+    polygon      (F,) integers: triangles of one number are one polygon, whose corners have one UV each. None: each by
+                 itself, or as the mesh has them
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: handles), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
@@ -121,6 +133,7 @@ def sphere_map(
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles)
+    options.polygon = polygons_of(polygon, source)
     native = _koebe.sphere_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report(options.layout)
     report["options"] = {"layout": layout, "tolerance": options.tolerance, "max_sweeps": options.max_sweeps}

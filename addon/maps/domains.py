@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The domains whose UVs are a tile, and what a surface has to be for them."""
+"""The domains beside the disk: what a surface has to be for them."""
 
 import dataclasses
 from collections.abc import Callable
@@ -18,7 +18,7 @@ class DomainError(MapError):
 
 @dataclasses.dataclass(frozen=True)
 class Domain:
-    """A canonical domain whose UVs are a tile.
+    """A canonical domain that is no disk: its UVs are a tile, or the layout of a sphere.
 
     title  what one such map is called
     check  of the number of handles and of boundary loops; raises DomainError
@@ -47,5 +47,15 @@ def _check_ring(handles: int, loops: int) -> None:
         raise DomainError(f"this surface has {had}: a cylinder needs two, its rims", "parts")
 
 
-# By the names that `koebe.torus_map`, `koebe.ring_map` and the operators have.
-DOMAINS = {"torus": Domain("torus tile", _check_torus), "ring": Domain("cylinder", _check_ring)}
+def _check_sphere(handles: int, loops: int) -> None:
+    if handles:
+        had = counted(handles, "handle")
+        raise DomainError(f"this surface has {had}: a sphere has none", "torus" if handles == 1 else "parts")
+
+
+# By the names that `koebe.torus_map`, `koebe.ring_map`, `koebe.sphere_map` and the operators have.
+DOMAINS = {
+    "torus": Domain("torus tile", _check_torus),
+    "ring": Domain("cylinder", _check_ring),
+    "sphere": Domain("sphere", _check_sphere),
+}

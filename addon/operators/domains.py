@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that map to domains whose UVs are a tile: a flat torus, a cylinder."""
+"""The operators that map to domains that are no disk: tiles of a flat torus or a cylinder, layouts of a sphere."""
 
 import bpy
 
 from ..blender import edit_mode
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
+from ..jobs.domain_job import DomainJob, SphereJob
 from ..jobs.tile_job import TileJob
 from ..maps import wording
+from ..maps.options import SphereChoice
 from ..state import run_report
 from ..state.option_properties import (
     ACCURACY_NAMES,
     RingProperties,
+    SphereProperties,
     TorusProperties,
-    tile_choice_of,
-    tile_option_names,
+    domain_choice_of,
+    domain_option_names,
     written_options_of,
 )
 from .modal_run import redraw
@@ -25,24 +28,27 @@ from .tooltip import tooltip
 
 def shown(domain: str) -> tuple[str, ...]:
     """The options of a domain, those last that most runs leave alone."""
-    return tuple(sorted(tile_option_names(domain), key=lambda name: name in ACCURACY_NAMES))
+    return tuple(sorted(domain_option_names(domain), key=lambda name: name in ACCURACY_NAMES))
 
 
-class TileOperator(MapOperator):
-    """Mixed into these operators. `domain` is that of a `TileChoice`."""
+class DomainOperator(MapOperator):
+    """Mixed into these operators. `domain` is one of maps/domains.py."""
 
     domain: str
 
-    def _new_job(self, context: bpy.types.Context, selected_only: bool) -> TileJob:
-        choice = tile_choice_of(self.domain, self)
-        return TileJob(target_objects(context), written_options_of(self), choice, selected_only, refused=[])
+    def _new_job(self, context: bpy.types.Context, selected_only: bool) -> DomainJob:
+        choice, options = domain_choice_of(self.domain, self), written_options_of(self)
+        objects = target_objects(context)
+        if isinstance(choice, SphereChoice):
+            return SphereJob(objects, options, choice, selected_only, refused=[])
+        return TileJob(objects, options, choice, selected_only, refused=[])
 
-    def _finish(self, context: bpy.types.Context, job: TileJob) -> set[str]:
+    def _finish(self, context: bpy.types.Context, job: DomainJob) -> set[str]:
         """Write what was computed, each object wholly or not at all, and say what became of it."""
         with transaction() as run:
             with edit_mode.left_if_faster(run, context):
                 job.write(run)
-            run_report.record_tiles(run, context, job.outcomes, job.options.layer, job.refused)
+            run_report.record_domains(run, context, job.outcomes, job.options.layer, job.refused)
             selected = select_offenders(run, context, job)
             redraw(context)
             edit_mode.undo_all(context)
@@ -51,18 +57,19 @@ class TileOperator(MapOperator):
                 bpy.ops.ed.undo_push(message="Select What Is Wrong")
             return answer
 
-    def _say(self, job: TileJob) -> set[str]:
+    def _say(self, job: DomainJob) -> set[str]:
         failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         results: list[tuple[str, bool, list[str], list[str]]] = []
         for outcome in job.outcomes:
             if outcome.mapped:
                 found = [text for one in outcome.mapped for text in outcome.warnings(one)]
                 warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
-                results.append((outcome.line(), outcome.converged, [], warnings))
+                notes = [f"{outcome.name}: {text}" for one in outcome.mapped for text in outcome.notes(one)]
+                results.append((outcome.line(), outcome.converged, notes, warnings))
         return self._tell(job, failures, results)
 
 
-class UV_OT_koebe_torus(TileOperator, TorusProperties, bpy.types.Operator):
+class UV_OT_koebe_torus(DomainOperator, TorusProperties, bpy.types.Operator):
     """Unwrap a surface with one handle to a tile of a flat torus: angles are kept, holes are round, and a pattern with
     its periods has no seam. The cut is in the UVs alone"""
 
@@ -74,7 +81,7 @@ class UV_OT_koebe_torus(TileOperator, TorusProperties, bpy.types.Operator):
     options_shown = shown("torus")
 
 
-class UV_OT_koebe_ring(TileOperator, RingProperties, bpy.types.Operator):
+class UV_OT_koebe_ring(DomainOperator, RingProperties, bpy.types.Operator):
     """Unwrap a surface with two rims to a cylinder, unrolled: angles are kept, the rims are straight, and a pattern
     with its period has no seam. The cut is in the UVs alone"""
 
@@ -86,5 +93,17 @@ class UV_OT_koebe_ring(TileOperator, RingProperties, bpy.types.Operator):
     options_shown = shown("ring")
 
 
-OPERATORS = {"torus": UV_OT_koebe_torus, "ring": UV_OT_koebe_ring}
+class UV_OT_koebe_sphere(DomainOperator, SphereProperties, bpy.types.Operator):
+    """Unwrap a surface without handles, closed or with holes, to the sphere and this to UVs: angles are kept on the
+    sphere, holes are round caps. The cut is in the UVs alone"""
+
+    bl_idname = "uv.koebe_sphere"
+    bl_label = "Koebe Unwrap to Sphere"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
+    domain = "sphere"
+    options_shown = shown("sphere")
+
+
+OPERATORS = {"torus": UV_OT_koebe_torus, "ring": UV_OT_koebe_ring, "sphere": UV_OT_koebe_sphere}
 register, unregister = bpy.utils.register_classes_factory(tuple(OPERATORS.values()))

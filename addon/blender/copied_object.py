@@ -1,46 +1,73 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes a mesh object of a flat layout: faces, UVs and materials of its source, in the plane z = 0."""
+"""Makes a mesh object of a layout in the plane z = 0, or of a sphere: faces, UVs and materials of its source."""
 
-from typing import Any
+from typing import Any, Protocol
 
+import bmesh
 import bpy
 import numpy as np
 
-from ..maps.flat_layout import FlatLayout
 from . import compat
 from .mesh_object import MeshObject
 from .transaction import Transaction
 
 
-def add_flat_object(
+class Copied(Protocol):
+    """Faces of a mesh in other places: a `FlatLayout` or a `SphereCopy`.
+
+    points  (n, 2) or (n, 3)
+    """
+
+    @property
+    def points(self) -> np.ndarray: ...
+    @property
+    def corner_vertex(self) -> np.ndarray: ...
+    @property
+    def corners(self) -> np.ndarray: ...
+    @property
+    def faces(self) -> np.ndarray: ...
+    @property
+    def face_size(self) -> np.ndarray: ...
+
+
+def add_copied_object(
     run: Transaction,
     context: bpy.types.Context,
     source: MeshObject,
-    layout: FlatLayout,
+    layout: Copied,
     layer: str,
     uv: np.ndarray,
     place: tuple[float, float, float],
+    ending: str,
 ) -> bpy.types.Object:
     """A new object with the layout as its mesh, at a place of the world; it is in the scene's active collection.
 
-    uv  (C, 2) of the source's corners: the new mesh has them in a layer of the same name
+    uv      (C, 2) of the source's corners: the new mesh has them in a layer of the same name
+    ending  of its name, after that of the source
     """
     for collection in (bpy.data.meshes, bpy.data.objects):
         run.before_write(_keep_only, collection, set(collection.keys()))
-    mesh = bpy.data.meshes.new(f"{source.data.name} Flat")
+    mesh = bpy.data.meshes.new(f"{source.data.name} {ending}")
     _fill(mesh, layout)
     made = mesh.uv_layers.new(name=layer, do_init=False)
     compat.set_corner_uv(made, uv[layout.corners])
-    number = compat.read(source.data.polygons, "material_index", np.int32)[layout.faces]
+    number = _material_numbers(source.data)[layout.faces]
     for slot in source.material_slots:
         mesh.materials.append(slot.material)
     if number.any():  # else Blender would keep an attribute of zeros, which goes when a checker is taken off
         mesh.polygons.foreach_set("material_index", number)
     mesh.update()
-    obj = bpy.data.objects.new(f"{source.name} Flat", mesh)
+    obj = bpy.data.objects.new(f"{source.name} {ending}", mesh)
     obj.location = place
     context.collection.objects.link(obj)
     return obj
+
+
+def _material_numbers(mesh: bpy.types.Mesh) -> np.ndarray:
+    """The slot (P,) of each face."""
+    if mesh.is_editmode:
+        return np.array([face.material_index for face in bmesh.from_edit_mesh(mesh).faces], dtype=np.int32)
+    return compat.read(mesh.polygons, "material_index", np.int32)
 
 
 def _keep_only(collection: Any, names: set[str]) -> None:
@@ -48,10 +75,10 @@ def _keep_only(collection: Any, names: set[str]) -> None:
         collection.remove(one)
 
 
-def _fill(mesh: bpy.types.Mesh, layout: FlatLayout) -> None:
+def _fill(mesh: bpy.types.Mesh, layout: Copied) -> None:
     """Give an empty mesh the vertices and faces of a layout."""
     points = np.zeros((len(layout.points), 3), dtype=np.float32)
-    points[:, :2] = layout.points
+    points[:, : layout.points.shape[1]] = layout.points
     start = np.cumsum(layout.face_size) - layout.face_size
     mesh.vertices.add(len(points))
     mesh.vertices.foreach_set("co", points.ravel())

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What became of a surface whose islands were mapped to domains that are no disks. Each has the UVs to itself."""
+
+import dataclasses
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any, Protocol
+
+import numpy as np
+
+from .domains import DOMAINS
+from .errors import MapError
+from .islands import cut_into_islands
+from .mapping import check_area, foreseen
+from .outcomes import LATER, Progress, Task, share_of
+from .seams import cut_edges
+from .surface import Island, Surface
+from .wording import counted, own_warnings, too_uneven
+
+
+class DomainChoice(Protocol):
+    """What to compute: a `TileChoice` or a `SphereChoice`."""
+
+    @property
+    def domain(self) -> str: ...
+    @property
+    def tolerance(self) -> float: ...
+    @property
+    def max_sweeps(self) -> int: ...
+
+
+@dataclasses.dataclass
+class DomainIsland:
+    """What became of one island: a result of the native package, or an error.
+
+    corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
+    flipped      triangles (k,) whose area in these is not positive
+    cuts         (E,) bool, edges of the surface along which the UVs are cut
+    """
+
+    island: Island
+    result: Any = LATER
+    error: Exception | None = None
+    corners: np.ndarray = LATER
+    uv: np.ndarray = LATER
+    flipped: np.ndarray = LATER
+    cuts: np.ndarray = LATER
+
+    @property
+    def angle_error(self) -> float:
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the domain."""
+        return self.result.angle_error_deg["mean"]
+
+    @property
+    def density_ratio(self) -> float:
+        """Texel density at 95 % of the area over that at 5 %."""
+        raise NotImplementedError
+
+    @property
+    def flipped_faces(self) -> np.ndarray:
+        """Faces of the surface with such triangles."""
+        return np.unique(self.island.triangle_face[self.flipped])
+
+    def take_corners(self, surface: Surface, triangle_uv: np.ndarray) -> None:
+        """The UVs of the polygons' corners out of those (t, 3, 2) of the triangles' corners, in 32 bits.
+
+        Raises MapError where a polygon has two for a corner.
+        """
+        inside = np.zeros(len(surface.face_size), dtype=bool)
+        inside[self.island.faces] = True
+        of_triangles = surface.triangle_corners[inside[surface.triangle_face]]
+        uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
+        uv[of_triangles] = triangle_uv
+        if (uv[of_triangles] != triangle_uv).any():
+            raise MapError("its UVs could be cut only through a polygon: triangulate its faces")
+        self.corners = np.unique(of_triangles).astype(np.int32)
+        self.uv = uv[self.corners]
+        self.cuts = cut_edges(dataclasses.replace(surface, selected=inside), uv)
+
+
+@dataclasses.dataclass
+class DomainOutcome:
+    """What became of one surface: each island has the UV square for itself.
+
+    not_written  why nothing of it could be written, or None
+    remarks      what to say of the object beside its islands
+    """
+
+    task: Task
+    choice: Any
+    islands: list[Any]
+    not_written: str | None = None
+    remarks: list[str] = dataclasses.field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """Name of the surface's object."""
+        return self.task.name
+
+    @property
+    def mapped(self) -> list[Any]:
+        """The islands that have a result, unless it could not be written."""
+        return [] if self.not_written else [one for one in self.islands if one.error is None]
+
+    @property
+    def failed(self) -> list[Any]:
+        """The islands that have an error."""
+        return [one for one in self.islands if one.error is not None]
+
+    @property
+    def converged(self) -> bool:
+        """Whether every mapped island is what it promises."""
+        return all(one.result.converged for one in self.mapped)
+
+    def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
+        """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
+        mapped = self.mapped
+        return np.concatenate([one.corners for one in mapped]), np.concatenate([one.uv for one in mapped])
+
+    def warnings(self, one: Any) -> list[str]:
+        """What to watch out for in a mapped island."""
+        return [*(warning.text for warning in one.result.warnings), *(text for _, text in self.own_warnings(one))]
+
+    def own_warnings(self, one: Any) -> list[tuple[str, str]]:
+        """Kind and text of those that are not the solver's."""
+        return own_warnings(self.task)
+
+    def notes(self, one: Any) -> list[str]:
+        """What cannot be otherwise, in a mapped island."""
+        return []
+
+    def figures(self) -> list[str]:
+        """What is to be said of the mapped islands beside angles and flips."""
+        raise NotImplementedError
+
+    def line(self) -> str:
+        """One line: domains and their figures, angles, flips, seconds."""
+        mapped = self.mapped
+        words = [
+            counted(len(mapped), DOMAINS[self.choice.domain].title),
+            *self.figures(),
+            f"angle error {max(one.angle_error for one in mapped):.2f}°",
+            counted(sum(len(one.flipped) for one in mapped), "flip"),
+            f"{sum(one.result.seconds['total'] for one in mapped):.2f} s",
+        ]
+        if not self.converged:
+            words.append("NOT CONVERGED")
+        if any(too_uneven(one) for one in mapped):
+            words.append("texels very uneven: Unwrap to Parts makes them even")
+        return f"{self.name}: {', '.join(words)}"
+
+
+def islands_to_map(surface: Surface) -> list[Island]:
+    """The islands of the selected faces. A seam with the same island on both sides divides nothing: these UVs go on
+    over their cuts, wherever those are. But edges of more than two faces come apart at seams."""
+    islands = cut_into_islands(surface)
+    chosen = np.repeat(surface.selected, surface.face_size)
+    edges = surface.corner_edge[chosen]
+    number = np.zeros(len(surface.face_size), dtype=np.int64)
+    for index, island in enumerate(islands):
+        number[island.faces] = index
+    at_corner = np.repeat(number, surface.face_size)[chosen]
+    total = np.bincount(edges, at_corner, minlength=len(surface.seam))
+    square = np.bincount(edges, at_corner**2, minlength=len(surface.seam))
+    uses = np.bincount(edges, minlength=len(surface.seam))
+    idle = surface.seam & (uses == 2) & (2.0 * square == total**2)  # a = b
+    return cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~idle)) if idle.any() else islands
+
+
+def map_islands(
+    koebe: ModuleType,
+    ones: list[Any],
+    map_one: Callable[[Any, Progress | None], None],
+    progress: Progress | None = None,
+) -> None:
+    """Map each of the islands by a function that fills it. Errors are those of their islands; `koebe.Cancelled` goes
+    on."""
+    done, total = 0, sum(len(one.island.triangles) for one in ones)
+    for one in ones:
+        share = len(one.island.triangles)
+        try:
+            map_one(one, share_of(progress, done, share, total))
+        except koebe.Cancelled:
+            raise
+        except Exception as error:
+            one.error = foreseen(koebe, error)
+        done += share
+
+
+def checked_loops(koebe: ModuleType, island: Island, domain: str) -> list[np.ndarray]:
+    """The boundary loops of an island that has an area and can be mapped to a domain; else raises."""
+    check_area(island)
+    loops: list[np.ndarray] = koebe.boundary_loops(island.triangles, vertex_count=len(island.vertices))
+    DOMAINS[domain].check(handles_of(island, loops), len(loops))
+    return loops
+
+
+def handles_of(island: Island, loops: list[np.ndarray]) -> int:
+    """Of a manifold island with these boundary loops, by Euler's formula."""
+    on_boundary = sum(map(len, loops))
+    edges = (3 * len(island.triangles) + on_boundary) // 2
+    return (2 - (len(island.vertices) - edges + len(island.triangles)) - len(loops)) // 2

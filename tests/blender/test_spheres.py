@@ -1,0 +1,386 @@
+"""Unwrap to Sphere: UVs of the sphere's two layouts, which their pattern continues over the cuts to the last bit."""
+
+import collections
+import json
+import os
+
+import bpy
+import fingerprint
+import numpy as np
+import pytest
+import scenes
+from balls import LAYOUTS, add_ball, are_continued, ball_arrays, join_faces, last_run, led_back, sides_of_edges
+from tori import add_torus
+from wild import damaged, wild
+
+HOLES = ((1, 2), (2, 2), (9, 5), (9, 6), (10, 5))
+
+
+def sphere(**options):
+    return bpy.ops.uv.koebe_sphere(**options)
+
+
+def of_the_package(koebe, obj, layout):
+    """The sphere and the UVs of the corners as the package has them, of Blender's own triangles."""
+    vertices = scenes.read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
+    triangles, corners = scenes.triangles(obj.data)
+    polygon = scenes.read(obj.data.loop_triangles, "polygon_index", np.int32)
+    ball = koebe.sphere_map(vertices, triangles, layout=layout, polygon=polygon)
+    uv = np.zeros((len(obj.data.loops), 2), np.float32)
+    uv[corners] = ball.uv
+    assert np.array_equal(uv[corners], ball.uv), "a corner of a polygon has two places"
+    return uv, ball, polygon
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("holes", [(), HOLES], ids=["closed", "holes"])
+@pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
+def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
+    obj = add_ball(holes=holes)
+    if polygons:
+        scenes.with_polygons(obj)
+    before = scenes.mesh_state(obj.data)
+    assert sphere(layout=layout, checker=False) == {"FINISHED"}
+    expected, ball, polygon = of_the_package(koebe, obj, layout)
+    assert ball.converged
+    uv = scenes.corner_uv(obj.data, "Koebe")
+    assert np.array_equal(uv, expected)
+    assert scenes.mesh_state(obj.data, but_layer="Koebe") == before
+    torn = np.unique(polygon[ball.layout["torn"]])
+    entry = last_run()
+    assert entry.mapped and entry.converged and entry.domain == "sphere" and entry.layout == layout
+    assert json.loads(entry.torn_faces) == torn.tolist()
+    assert 1 <= len(torn) <= (2 if layout == "equirectangular" else 4)
+    assert entry.flipped == len(np.setdiff1d(ball.layout["flipped"], ball.layout["torn"]))
+    assert entry.angle_error == pytest.approx(ball.angle_error_deg["mean"], rel=1e-6)
+    assert 1.0 <= entry.density < 10.0 and "torn in the UVs: none fit there" in entry.note
+    assert [loop.radius for loop in entry.loops] == pytest.approx(ball.caps[:, 3].tolist(), rel=1e-6)
+    assert len(entry.loops) == len(scenes.boundary_loops(obj.data))
+    whole = np.ones(len(uv), bool)
+    for face in torn.tolist():
+        whole[list(obj.data.polygons[face].loop_indices)] = False
+    points = ball.points[scenes.read(obj.data.loops, "vertex_index", np.int32)]
+    assert np.abs(led_back(uv[whole], layout) - points[whole]).max() < 3e-6
+    ends, faces = sides_of_edges(obj.data, uv)
+    assert are_continued(ends[~np.isin(faces, torn).any(axis=1)], layout).all()
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_face_without_three_corners_apart_is_no_obstacle(layout):
+    """The smallest closed surfaces: a cube, and a tetrahedron."""
+    cube = scenes.add_cube()
+    tetrahedron = scenes.add_object("Tetrahedron", [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)],
+                                    [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])  # fmt: skip
+    scenes.select(cube, tetrahedron)
+    assert sphere(layout=layout) == {"FINISHED"}
+    entries = list(bpy.context.window_manager.koebe_uv.islands)
+    assert [entry.mapped and entry.converged for entry in entries] == [True, True]
+
+
+# ---------------------------------------------------------------- the checker
+
+
+def pattern_of(obj):
+    """The matrix (2, 2) by which the checker's nodes take UVs to squares of side 1."""
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    scale = nodes["Fine"].inputs["Scale"].default_value
+    assert nodes["Coarse"].inputs["Scale"].default_value == pytest.approx(scale / 4)
+    if "Across" not in nodes:
+        return scale * np.eye(2)
+    return scale * np.array([nodes[name].inputs[1].default_value[:2] for name in ("Across", "Up")])
+
+
+def colors(matrix, uv):
+    """What the checker of squares, and the coarse one of 4, show at UVs (n, 2)."""
+    at = uv @ matrix.T
+    return np.stack([np.floor(at).sum(axis=1) % 2, np.floor(at / 4).sum(axis=1) % 2], axis=1)
+
+
+@pytest.mark.parametrize("size", [8.0, 20.0, 32.0, 50.0])
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("holes", [(), HOLES, ((0, -1), (0, 9))], ids=["closed", "holes", "poles"])
+def test_the_checker_runs_over_the_cuts(holes, layout, size):
+    """Both sides of a cut show the same, close to the edge too, squares coarse and fine."""
+    upright = (0.0, 0.0) if holes and holes[0][1] == -1 else None
+    obj = add_ball(holes=holes, turn=upright)
+    assert sphere(layout=layout, checker_size=size) == {"FINISHED"}
+    matrix, uv = pattern_of(obj), scenes.corner_uv(obj.data, "Koebe").astype(float)
+    torn = json.loads(last_run().torn_faces)
+    ends, faces = sides_of_edges(obj.data, uv)
+    cut = (ends[:, :, 0] != ends[:, :, 1]).any(axis=(1, 2)) & ~np.isin(faces, torn).any(axis=1)
+    assert cut.sum() > 3
+    share = np.random.default_rng(1).uniform(0.05, 0.95, (200, 1, 1, 1))
+    here, there = (share * ends[cut, 0] + (1 - share) * ends[cut, 1]).reshape(-1, 2, 2).transpose(1, 0, 2)
+    step = here @ matrix.T
+    far = (np.abs(step / 1.0 - np.rint(step)) > 1e-4).all(axis=1)  # on no square's side
+    assert far.sum() > 100 and np.array_equal(colors(matrix, here)[far], colors(matrix, there)[far])
+    values = np.diag(matrix)
+    assert (np.diag(values) == matrix).all() and size / 1.6 < values[0] < 1.6 * size and values[0] % 8 == 0
+    assert values[1] == (values[0] / 2 if layout == "equirectangular" else values[0])
+    before = pattern_of(obj)
+    bpy.ops.uv.koebe_checker()
+    assert len(obj.material_slots) == 0
+    bpy.ops.uv.koebe_checker(checker_size=size)
+    assert np.allclose(pattern_of(obj), before, rtol=1e-6)
+
+
+def test_a_cylinder_keeps_its_own_checker():
+    """With the period 1 its cuts are those of longitudes."""
+    obj = add_ball(holes=((0, -1), (0, 9)))
+    assert bpy.ops.uv.koebe_ring(fit="period") == {"FINISHED"}
+    matrix = pattern_of(obj)
+    assert matrix[0, 0] == matrix[1, 1]
+
+
+# ---------------------------------------------------------------- the sphere itself
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_the_sphere_is_added_beside_its_source(koebe, mode):
+    obj = add_ball(holes=HOLES)
+    obj.location = (1.0, 2.0, 3.0)
+    for name in ("Skin", "Cloth"):
+        obj.data.materials.append(bpy.data.materials.new(name))
+    obj.data.polygons.foreach_set("material_index", np.arange(len(obj.data.polygons)) % 2)
+    if mode == "EDIT":
+        scenes.select_faces(obj)
+    assert sphere(add_sphere=True, checker=False) == {"FINISHED"}
+    if mode == "EDIT":
+        assert bpy.context.mode == "EDIT_MESH"
+        bpy.ops.object.mode_set(mode="OBJECT")
+    added = bpy.data.objects["Ball Sphere"]
+    _, ball, _ = of_the_package(koebe, obj, "equirectangular")
+    corners = [scenes.read(one.data.loops, "vertex_index", np.int32) for one in (obj, added)]
+    places = scenes.read(added.data.vertices, "co", np.float32, 3)
+    obj.data.calc_loop_triangles()
+    radius = np.sqrt(sum(triangle.area for triangle in obj.data.loop_triangles) / (4 * np.pi))
+    expected = radius * (ball.points + [1, 0, 0])
+    assert np.abs(places[corners[1]] - expected[corners[0]]).max() < 1e-5 * radius
+    assert np.array_equal(scenes.corner_uv(added.data, "Koebe"), scenes.corner_uv(obj.data, "Koebe"))
+    assert [material.name for material in added.data.materials] == ["Skin", "Cloth"]
+    for name in ("material_index", "loop_total"):
+        both = [scenes.read(one.data.polygons, name, np.int32).tolist() for one in (obj, added)]
+        assert both[0] == both[1]
+    assert not added.data.validate()
+    assert added.location.x > max(v.co.x for v in obj.data.vertices) + 1.0 and added.location.yz[:] == (2.0, 3.0)
+    outward = [face.normal.dot(face.center - type(face.center)((radius, 0, 0))) for face in added.data.polygons]
+    assert min(outward) > 0
+
+
+def test_each_island_has_a_sphere_of_its_own():
+    obj = add_ball()
+    ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
+    obj.data.edges.foreach_set("use_seam", (ends % 10 == 4).all(axis=1))
+    assert sphere(add_sphere=True, checker=False) == {"FINISHED"}
+    added = bpy.data.objects["Ball Sphere"]
+    assert len(added.data.polygons) == len(obj.data.polygons)
+    assert len(added.data.vertices) == len(obj.data.vertices) + 16
+    assert len(scenes.boundary_loops(added.data)) == 2
+
+
+def test_nothing_is_added_where_nothing_is_mapped():
+    add_torus()
+    with pytest.raises(RuntimeError, match="a sphere has none"):
+        sphere(add_sphere=True)
+    assert [obj.name for obj in bpy.data.objects] == ["Torus"] and len(bpy.data.meshes) == 1
+
+
+# ---------------------------------------------------------------- what is no sphere
+
+WRONG = {
+    "a torus": (add_torus, "this surface has 1 handle: a sphere has none", "torus"),
+    "two handles": (lambda: pretzel(), "this surface has 2 handles: a sphere has none", "parts"),
+}
+
+
+def pretzel():
+    from test_tiles import two_handles
+
+    return two_handles()
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+@pytest.mark.parametrize("wrong", WRONG)
+def test_what_is_no_sphere_is_told_and_stays_as_it_is(wrong, mode):
+    make, text, offer = WRONG[wrong]
+    obj = make()
+    scenes.select(obj)
+    if mode == "EDIT":
+        scenes.select_faces(obj)
+    before = fingerprint.fingerprint()
+    with pytest.raises(RuntimeError, match=f"Koebe UV: nothing was mapped. {obj.name}: {text}"):
+        sphere()
+    changed = fingerprint.differences(before, fingerprint.fingerprint())
+    allowed = ("file: report", f"mesh {obj.data.name}: history", f"mesh {obj.data.name}: active face")
+    assert [key for key in changed if key not in allowed] == []
+    entry = last_run()
+    assert not entry.mapped and entry.offer == offer and entry.message.startswith(text)
+    assert len(obj.data.uv_layers) == 0
+
+
+def test_several_objects_one_of_them_bad():
+    good, bad = add_ball(), add_torus()
+    scenes.select(good, bad)
+    assert sphere() == {"FINISHED"}
+    told = {entry.object_name: entry.mapped for entry in bpy.context.window_manager.koebe_uv.islands}
+    assert told == {"Ball": True, "Torus": False}
+    assert len(bad.data.uv_layers) == 0 and len(bad.material_slots) == 0
+
+
+def test_seams_divide_islands_and_others_do_not():
+    """A ring of seams makes two spheres of a ball; a path of seams none."""
+    obj = add_ball()
+    ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
+    level = ends % 10  # 10 to a column
+    path = ((ends // 10) == 3).all(axis=1)
+    obj.data.edges.foreach_set("use_seam", path)
+    assert path.sum() > 5 and sphere() == {"FINISHED"}
+    assert len(last_run().loops) == 0
+    obj.data.edges.foreach_set("use_seam", path | (level == 4).all(axis=1))
+    assert sphere() == {"FINISHED"}
+    entries = list(bpy.context.window_manager.koebe_uv.islands)
+    assert [(entry.mapped, len(entry.loops)) for entry in entries] == [(True, 1), (True, 1)]
+
+
+def test_in_edit_mode_the_selected_faces():
+    obj = add_ball()
+    belt = [face.index for face in obj.data.polygons if face.index % 9 < 4 and face.index < 144]
+    scenes.select_faces(obj, belt)
+    assert sphere() == {"FINISHED"}
+    assert bpy.context.mode == "EDIT_MESH"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    uv = scenes.corner_uv(obj.data, "Koebe")
+    written = np.array([np.ptp(uv[list(face.loop_indices)], axis=0).max() > 0.0 for face in obj.data.polygons])
+    assert np.flatnonzero(written).tolist() == belt
+
+
+def test_cuts_loops_and_torn_faces_can_be_selected():
+    obj = add_ball(holes=HOLES)
+    sphere()
+    uv, torn = scenes.corner_uv(obj.data, "Koebe"), json.loads(last_run().torn_faces)
+    assert bpy.ops.uv.koebe_select_torn() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.flatnonzero(scenes.read(obj.data.polygons, "select", bool)).tolist() == torn
+    assert bpy.ops.uv.koebe_select_cuts() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    ends, _ = sides_of_edges(obj.data, uv)
+    apart = (ends[:, :, 0] != ends[:, :, 1]).any(axis=(1, 2))
+    assert scenes.read(obj.data.edges, "select", bool).sum() == apart.sum() > 0
+    assert bpy.ops.uv.koebe_select_loop(loop=1) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    chosen = np.flatnonzero(scenes.read(obj.data.vertices, "select", bool)).tolist()
+    assert chosen in [sorted(loop) for loop in scenes.boundary_loops(obj.data)]
+
+
+def test_esc_before_the_end_changes_nothing(addon):
+    obj = add_ball()
+    options = addon("maps.options")
+    job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice())
+    job.cancel_token.cancel()
+    with pytest.raises(job.koebe.Cancelled):
+        job.compute()
+    assert len(obj.data.uv_layers) == 0
+    heard = []
+    job = addon("jobs.domain_job").SphereJob([obj], job.options, job.choice)
+    job.compute(lambda fraction, stage: heard.append((fraction, stage)))
+    shares = [fraction for fraction, _ in heard]
+    assert shares == sorted(shares) and shares[-1] == 1.0
+    assert {stage for _, stage in heard} <= addon("operators.modal_run").STAGES.keys()
+
+
+def test_the_report_has_the_meshs_numbers(addon):
+    """Of a ball in two islands, as JSON."""
+    obj = add_ball()
+    ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
+    obj.data.edges.foreach_set("use_seam", (ends % 10 == 4).all(axis=1))
+    options = addon("maps.options")
+    job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice("octahedral"))
+    job.compute()
+    job.write()
+    (outcome,) = job.outcomes
+    entries = job.entries(outcome)
+    json.dumps(entries)
+    assert [entry["domain"] for entry in entries] == ["sphere", "sphere"]
+    assert {v % 10 for entry in entries for loop in entry["loops"] for v in loop["vertices"]} == {4}
+    crossing = [set(entry["layout"]["crossing"]) for entry in entries]
+    assert crossing[0] and crossing[1] and not crossing[0] & crossing[1]
+    uv = scenes.corner_uv(obj.data, "Koebe")
+    beyond = {face.index for face in obj.data.polygons
+              if uv[list(face.loop_indices)].min() < 0 or uv[list(face.loop_indices)].max() > 1}  # fmt: skip
+    assert beyond <= crossing[0] | crossing[1]
+    assert "2 spheres, octahedral, 2 caps" in job.line(outcome)
+
+
+# ---------------------------------------------------------------- whatever comes
+
+
+def wild_ball(random):
+    """A ball of any size, closed or with holes, of polygons of all sizes, bent, stretched and damaged; or anything."""
+    if random.random() < 0.2:
+        return wild(random)
+    n, m = int(random.integers(3, 14)), int(random.integers(2, 10))
+    holes = {(int(random.integers(n)), int(random.integers(-1, m))) for _ in range(random.integers(0, 5))}
+    points, faces = ball_arrays(n, m, holes, tuple(random.uniform(0, 6, 2)), np.exp(random.normal(0, 0.5, 3)))
+    points += random.normal(0, random.choice([0, 0.02, 0.1]), points.shape)
+    if random.random() < 0.3:
+        points, faces = damaged(random, points, faces)
+    obj = scenes.add_object("Wild", points, faces)
+    return join_faces(random, obj, random.choice([0.0, 0.2, 0.8]))
+
+
+def assert_is_a_layout(outcome, one, layout):
+    """Corners at their points, and both sides of edges the same in the continued pattern, but for torn faces."""
+    surface, result = outcome.task.surface, one.result
+    uv = np.full((len(surface.corner_vertex), 2), np.nan)
+    uv[one.corners] = one.uv
+    assert np.isfinite(one.uv).all() and one.uv.min() >= -2 and one.uv.max() <= 2
+    vertex = np.zeros(len(surface.corner_vertex), int)
+    vertex[one.island.corners] = one.island.corner_vertex
+    torn = set(one.torn_faces.tolist())
+    whole = [c for face in one.island.faces if face not in torn
+             for c in range(surface.face_start[face], surface.face_start[face] + surface.face_size[face])]  # fmt: skip
+    points = result.points[vertex[whole]]
+    pole = np.hypot(points[:, 0], points[:, 1]) < 1e-3
+    assert np.abs(led_back(uv[whole], layout) - points)[~pole].max(initial=0) < 3e-6
+    sides = {}
+    for face in one.island.faces:
+        if face in torn:
+            continue
+        first, size = surface.face_start[face], surface.face_size[face]
+        for k in range(size):
+            c, d = first + k, first + (k + 1) % size
+            places = {int(vertex[c]): uv[c], int(vertex[d]): uv[d]}
+            sides.setdefault(frozenset(places), []).append(places)
+    both = [[[a[v], b[v]] for v in a] for a, b in (pair for pair in sides.values() if len(pair) == 2)]
+    if both:
+        assert are_continued(np.array(both, float), layout).all()
+    if result.converged and not len(result.loops):
+        assert len(torn) <= (2 if layout == "equirectangular" else 4) or len(one.island.faces) < 12
+
+
+@pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))))
+def test_wild_surfaces_become_spheres_or_are_refused(addon, seed):
+    random = np.random.default_rng(seed)
+    mapped, refused = 0, collections.Counter()
+    for _ in range(10):
+        obj = wild_ball(random)
+        bpy.context.view_layer.update()
+        state = scenes.mesh_state(obj.data)
+        options, layout = addon("maps.options"), str(random.choice(LAYOUTS))
+        job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice(layout))
+        job.compute()
+        (outcome,) = job.outcomes
+        for one in outcome.mapped:
+            assert_is_a_layout(outcome, one, layout)
+            mapped += 1
+        for one in outcome.failed:
+            assert "nobody foresaw" not in str(one.error)
+            refused[getattr(one.error, "kind", None) or type(one.error).__name__] += 1
+        if outcome.mapped:
+            job.write()
+            assert outcome.line() and job.entries(outcome)
+        assert scenes.mesh_state(obj.data, but_layer="Koebe").items() >= {
+            key: value for key, value in state.items() if key not in ("uv Koebe", "face material")
+        }.items()
+        bpy.data.objects.remove(obj)
+    print(f"{mapped} islands mapped, refused {dict(refused)}")

@@ -1,0 +1,59 @@
+"""Unwrap to Sphere by its button, in both layouts, and the button that helps where there is a handle."""
+
+from test_tiles import DONE, ENTRY, MODEL, prepare
+
+BODY = """
+import math
+for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
+bpy.ops.mesh.primitive_cube_add(size=2.0)
+obj = bpy.context.object
+while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
+obj.modifiers.new("Finer", "SUBSURF").levels = 5
+bpy.ops.object.modifier_apply(modifier="Finer")
+for vertex in obj.data.vertices:
+    x, y, z = vertex.co
+    vertex.co = (x * (1.3 + 0.5 * math.sin(2.5 * z)), y * (1.1 + 0.4 * math.cos(2.0 * z)), 1.6 * z + 0.3 * x * x)
+bpy.ops.object.shade_smooth()
+"""
+
+
+def test_a_body_by_its_button_in_both_layouts(window):
+    window.workspace("UV Editing")
+    prepare(window, BODY)
+    window.open_part("domains")
+    window.settle()
+    window.picture("80_sphere_button")
+    for number, layout in enumerate(("equirectangular", "octahedral")):
+        window.run(f"bpy.context.scene.koebe_uv.layout = '{layout}'")
+        window.run("bpy.context.window_manager.koebe_uv.islands.clear()")
+        window.move(*window.middle("VIEW_3D"))
+        window.settle()
+        window.click(*window.find_button("VIEW_3D", "koebe_sphere"))
+        window.wait(DONE, 30.0)
+        window.show_textures()
+        window.move(*window.middle("IMAGE_EDITOR"))
+        window.key("Home")
+        window.picture(f"8{number + 1}_{layout}")
+        assert window.ask(f"[{ENTRY}.domain, {ENTRY}.layout, {ENTRY}.mapped, {ENTRY}.converged]") == [
+            "sphere", layout, True, True
+        ]
+        assert window.ask(f"{ENTRY}.flipped") <= (2 if layout == "equirectangular" else 0)  # beside a pole
+    window.move(*window.middle("VIEW_3D"))
+    layers = "len(bpy.context.view_layer.objects.active.data.uv_layers)"
+    assert window.ask(layers) == 1
+    window.key("ctrl+z")
+    window.key("ctrl+z")
+    window.wait(f"{layers} == 0", 20.0)
+
+
+def test_a_torus_is_no_sphere_and_the_report_has_the_button(window):
+    window.workspace("UV Editing")
+    prepare(window, MODEL)
+    window.press("uv.koebe_sphere")
+    window.wait(DONE, 30.0)
+    window.settle()
+    window.picture("83_no_sphere")
+    assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.offer]") == [False, "torus"]
+    window.click(*window.find_button("VIEW_3D", "koebe_torus"))
+    window.wait(f"{DONE} and {ENTRY}.domain == 'torus'", 30.0)
+    assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.flipped]") == [True, 0]
