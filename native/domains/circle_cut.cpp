@@ -48,7 +48,7 @@ public:
             for (int k = 0; k < 3; ++k) triangles(static_cast<Eigen::Index>(f), k) = faces_[f][k];
         result_.handles = cut_.handles;
         try {
-            if (!find_loops(result_, triangles, handle_of_)) return {};
+            if (!take_loops(result_, triangles, handle_of_)) return {};
         } catch (const TopologyError&) {
             return {};  // a circle runs twice round a handle that is thinner than its faces
         }

@@ -79,7 +79,7 @@ Vertices in_unit_cube(const Vertices& vertices)
     return (vertices.rowwise() - (0.5 * low + 0.5 * high)) / extent;
 }
 
-bool find_loops(HandleCut& cut, const Triangles& triangles, const std::vector<std::array<int, 2>>& handle_of)
+bool take_loops(HandleCut& cut, const Triangles& triangles, const std::vector<std::array<int, 2>>& handle_of)
 {
     cut.surface = require_bordered_genus_zero(triangles, static_cast<Index>(cut.vertices.rows()));
     LoopSteps steps;
@@ -134,7 +134,7 @@ HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, Exec
     cut.corners.resize(cut.input_face.size());
     for (std::size_t f = 0; f < cut.input_face.size(); ++f)
         for (int k = 0; k < 3; ++k) cut.corners.at(cut.input_face[f])[k] = 3 * static_cast<Index>(f) + k;
-    if (!find_loops(cut, piece.triangles, {})) throw_too_near(opened);
+    if (!take_loops(cut, piece.triangles, {})) throw_too_near(opened);
     // A loop of edges with two faces each that has no other side is no hole: there cuts touch.
     std::map<std::pair<Index, Index>, char> border;
     for (Index h = 0; h < static_cast<Index>(input.triangles.size()); ++h)

@@ -41,7 +41,7 @@ Vertices in_unit_cube(const Vertices& vertices);
 /// by length
 /// @throws TopologyError those of require_bordered_genus_zero
 /// @return whether all loops that are no holes found their other sides, and no two share a vertex
-bool find_loops(HandleCut& cut, const Triangles& triangles, const std::vector<std::array<int, 2>>& handle_of);
+bool take_loops(HandleCut& cut, const Triangles& triangles, const std::vector<std::array<int, 2>>& handle_of);
 
 /// Cut along short loops that share no vertex with each other or with a hole (handle_loops.h).
 /// @param vertices, triangles of one orientation, of genus 1 at least

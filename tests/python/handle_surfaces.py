@@ -5,7 +5,7 @@ from domain_surfaces import holed_ring, on_sphere
 
 
 def sewn(points, triangles, rims):
-    """Two copies of a sheet, the second turned over, one along the given vertices; vertices (V, 3), triangles (F, 3)."""
+    """Two copies of a sheet, the second turned over, joined at some vertices: (V, 3) and (F, 3)."""
     n = len(points)
     other = np.arange(n) + n
     other[rims] = rims

@@ -23,6 +23,7 @@ from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_
 from ._parts import PartsResult, parts
 from ._plot import plot
 from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning
+from ._schottky import SchottkyMap, schottky_map
 from ._shapes import (
     DomainAlignment,
     align_domains,
@@ -33,7 +34,6 @@ from ._shapes import (
     module_error,
     module_names,
 )
-from ._schottky import SchottkyMap, schottky_map
 from ._sphere import SphereMap, sphere_map
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer

@@ -117,8 +117,8 @@ def schottky_map(
     UVs continue them across every cut: they are a fundamental domain of a Schottky group.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
-    normalization    with holes, which of the maps that differ by an automorphism of the disk: 'area', that of the least area
-                 distortion; 'circles', that where equally large circles of each handle have the most room
+    normalization    with holes, which of the maps that differ by an automorphism of the disk: 'area', that of the least
+                 area distortion; 'circles', that where equally large circles of each handle have the most room
     tolerance    stop when, in a sweep, the disks that fill the loops change by less, as matrices and relative
     max_sweeps   then stop with converged = False
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
@@ -136,5 +136,9 @@ def schottky_map(
     options.polygon = polygons_of(polygon, source)
     native = _koebe.schottky_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
-    report["options"] = {"normalization": normalization, "tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
+    report["options"] = {
+        "normalization": normalization,
+        "tolerance": options.tolerance,
+        "max_sweeps": options.max_sweeps,
+    }
     return SchottkyMap(report, native, source)
