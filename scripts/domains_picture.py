@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures of docs/domains.md: docs/images/domains_torus.png, domains_ring.png and domains_sphere.png.
+"""The pictures of docs/domains.md: docs/images/domains_torus.png, _ring.png, _sphere.png and _schottky.png.
 
 Surfaces with the checker of their tiles, and the tiles with their copies. NumPy and the package alone; the surfaces are
 those of the tests and the mug and the head of the samples. PYTHONPATH=build/python python3 scripts/domains_picture.py
@@ -18,6 +18,7 @@ sys.path[:0] = [str(ROOT / "tests" / "python"), str(ROOT / "blend_samples")]
 import closed_head  # noqa: E402
 import koebe  # noqa: E402
 import mug  # noqa: E402
+from cage_mesher import catmull_clark  # noqa: E402
 from domain_surfaces import holed_ring, holed_torus  # noqa: E402
 from sphere_surfaces import icosphere  # noqa: E402
 
@@ -240,8 +241,95 @@ def sphere_picture():
     return [np.concatenate(column) for column in zip(*rows, strict=True)]
 
 
+def pretzel():
+    """A round body with two handles: a slab of cubes with two windows, subdivided."""
+    quads = []
+    solid = {(i, j) for i in range(7) for j in range(5)} - {(2, 2), (4, 2), (0, 0), (0, 4), (6, 0), (6, 4)}
+    for i, j in sorted(solid):
+        quads += [[(i, j, 1), (i + 1, j, 1), (i + 1, j + 1, 1), (i, j + 1, 1)]]
+        quads += [[(i, j, 0), (i, j + 1, 0), (i + 1, j + 1, 0), (i + 1, j, 0)]]
+        for a, b, beside in (
+            ((i, j), (i + 1, j), (i, j - 1)), ((i + 1, j), (i + 1, j + 1), (i + 1, j)),
+            ((i + 1, j + 1), (i, j + 1), (i, j + 1)), ((i, j + 1), (i, j), (i - 1, j)),
+        ):  # fmt: skip
+            if beside not in solid:
+                quads += [[(*a, 0), (*b, 0), (*b, 1), (*a, 1)]]
+    corners = sorted({corner for quad in quads for corner in quad})
+    number = {corner: k for k, corner in enumerate(corners)}
+    points, quads = np.array(corners, float), np.array([[number[corner] for corner in quad] for quad in quads])
+    for _ in range(4):
+        points, quads = catmull_clark(points, quads)
+    points -= points.mean(axis=0)
+    points[:, 2] += 0.35 * np.sin(0.5 * points[:, 0])
+    return points, triangulated(quads)
+
+
+def log_fields(uv, period):
+    """Dark and light fields in the plane, square in every size, a whole number of them along the period."""
+    z = (2 * uv - 1) @ (1, 1j)
+    rows = max(2, 2 * round(24 * period / (4 * np.pi)))
+    around = np.angle(z) * 24 / (2 * np.pi)
+    across = np.log(np.maximum(abs(z), 1e-12)) * rows / period
+    return INKS[(np.floor(around) + np.floor(across)).astype(int) % 2]
+
+
+def copies_panel(result, period, box):
+    """The faces in the plane, and their copies by one generator and by two paler."""
+    z = (2 * result.uv - 1) @ (1, 1j)
+    letters = [m for g in result.generators for m in (g, np.linalg.inv(g))]
+    words = [np.eye(2)] + letters + [a @ b for a in letters for b in letters if abs(a @ b - np.eye(2)).max() > 1e-6]
+    points, uvs, pale = [], [], []
+    for k, (a, b, c, d) in enumerate(word.ravel() for word in words):
+        with np.errstate(all="ignore"):
+            moved = (a * z + b) / (c * z + d)
+        (x, y), width = box
+        here = np.isfinite(moved).all(axis=1) & (abs(moved - complex(x + width / 2, y + width / 2)).min(axis=1) < width)
+        here &= abs(moved - np.roll(moved, 1, axis=1)).max(axis=1) < width
+        points.append(np.column_stack([moved[here].real.ravel(), moved[here].imag.ravel(), np.zeros(3 * here.sum())]))
+        uvs.append(result.uv[here])
+        pale.append(np.full(here.sum(), 0.0 if k == 0 else 0.45 if k <= len(letters) else 0.7))
+    points, uvs, pale = np.concatenate(points), np.concatenate(uvs), np.concatenate(pale)
+
+    def color(uv, f):
+        return (1 - pale[f]) * log_fields(uv, period) + pale[f]
+
+    return raster(points, np.arange(len(points)).reshape(-1, 3), uvs, color, np.ones(len(uvs)), box)
+
+
+def schottky_picture():
+    body, faces = pretzel()
+    corner = np.argmin(np.linalg.norm(body - body[body[:, 0].argmax()] * [0.6, 0, 1], axis=1))
+    holed = faces[np.linalg.norm(body[faces].mean(axis=1) - body[corner], axis=1) > 0.7]
+    rows = []
+    for surface in (faces, holed):
+        used, own = np.unique(surface, return_inverse=True)
+        vertices, own = body[used], own.reshape(-1, 3).astype(np.int32)
+        result = koebe.schottky_map(vertices, own)
+        print(result, result.converged, result.by_circles, [warning.text for warning in result.warnings])
+        outer = [abs(m) for m, h in zip(result.multipliers, result.handles, strict=True) if h["outer"]]
+        period = -np.log(outer[0]) if outer else 2 * np.pi
+        points, shade = seen_from(vertices, own, 0.35, 0.8)
+        low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+        width = 1.06 * (high - low).max()
+
+        def fields(uv, f, period=period):
+            return log_fields(uv, period)
+
+        pairs = [pair for pair, h in zip(result.circles, result.handles, strict=True) if not h["outer"]]
+        x, y, radius = max((tuple(circle) for pair in pairs for circle in pair), key=lambda circle: circle[2])
+        near = 4 * radius
+        rows.append([
+            raster(points, own, result.uv, fields, shade, ((low + high) / 2 - width / 2, width)),
+            copies_panel(result, period, (np.array([-1.1, -1.1]), 2.2)),
+            copies_panel(result, period, (np.array([x - near / 2, y - near / 2]), near)),
+        ])  # fmt: skip
+    return [np.concatenate(column) for column in zip(*rows, strict=True)]
+
+
 def main():
-    for name, panels in (("torus", torus_picture()), ("ring", ring_picture()), ("sphere", sphere_picture())):
+    pictures = {"torus": torus_picture, "ring": ring_picture, "sphere": sphere_picture, "schottky": schottky_picture}
+    for name in sys.argv[1:] or pictures:
+        panels = pictures[name]()
         write_png(ROOT / "docs" / "images" / f"domains_{name}.png", np.concatenate(panels, axis=1))
 
 

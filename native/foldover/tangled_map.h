@@ -56,8 +56,8 @@ public:
     std::size_t flipped(const std::vector<Index>& faces) const;
     /// Whether an edge of a loop at one of these vertices, in rising order, meets another edge of any loop.
     bool loops_cross(const std::vector<Index>& moved) const;
-    /// Holes with one of these vertices, in rising order, that run clockwise, as holes should. A vertex that slides past
-    /// another one on their circle turns the hole over, with no face flipped: the map covers it then, and twice.
+    /// Holes with one of these vertices, in rising order, that run clockwise, as holes should. A vertex that slides
+    /// past another one on their circle turns the hole over, with no face flipped: the map covers it then, and twice.
     std::vector<int> clockwise_holes(const std::vector<Index>& moved) const;
 
 private:

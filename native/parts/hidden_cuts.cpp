@@ -229,8 +229,8 @@ void hide_cuts(const CutSurface& whole, const SplitOptions& options, std::vector
         std::vector<SplitEffort> efforts(wave.size());
         side_by_side(wave.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
             own.checkpoint();
-            moved[i] = moved_border(whole, options, curvature, *parts[wave[i].first], *parts[wave[i].second], own,
-                                    efforts[i]);
+            moved[i] =
+                moved_border(whole, options, curvature, *parts[wave[i].first], *parts[wave[i].second], own, efforts[i]);
         });
         for (std::size_t i = 0; i < wave.size(); ++i) {
             effort.maps += efforts[i].maps;

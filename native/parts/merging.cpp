@@ -168,9 +168,8 @@ void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vec
 {
     std::set<PartPointer> kept;
     for (;;) {
-        const auto crumb = std::ranges::find_if(parts, [&](const PartPointer& part) {
-            return part->mesh.faces.size() < few && !kept.contains(part);
-        });
+        const auto crumb = std::ranges::find_if(
+            parts, [&](const PartPointer& part) { return part->mesh.faces.size() < few && !kept.contains(part); });
         if (crumb == parts.end()) return;
         const int own = static_cast<int>(crumb - parts.begin());
         PartPointer best;

@@ -57,8 +57,8 @@ using RefusedMerges = std::set<std::pair<PartPointer, PartPointer>>;
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                  RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort);
 
-/// Merges parts of a few faces, which nobody wants to paint on or to stitch, with the neighbour that they cost the least
-/// in, even where a cut pays by a few prices of a part.
+/// Merges parts of a few faces, which nobody wants to paint on or to stitch, with the neighbour that they cost the
+/// least in, even where a cut pays by a few prices of a part.
 void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                   ExecutionContext& context, SplitEffort& effort);
 
