@@ -12,7 +12,11 @@ namespace koebe {
 struct LinearFractional {
     Complex a{1.0, 0.0}, b{0.0, 0.0}, c{0.0, 0.0}, d{1.0, 0.0};
 
-    Complex operator()(Complex z) const { return (a * z + b) / (c * z + d); }
+    /// Also to the last digits beside a small isometric circle, where a z + b loses them.
+    Complex operator()(Complex z) const
+    {
+        return std::norm(c) > 1.0 ? a / c - 1.0 / (c * (c * z + d)) : (a * z + b) / (c * z + d);
+    }
     VectorXcd operator()(const VectorXcd& z) const;
     /// Image of a circle that does not go through the pole; its inside may go to the outside.
     Circle operator()(const Circle& circle) const;

@@ -189,10 +189,8 @@ void SchottkyPlane::move(const LinearFractional& map)
 {
     z = map(z);
     for (VectorXcd& image : images) image = map(image);
-    for (LinearFractional& generator : generators) {
-        const LinearFractional moved = map * generator * map.inverse();
-        generator = linear_fractional(moved.a, moved.b, moved.c, moved.d);
-    }
+    // Not scaled to the determinant 1 again: a d - b c, of numbers as large as 1 over a radius, tells it worse.
+    for (LinearFractional& generator : generators) generator = map * generator * map.inverse();
     for (Circle& hole : holes) hole = map(hole);
 }
 

@@ -27,6 +27,7 @@ namespace {
 
 constexpr std::size_t most_condensed = 12000;  // boundary vertices
 constexpr Index balanced_faces = 20000;        // that are looked at for it
+constexpr double least_radius = 1e-12;         // of a circle whose points 64-bit coordinates tell apart
 constexpr double worst_spread = 1e3;           // worse than any where circles are apart
 constexpr Index enough_faces = 6000;           // a surface of fewer is split finer, at most so many times:
 constexpr int most_levels = 2;
@@ -337,6 +338,9 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
         handle.circles = circles.pairs[j];
         handle.outer = j == plane.outer_handle;
         handle.misfit = plane.misfit[j];
+        if (std::min(handle.circles[0].radius, handle.circles[1].radius) < least_radius)
+            throw SolverError("a handle is too long beside its girth for a plane: rounding loses its end",
+                              ElementKind::vertices, handle.cut);
     }
     result.turned = surface.reoriented;
     result.sweeps = static_cast<int>(best.map.changes.size());
