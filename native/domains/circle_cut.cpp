@@ -11,7 +11,7 @@
 namespace koebe {
 namespace {
 
-constexpr double least_share = 0.02;  // of an edge on either side of a cut: no needles
+constexpr double least_edge_share = 0.02;  // of an edge on either side of a cut: no needles
 
 /// Where the segment between two points crosses a circle: the share of its length before.
 double share_before(const Circle& circle, Complex from, Complex to)
@@ -23,7 +23,7 @@ double share_before(const Circle& circle, Complex from, Complex to)
     // The points lie on different sides: of the two crossings one is between them.
     const double first = (-b - root) / a, second = (-b + root) / a;
     const double share = c > 0.0 ? first : second;
-    return std::isfinite(share) ? std::clamp(share, least_share, 1.0 - least_share) : 0.5;
+    return std::isfinite(share) ? std::clamp(share, least_edge_share, 1.0 - least_edge_share) : 0.5;
 }
 
 class CircleCutter {

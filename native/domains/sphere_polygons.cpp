@@ -14,15 +14,15 @@ namespace {
 
 constexpr double farthest_whole = 2.0;  // UVs up to there are multiples of 2^-23 in 32 bits
 
-using Place = Eigen::RowVector2d;
+using CornerPlace = Eigen::RowVector2d;
 
 /// A motion of the plane that leads the pattern to itself: u -> sign u + shift.
 struct PatternMotion {
     double sign = 1.0;
-    Place shift = Place::Zero();
+    CornerPlace shift = CornerPlace::Zero();
 
-    Place operator()(const Place& at) const { return sign * at + shift; }
-    bool moves() const { return sign < 0.0 || shift != Place::Zero(); }
+    CornerPlace operator()(const CornerPlace& at) const { return sign * at + shift; }
+    bool moves() const { return sign < 0.0 || shift != CornerPlace::Zero(); }
 };
 
 /// An edge of a triangle, by the smaller vertex first.
@@ -93,11 +93,11 @@ private:
     /// The largest face goes first, of those that are whole.
     std::pair<bool, double> rank(Index f) const
     {
-        const Place a = place(f, 1) - place(f, 0), b = place(f, 2) - place(f, 0);
+        const CornerPlace a = place(f, 1) - place(f, 0), b = place(f, 2) - place(f, 0);
         return {marks_.torn[static_cast<std::size_t>(f)] == 0, std::abs(a[0] * b[1] - a[1] * b[0])};
     }
 
-    Place place(Index f, int k) const { return uv_.row(3 * f + k); }
+    CornerPlace place(Index f, int k) const { return uv_.row(3 * f + k); }
 
     int corner(Index f, Index vertex) const
     {
@@ -116,7 +116,7 @@ private:
     {
         const Index parent = edge.face;
         const std::array<Index, 2> ends{edge.low, edge.high};
-        std::array<Place, 2> there, own;
+        std::array<CornerPlace, 2> there, own;
         for (std::size_t i = 0; i < 2; ++i) {
             there[i] = place(parent, corner(parent, ends[i]));
             own[i] = place(child, corner(child, ends[i]));
@@ -143,14 +143,14 @@ private:
     }
 
     /// The shift that is nearest to this one, of those of the pattern.
-    Place whole_shift(const Place& shift, double sign) const
+    CornerPlace whole_shift(const CornerPlace& shift, double sign) const
     {
-        Place whole(std::round(shift[0]), layout_ == SphereLayout::equirectangular ? 0.0 : std::round(shift[1]));
+        CornerPlace whole(std::round(shift[0]), layout_ == SphereLayout::equirectangular ? 0.0 : std::round(shift[1]));
         if (layout_ == SphereLayout::equirectangular) return whole;
         // Half turns round the middles of the sides, (1/2, 0) and the like: the sum is odd. Two of them: it is even.
         const bool odd = std::fmod(std::abs(whole[0] + whole[1]), 2.0) == 1.0;
         if (odd == (sign < 0.0)) return whole;
-        const Place rest = shift - whole;
+        const CornerPlace rest = shift - whole;
         const Eigen::Index axis = std::abs(rest[0]) > std::abs(rest[1]) ? 0 : 1;
         whole[axis] += rest[axis] < 0.0 ? -1.0 : 1.0;
         return whole;

@@ -30,9 +30,15 @@ def sides_of_cuts(triangles, z):
     return np.array([pair for pair in pairs if pair[0] != pair[1]])
 
 
+def inverse(matrix):
+    """Of a matrix of determinant 1, exact where its entries are large."""
+    (a, b), (c, d) = matrix
+    return np.array([[d, -b], [-c, a]])
+
+
 def words(generators, length):
     """All products of so many generators and inverses, and fewer."""
-    letters = [m for g in generators for m in (g, np.linalg.inv(g))]
+    letters = [m for g in generators for m in (g, inverse(g))]
     result = list(letters)
     for _ in range(length - 1):
         result += [a @ b for a in letters for b in result]
