@@ -172,3 +172,24 @@ def test_a_sphere_of_arrays_has_no_mesh():
     mesh = ball("trimesh")
     with pytest.raises(koebe.InputError, match="arrays"):
         koebe.sphere_map(mesh.vertices, mesh.faces).to_mesh()
+
+
+@pytest.mark.parametrize("unwrap", [koebe.torus_map, koebe.schottky_map], ids=["torus", "schottky"])
+@pytest.mark.parametrize("kind", ["PolyData", "meshio", "trimesh"])
+def test_a_torus_comes_back_with_the_uvs_of_its_tile(kind, unwrap):
+    points = VERTICES[:-1]
+    if kind == "PolyData":
+        mesh = pyvista.PolyData(points, np.insert(QUADS, 0, 4, axis=1).ravel())
+    elif kind == "meshio":
+        mesh = meshio.Mesh(points, [("quad", QUADS)])
+    else:
+        mesh = trimesh.Trimesh(points, TRIANGLES, process=False)
+    result = unwrap(mesh)
+    assert result.converged
+    back = result.to_mesh()
+    assert type(back) is type(mesh)
+    places, faces, fields = parts_of(back)
+    vertex, uv = np.asarray(fields["koebe_vertex"], int), np.asarray(fields["koebe_uv"], float)
+    assert len(places) > len(points) and np.allclose(places, points[vertex])
+    given = zip(result.surface[1].ravel().tolist(), np.round(result.uv.reshape(-1, 2), 5).tolist(), strict=True)
+    assert {(int(vertex[v]), *np.round(uv[v], 5)) for face in faces for v in face} == {(v, *at) for v, at in given}

@@ -1,20 +1,20 @@
 """Maps of surfaces with handles to fundamental domains of Schottky groups, their holes round."""
 
-import copy
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ._api import polygons_of, surface_of
+from ._domain_map import DomainMap
 from ._native import _koebe
 from ._options import callback, choice, positive, token, whole
-from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+from ._result import Source
 
 Progress = Callable[[float, str], Any]
 
 
-class SchottkyMap:
+class SchottkyMap(DomainMap):
     """A map of a surface with handles into the unit disk, cut in its UVs alone, and its report.
 
     Circles and generators are given in the plane of z = 2 (u + i v) - 1 - i.
@@ -42,56 +42,22 @@ class SchottkyMap:
     flipped_faces    int32 array of the faces that `flipped` counts
     """
 
-    version: str
-    options: dict[str, Any]
-    uv: np.ndarray
     generators: np.ndarray
     multipliers: np.ndarray
     circles: np.ndarray
     by_circles: bool
     handles: list[dict[str, Any]]
-    loops: list[dict[str, Any]]
-    vertices: int
-    faces: int
-    converged: bool
-    sweeps: int
-    changes: list[float]
-    turned: list[int]
-    angle_error_deg: AngleError
-    beltrami: Beltrami
-    area_distortion: AreaDistortion
-    conformal_energy: float
-    flipped: int
-    below_resolution: int
-    flipped_faces: np.ndarray
-    seconds: Seconds
-    peak_memory_mb: float
-    warnings: list[Warning]
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
-        self._report = report
-        self._source = source
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
-        self.uv = native.uv.reshape(-1, 3, 2)
+        super().__init__(report, native, source)
         matrices = np.array([handle["generator"] for handle in self.handles], float)
-        self.generators = matrices[..., 0] + 1j * matrices[..., 1]
-        self.multipliers = np.array([complex(*handle["multiplier"]) for handle in self.handles])
-        self.circles = np.array(
-            [[(*circle["center"], circle["radius"]) for circle in handle["circles"]] for handle in self.handles]
+        self._set_arrays(
+            generators=matrices[..., 0] + 1j * matrices[..., 1],
+            multipliers=np.array([complex(*handle["multiplier"]) for handle in self.handles]),
+            circles=np.array(
+                [[(*circle["center"], circle["radius"]) for circle in handle["circles"]] for handle in self.handles]
+            ),
         )
-        for array in (self.uv, self.generators, self.multipliers, self.circles):
-            array.flags.writeable = False
-        self.flipped_faces = np.asarray(native.flipped_faces, dtype=np.int32)
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
-
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
-        return self._source.vertices, self._source.triangles
-
-    def to_dict(self) -> dict[str, Any]:
-        """The command's JSON report as a new dict, with options."""
-        return copy.deepcopy(self._report)
 
     def __repr__(self) -> str:
         return (

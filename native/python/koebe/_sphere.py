@@ -1,21 +1,20 @@
 """The map of a surface without handles to the sphere, its holes round caps."""
 
-import copy
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ._api import polygons_of, surface_of
-from ._corner_mesh import mesh_with_corner_uv
+from ._domain_map import DomainMap
 from ._native import _koebe
 from ._options import callback, choice, positive, token, whole
-from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+from ._result import Source
 
 Progress = Callable[[float, str], Any]
 
 
-class SphereMap:
+class SphereMap(DomainMap):
     """A map to the unit sphere, its UVs, and its report.
 
     points           (V, 3) float64, unit vectors in the order of the vertices; read-only; seen from outside the faces
@@ -41,58 +40,20 @@ class SphereMap:
     flipped_faces    int32 array of the faces that `flipped` counts
     """
 
-    version: str
-    options: dict[str, Any]
     points: np.ndarray
     caps: np.ndarray
-    uv: np.ndarray
     layout: dict[str, Any]
-    loops: list[dict[str, Any]]
     mean_point: float
-    vertices: int
-    faces: int
-    converged: bool
-    sweeps: int
-    changes: list[float]
-    turned: list[int]
-    angle_error_deg: AngleError
-    beltrami: Beltrami
-    area_distortion: AreaDistortion
-    conformal_energy: float
-    flipped: int
-    below_resolution: int
-    flipped_faces: np.ndarray
-    seconds: Seconds
-    peak_memory_mb: float
-    warnings: list[Warning]
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
-        self._report = report
-        self._source = source
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
-        self.points = native.points
-        self.caps = np.array([[*loop["center"], loop["radius"]] for loop in self.loops], float).reshape(-1, 4)
-        self.uv = native.uv.reshape(-1, 3, 2)
-        for array in (self.points, self.caps, self.uv):
-            array.flags.writeable = False
-        self.flipped_faces = np.asarray(native.flipped_faces, dtype=np.int32)
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
+        super().__init__(report, native, source)
+        caps = np.array([[*loop["center"], loop["radius"]] for loop in self.loops], float).reshape(-1, 4)
+        self._set_arrays(points=native.points, caps=caps)
 
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
-        return self._source.vertices, self._source.triangles
-
-    def to_mesh(self) -> Any:
-        """The mesh that was given, of the same kind, with fields as of CutResult.to_mesh, without the torn faces'. Its
-        vertices are doubled where the UVs are cut. Raises InputError if arrays were given."""
-        whole = np.ones(len(self.uv), bool)
-        whole[self.layout["torn"]] = False
-        return mesh_with_corner_uv(self._source, self.uv, whole)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The command's JSON report as a new dict, with options."""
-        return copy.deepcopy(self._report)
+    def _drawn(self) -> np.ndarray:
+        drawn = super()._drawn()
+        drawn[self.layout["torn"]] = False
+        return drawn
 
     def __repr__(self) -> str:
         return (

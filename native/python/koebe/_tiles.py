@@ -1,20 +1,20 @@
 """Maps to a flat torus and to a cylinder: UVs that are one tile, whose copies continue them."""
 
-import copy
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ._api import polygons_of, surface_of
+from ._domain_map import DomainMap
 from ._native import _koebe
 from ._options import callback, choice, positive, token, vertex, whole
-from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+from ._result import Source
 
 Progress = Callable[[float, str], Any]
 
 
-class TileMap:
+class TileMap(DomainMap):
     """A map to a flat torus or a cylinder, cut in its UVs alone, and its report.
 
     uv               (F, 3, 2) float64 in [0, 1]^2, u and v of each triangle's corners; read-only; 32-bit floats all:
@@ -33,50 +33,14 @@ class TileMap:
     flipped_faces    int32 array of the faces that `flipped` counts
     """
 
-    version: str
-    options: dict[str, Any]
-    uv: np.ndarray
     periods: np.ndarray
     modulus: complex
-    loops: list[dict[str, Any]]
-    vertices: int
-    faces: int
-    converged: bool
-    sweeps: int
-    changes: list[float]
-    turned: list[int]
     cut_length: float
-    angle_error_deg: AngleError
-    beltrami: Beltrami
-    area_distortion: AreaDistortion
-    conformal_energy: float
-    flipped: int
-    below_resolution: int
-    flipped_faces: np.ndarray
-    seconds: Seconds
-    peak_memory_mb: float
-    warnings: list[Warning]
 
-    def __init__(self, report: dict[str, Any], uv: np.ndarray, flipped_faces: np.ndarray, source: Source) -> None:
-        self._report = report
-        self._source = source
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
-        self.uv = uv.reshape(-1, 3, 2)
-        self.periods = np.array(report["periods"])
-        for array in (self.uv, self.periods):
-            array.flags.writeable = False
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        super().__init__(report, native, source)
+        self._set_arrays(periods=np.array(report["periods"]))
         self.modulus = complex(*report["modulus"])
-        self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
-
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
-        return self._source.vertices, self._source.triangles
-
-    def to_dict(self) -> dict[str, Any]:
-        """The command's JSON report as a new dict, with options."""
-        return copy.deepcopy(self._report)
 
     def __repr__(self) -> str:
         return (
@@ -115,7 +79,7 @@ def torus_map(
     native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
     report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
-    return TileMap(report, native.uv, native.flipped_faces, source)
+    return TileMap(report, native, source)
 
 
 def ring_map(
@@ -159,4 +123,4 @@ def ring_map(
     report = native.report()
     report["options"] = {"outer": outer, "inner": inner, "holes": holes, "tolerance": options.tolerance,
                          "max_sweeps": options.max_sweeps}  # fmt: skip
-    return TileMap(report, native.uv, native.flipped_faces, source)
+    return TileMap(report, native, source)
