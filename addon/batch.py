@@ -71,11 +71,11 @@ from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, Request, par
 from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
-from koebe_uv_batch.jobs.domain_job import SphereJob  # noqa: E402
+from koebe_uv_batch.jobs.domain_job import SchottkyJob, SphereJob  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.jobs.tile_job import TileJob  # noqa: E402
 from koebe_uv_batch.maps import wording  # noqa: E402
-from koebe_uv_batch.maps.options import SphereChoice  # noqa: E402
+from koebe_uv_batch.maps.options import SchottkyChoice, SphereChoice  # noqa: E402
 from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
 
 OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
@@ -241,6 +241,8 @@ def job_of(objects: list[MeshObject], request: Request) -> Job:
         return Job(objects, request.options)
     if isinstance(request.domain, SphereChoice):
         return SphereJob(objects, request.options, request.domain)
+    if isinstance(request.domain, SchottkyChoice):
+        return SchottkyJob(objects, request.options, request.domain)
     return TileJob(objects, request.options, request.domain)
 
 

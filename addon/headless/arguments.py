@@ -12,7 +12,7 @@ from .exit_and_signals import USAGE, Stop
 LARGEST = 2**31 - 1  # of the native module's whole numbers
 CHECKER_SIZES = (1e-3, 1e6)  # squares across the UV square that a 32-bit texture coordinate can tell apart
 DISK = "disk"
-OF_DOMAINS = ("domain", "holes", "fit", "layout")
+OF_DOMAINS = ("domain", "holes", "fit", "layout", "normalization")
 OF_ALL = {"tolerance", "max_sweeps", "layer", "checker", "checker_size", "checker_even", "threads"}  # of every domain
 IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
 WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
@@ -38,7 +38,7 @@ class Request:
     report: str | None
     names: list[str] | None
     options: options.Options
-    domain: options.TileChoice | options.SphereChoice | None
+    domain: options.OtherDomain | None
     library: Library
     ends_with_input: bool
 
@@ -73,12 +73,13 @@ def parse(arguments: list[str]) -> Request:
         help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
     )  # fmt: skip
     parser.add_argument(
-        "--domain", choices=(DISK, *options.TILE_DOMAINS, options.SPHERE), default=DISK,
-        help="torus, ring: UVs that are a tile; sphere: its layout",
+        "--domain", choices=(DISK, *options.CHOICES), default=DISK,
+        help="torus, ring: UVs that are a tile; sphere: its layout; schottky: handles cut open",
     )  # fmt: skip
     parser.add_argument("--holes", choices=options.HOLES, help="of --domain ring")
     parser.add_argument("--fit", choices=options.FITS, help="of --domain torus and ring")
     parser.add_argument("--layout", choices=options.LAYOUTS, help="of --domain sphere")
+    parser.add_argument("--normalization", choices=options.NORMALIZATIONS, help="of --domain schottky")
     parser.add_argument("--method", choices=options.METHODS, default=default.method)
     parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
     parser.add_argument(
@@ -128,12 +129,13 @@ def parse(arguments: list[str]) -> Request:
     )  # fmt: skip
 
 
-def _domain_choice(
-    own: dict[str, Any], values: dict[str, Any], given: set[str]
-) -> options.TileChoice | options.SphereChoice | None:
+def _domain_choice(own: dict[str, Any], values: dict[str, Any], given: set[str]) -> options.OtherDomain | None:
     """What is asked for of a domain, or None for a disk; options of another domain are wrong usage."""
     domain = own["domain"]
-    known = {DISK: set(values), "torus": {"fit"}, "ring": {"holes", "fit"}, options.SPHERE: {"layout"}}[domain]
+    known = {
+        DISK: set(values), "torus": {"fit"}, "ring": {"holes", "fit"}, options.SPHERE: {"layout"},
+        options.SCHOTTKY: {"normalization"},
+    }[domain]  # fmt: skip
     others = {*own, *values} - known - OF_ALL - {"domain"}
     for name in sorted(given & others):
         raise Stop(USAGE, f"--{name.replace('_', '-')} is not of --domain {domain}")
@@ -142,10 +144,9 @@ def _domain_choice(
     try:
         asked = {name: value for name, value in own.items() if value is not None}
         asked.update(tolerance=values["tolerance"], max_sweeps=values["max_sweeps"])
-        if domain == options.SPHERE:
+        if domain not in options.TILE_DOMAINS:
             del asked["domain"]
-            return options.SphereChoice(**asked)
-        return options.TileChoice(**asked)
+        return options.CHOICES[domain](**asked)
     except options.OptionError as error:
         raise Stop(USAGE, error) from None
 

@@ -11,8 +11,9 @@ from ..blender.copied_object import add_copied_object
 from ..blender.mesh_object import MeshObject
 from ..blender.transaction import Transaction
 from ..maps.domain_outcomes import DomainChoice, DomainOutcome
+from ..maps.handles import SchottkyOutcome, map_handles
 from ..maps.json_report import domain_entries
-from ..maps.options import Options, SphereChoice
+from ..maps.options import Options, SchottkyChoice, SphereChoice
 from ..maps.outcomes import LATER, Progress, Task, share_of
 from ..maps.sphere_copy import sphere_copy
 from ..maps.spheres import SphereOutcome, map_spheres
@@ -88,3 +89,12 @@ class SphereJob(DomainJob):
             right = origin.x + float(across.max() + BESIDE * np.ptp(across))
             place, copy = (right, origin.y, origin.z), sphere_copy(outcome)
             add_copied_object(run, bpy.context, plan.obj, copy, self.options.layer, plan.uv, place, "Sphere")
+
+
+class SchottkyJob(DomainJob):
+    """Maps to fundamental domains of Schottky groups."""
+
+    choice: SchottkyChoice
+
+    def _map(self, task: Task, progress: Progress | None) -> SchottkyOutcome:
+        return map_handles(self.koebe, task, self.choice, progress, self.cancel_token)

@@ -19,7 +19,7 @@ from .wording import counted, own_warnings, too_uneven
 
 
 class DomainChoice(Protocol):
-    """What to compute: a `TileChoice` or a `SphereChoice`."""
+    """What to compute: one of `options.OtherDomain`."""
 
     @property
     def domain(self) -> str: ...

@@ -9,16 +9,17 @@ from .wording import counted
 
 
 class DomainError(MapError):
-    """A surface that is no such domain. `offer` is the operator that takes it: "parts", or a domain's name."""
+    """A surface that is no such domain. `offer` are the operators that take it: "parts", "uniformize", or a domain's
+    name."""
 
-    def __init__(self, reason: str, offer: str) -> None:
+    def __init__(self, reason: str, *offer: str) -> None:
         super().__init__(reason)
         self.offer = offer
 
 
 @dataclasses.dataclass(frozen=True)
 class Domain:
-    """A canonical domain that is no disk: its UVs are a tile, or the layout of a sphere.
+    """A canonical domain that is no disk: its UVs are a tile, the layout of a sphere, or cut open at the handles.
 
     title  what one such map is called
     check  of the number of handles and of boundary loops; raises DomainError
@@ -28,11 +29,16 @@ class Domain:
     check: Callable[[int, int], None]
 
 
+def _takers(handles: int) -> tuple[str, ...]:
+    """The operators that take a surface with so many handles, one at least."""
+    return ("torus",) if handles == 1 else ("schottky", "parts")
+
+
 def _check_torus(handles: int, loops: int) -> None:
     if handles == 1:
         return
     if handles:
-        raise DomainError(f"this surface has {handles} handles: a torus tile needs exactly one", "parts")
+        raise DomainError(f"this surface has {handles} handles: a torus tile needs exactly one", *_takers(handles))
     raise DomainError(
         "this surface has no handle: a torus tile needs one, like that of a mug", "ring" if loops > 1 else "parts"
     )
@@ -41,7 +47,7 @@ def _check_torus(handles: int, loops: int) -> None:
 def _check_ring(handles: int, loops: int) -> None:
     if handles:
         had = counted(handles, "handle")
-        raise DomainError(f"this surface has {had}: a cylinder has none", "torus" if handles == 1 else "parts")
+        raise DomainError(f"this surface has {had}: a cylinder has none", *_takers(handles))
     if loops < 2:
         had = "one boundary loop" if loops else "no boundary loop"
         raise DomainError(f"this surface has {had}: a cylinder needs two, its rims", "parts")
@@ -50,12 +56,20 @@ def _check_ring(handles: int, loops: int) -> None:
 def _check_sphere(handles: int, loops: int) -> None:
     if handles:
         had = counted(handles, "handle")
-        raise DomainError(f"this surface has {had}: a sphere has none", "torus" if handles == 1 else "parts")
+        raise DomainError(f"this surface has {had}: a sphere has none", *_takers(handles))
 
 
-# By the names that `koebe.torus_map`, `koebe.ring_map`, `koebe.sphere_map` and the operators have.
+def _check_schottky(handles: int, loops: int) -> None:
+    if not handles:
+        raise DomainError(
+            "this surface has no handle: Unwrap Handles needs one at least", "uniformize" if loops else "sphere"
+        )
+
+
+# By the names that the operators have, and `koebe.torus_map`, `ring_map`, `sphere_map` and `schottky_map`.
 DOMAINS = {
     "torus": Domain("torus tile", _check_torus),
     "ring": Domain("cylinder", _check_ring),
     "sphere": Domain("sphere", _check_sphere),
+    "schottky": Domain("fundamental domain", _check_schottky),
 }

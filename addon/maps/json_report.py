@@ -7,6 +7,7 @@ import numpy as np
 
 from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import elements_of, kind_of
+from .handles import SchottkyIsland, SchottkyOutcome
 from .opening import Opening
 from .outcomes import Failure, IslandOutcome, SurfaceOutcome, Task
 from .rounding import RESOLUTION
@@ -50,6 +51,8 @@ def domain_entries(outcome: DomainOutcome) -> list[dict[str, Any]]:
     """One dict per island: `result.to_dict()` in the mesh's numbers, as it is in the UVs, or the error."""
     if isinstance(outcome, TileOutcome):
         return [_tile_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
+    if isinstance(outcome, SchottkyOutcome):
+        return [_schottky_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
     assert isinstance(outcome, SphereOutcome)
     return [_sphere_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
 
@@ -66,6 +69,20 @@ def _sphere_entry(outcome: SphereOutcome, index: int, one: SphereIsland) -> dict
     result["turned"] = _faces(one, result["turned"])
     for key in ("crossing", "torn", "flipped", "below_resolution"):
         result["layout"][key] = _faces(one, result["layout"][key])
+    result["warnings"] = _domain_warnings(outcome, one)
+    return {**result, **entry, "domain": outcome.choice.domain}
+
+
+def _schottky_entry(outcome: SchottkyOutcome, index: int, one: SchottkyIsland) -> dict[str, Any]:
+    """Circles and generators are those of `koebe.SchottkyMap`."""
+    entry = _head(outcome.task, index, one)
+    if one.error is not None:
+        return entry
+    result, source = one.result.to_dict(), one.island.source_vertex
+    for part, key in (("loops", "vertices"), ("handles", "cut")):
+        for path in result[part]:
+            path[key] = source[np.asarray(path[key], dtype=np.int64)].tolist()
+    result["turned"] = _faces(one, result["turned"])
     result["warnings"] = _domain_warnings(outcome, one)
     return {**result, **entry, "domain": outcome.choice.domain}
 

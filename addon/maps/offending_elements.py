@@ -8,8 +8,8 @@ from .outcomes import Failure
 from .surface import Island, Surface
 
 VERTICES, EDGES, FACES = "vertices", "edges", "faces"
-# Kinds of `koebe.TopologyError` whose elements are vertices worth showing.
-SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus")
+# Kinds of errors whose elements are vertices worth showing.
+SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus", "cut")
 
 
 def offending_elements(surface: Surface, failure: Failure) -> tuple[str, np.ndarray]:

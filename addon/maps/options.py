@@ -15,10 +15,12 @@ SYMMETRIES = ("off", "auto")
 PLACEMENTS = ("pack", "together", "keep")
 TILE_DOMAINS = ("torus", "ring")
 SPHERE = "sphere"
+SCHOTTKY = "schottky"
 LAYOUTS = ("equirectangular", "octahedral")
 HOLES = ("circles", "concentric", "radial")
 RIMS = ("auto", "selected")
 FITS = ("inside", "period", "square")
+NORMALIZATIONS = ("area", "circles")
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
 MAX_LAYER_NAME_BYTES = 63
@@ -170,6 +172,32 @@ class SphereChoice:
     def domain(self) -> str:
         """As of a `TileChoice`."""
         return SPHERE
+
+
+@dataclasses.dataclass(frozen=True)
+class SchottkyChoice:
+    """What to compute of a map to a fundamental domain of a Schottky group.
+
+    normalization  of a surface with holes, "area" (texels as even as can be) or "circles" (the most room for equally
+                   large circles of the handles)
+    """
+
+    normalization: str = "area"
+    tolerance: float = 1e-6
+    max_sweeps: int = 50
+
+    def __post_init__(self) -> None:
+        _one_of("normalization", self.normalization, NORMALIZATIONS)
+        _check_iteration(self.tolerance, self.max_sweeps)
+
+    @property
+    def domain(self) -> str:
+        """As of a `TileChoice`."""
+        return SCHOTTKY
+
+
+OtherDomain = TileChoice | SphereChoice | SchottkyChoice  # of maps that are to no disk
+CHOICES = {"torus": TileChoice, "ring": TileChoice, SPHERE: SphereChoice, SCHOTTKY: SchottkyChoice}
 
 
 def _check_iteration(tolerance: float, max_sweeps: int) -> None:

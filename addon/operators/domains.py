@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that map to domains that are no disk: tiles of a flat torus or a cylinder, layouts of a sphere."""
+"""The operators that map to domains that are no disk: tiles of a flat torus or a cylinder, layouts of a sphere,
+surfaces with handles cut open."""
 
 import bpy
 
 from ..blender import edit_mode
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
-from ..jobs.domain_job import DomainJob, SphereJob
+from ..jobs.domain_job import DomainJob, SchottkyJob, SphereJob
 from ..jobs.tile_job import TileJob
 from ..maps import wording
-from ..maps.options import SphereChoice
+from ..maps.options import SchottkyChoice, SphereChoice
 from ..state import run_report
 from ..state.option_properties import (
     ACCURACY_NAMES,
     RingProperties,
+    SchottkyProperties,
     SphereProperties,
     TorusProperties,
     domain_choice_of,
@@ -41,6 +43,8 @@ class DomainOperator(MapOperator):
         objects = target_objects(context)
         if isinstance(choice, SphereChoice):
             return SphereJob(objects, options, choice, selected_only, refused=[])
+        if isinstance(choice, SchottkyChoice):
+            return SchottkyJob(objects, options, choice, selected_only, refused=[])
         return TileJob(objects, options, choice, selected_only, refused=[])
 
     def _finish(self, context: bpy.types.Context, job: DomainJob) -> set[str]:
@@ -105,5 +109,20 @@ class UV_OT_koebe_sphere(DomainOperator, SphereProperties, bpy.types.Operator):
     options_shown = shown("sphere")
 
 
-OPERATORS = {"torus": UV_OT_koebe_torus, "ring": UV_OT_koebe_ring, "sphere": UV_OT_koebe_sphere}
+class UV_OT_koebe_schottky(DomainOperator, SchottkyProperties, bpy.types.Operator):
+    """Unwrap a surface with any number of handles, closed or with holes, into the disk: angles are kept, holes are
+    round, and both sides of each cut through a handle differ by a Möbius map. The cuts are in the UVs alone"""
+
+    bl_idname = "uv.koebe_schottky"
+    bl_label = "Koebe Unwrap Handles"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
+    domain = "schottky"
+    options_shown = shown("schottky")
+
+
+OPERATORS = {
+    "torus": UV_OT_koebe_torus, "ring": UV_OT_koebe_ring, "sphere": UV_OT_koebe_sphere,
+    "schottky": UV_OT_koebe_schottky,
+}  # fmt: skip
 register, unregister = bpy.utils.register_classes_factory(tuple(OPERATORS.values()))

@@ -7,11 +7,12 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from ..maps.options import Options, SphereChoice, TileChoice
+from ..maps.options import CHOICES, Options, OtherDomain, SchottkyChoice, SphereChoice, TileChoice
 
 DEFAULTS = Options()
 DEFAULT_TILE = TileChoice()
 DEFAULT_SPHERE = SphereChoice()
+DEFAULT_SCHOTTKY = SchottkyChoice()
 
 
 class UniformizeProperties:
@@ -292,6 +293,19 @@ ADD_SPHERE = BoolProperty(
 )
 
 
+NORMALIZATION = EnumProperty(
+    name="Normalization",
+    items=[
+        ("area", "Even Texels", "The map whose texels are the most even"),
+        ("circles", "Equal Circles", "The map that leaves the most room to the circles along which the UVs are cut, "
+         "both of each handle equally large"),
+    ],
+    default=DEFAULT_SCHOTTKY.normalization,
+    description="Which of the maps of a surface with holes: they differ by a Möbius map of the disk. Without holes it "
+    "makes no difference",
+)
+
+
 class DomainProperties:
     """What the artist can choose of other domains, of the options of all maps."""
 
@@ -310,6 +324,12 @@ class SphereProperties(DomainProperties):
     add_sphere: ADD_SPHERE
 
 
+class SchottkyProperties(DomainProperties):
+    """What the artist can choose of a surface with handles that are cut open."""
+
+    normalization: NORMALIZATION
+
+
 class TorusProperties(DomainProperties):
     """What the artist can choose of a torus tile."""
 
@@ -326,11 +346,16 @@ class RingProperties(TorusProperties):
 TORUS_OPTION_NAMES = (*TorusProperties.__annotations__, *DomainProperties.__annotations__)
 RING_OPTION_NAMES = (*RingProperties.__annotations__, *TORUS_OPTION_NAMES)
 SPHERE_OPTION_NAMES = (*SphereProperties.__annotations__, *DomainProperties.__annotations__)
+SCHOTTKY_OPTION_NAMES = (*SchottkyProperties.__annotations__, *DomainProperties.__annotations__)
+DOMAIN_OPTION_NAMES = {
+    "torus": TORUS_OPTION_NAMES, "ring": RING_OPTION_NAMES, "sphere": SPHERE_OPTION_NAMES,
+    "schottky": SCHOTTKY_OPTION_NAMES,
+}  # fmt: skip
 
 
 def domain_option_names(domain: str) -> tuple[str, ...]:
     """The options of the operator of a domain."""
-    return {"torus": TORUS_OPTION_NAMES, "ring": RING_OPTION_NAMES, "sphere": SPHERE_OPTION_NAMES}[domain]
+    return DOMAIN_OPTION_NAMES[domain]
 
 
 class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
@@ -344,10 +369,13 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     rims: RIMS
     layout: LAYOUT
     add_sphere: ADD_SPHERE
+    normalization: NORMALIZATION
 
 
 SETTING_NAMES = tuple(
-    dict.fromkeys((*OPTION_NAMES, *PART_OPTION_NAMES, *RING_OPTION_NAMES, *SPHERE_OPTION_NAMES))
+    dict.fromkeys(
+        (*OPTION_NAMES, *PART_OPTION_NAMES, *RING_OPTION_NAMES, *SPHERE_OPTION_NAMES, *SCHOTTKY_OPTION_NAMES)
+    )
 )
 
 
@@ -374,12 +402,12 @@ def copy_domain_options(source: Any, target: Any, domain: str) -> None:
         setattr(target, name, getattr(source, name))
 
 
-def domain_choice_of(domain: str, properties: Any) -> TileChoice | SphereChoice:
-    """The `TileChoice` or `SphereChoice` of the operator of a domain. Raises OptionError."""
-    kind = SphereChoice if domain == "sphere" else TileChoice
+def domain_choice_of(domain: str, properties: Any) -> OtherDomain:
+    """The choice of the operator of a domain. Raises OptionError."""
+    kind = CHOICES[domain]
     known = {field.name for field in dataclasses.fields(kind)}.intersection(domain_option_names(domain))
     values = {name: getattr(properties, name) for name in known}
-    return SphereChoice(**values) if domain == "sphere" else TileChoice(domain, **values)
+    return TileChoice(domain, **values) if kind is TileChoice else kind(**values)
 
 
 def written_options_of(properties: Any) -> Options:

@@ -23,6 +23,7 @@ from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried
 from ..maps.circle_fit import fitted_circle
 from ..maps.domain_outcomes import DomainOutcome
+from ..maps.handles import SchottkyIsland, SchottkyOutcome
 from ..maps.offending_elements import offending_elements
 from ..maps.outcomes import IslandOutcome, SurfaceOutcome
 from ..maps.parts import PartsOutcome
@@ -65,12 +66,14 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     density: FloatProperty(description="Of parts, or on a sphere: density at 95 % of the area over that at 5 %")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
-    domain: StringProperty(description="The domain: torus, ring or sphere; else empty")
+    domain: StringProperty(description="The domain: torus, ring, sphere or schottky; else empty")
     modulus: StringProperty(description="Of a torus the ratio of its periods, of a cylinder i times height over period")
     periods: StringProperty(description="Of a tile: its periods in the UVs")
     layout: StringProperty(description="Of a sphere: how it is laid out as UVs")
     torn_faces: StringProperty(description="Of a sphere: the faces that fit to no UVs of its layout, as JSON")
-    offer: StringProperty(description="The operator that takes an island that this one does not: parts, torus or ring")
+    handles: IntProperty(description="Of a fundamental domain: the handles that are cut open")
+    by_circles: BoolProperty(description="Of a fundamental domain: whether the UVs are cut along circles, or edges")
+    offer: StringProperty(description="The operators that take an island that this one does not, with spaces between")
     moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
     corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
     history: StringProperty(description="What the report was for each state of such an island, as JSON")
@@ -184,7 +187,7 @@ def record_domains(
     layer: str,
     refused: list[tuple[str, str]],
 ) -> None:
-    """Replace the report by the tiles or spheres of objects, an entry for each island."""
+    """Replace the report by the other domains of objects, an entry for each island."""
     with _new_report(run, context, refused) as report:
         for outcome in outcomes:
             if outcome.not_written:
@@ -196,7 +199,7 @@ def record_domains(
                 if one.error is None:
                     _record_domain(entry, outcome, one)
                     continue
-                entry.message, entry.offer = explain(one.error), getattr(one.error, "offer", "")
+                entry.message, entry.offer = explain(one.error), " ".join(getattr(one.error, "offer", ()))
                 kind, elements = offending_elements(outcome.task.surface, one)
                 entry.offenders = json.dumps([kind, elements.tolist()])
 
@@ -216,6 +219,8 @@ def _record_domain(entry: KoebeIslandReport, outcome: DomainOutcome, one: Any) -
         _record_tile(entry, outcome, one)
     elif isinstance(outcome, SphereOutcome):
         _record_sphere(entry, outcome, one)
+    elif isinstance(outcome, SchottkyOutcome):
+        _record_handles(entry, one)
 
 
 def _record_tile(entry: KoebeIslandReport, outcome: TileOutcome, one: TileIsland) -> None:
@@ -231,6 +236,13 @@ def _record_sphere(entry: KoebeIslandReport, outcome: SphereOutcome, one: Sphere
     entry.torn_faces = json.dumps(one.torn_faces.tolist())
     for number, (loop, of_loop) in enumerate(zip(entry.loops, one.result.loops, strict=True)):
         loop.radius, loop.name = of_loop["radius"], f"{number + 1}"
+
+
+def _record_handles(entry: KoebeIslandReport, one: SchottkyIsland) -> None:
+    entry.handles, entry.by_circles = len(one.result.handles), one.result.by_circles
+    for number, (loop, (center, radius)) in enumerate(zip(entry.loops, one.circles, strict=True)):
+        loop.uv_center, loop.uv_radius = center, radius
+        loop.name = f"{number}" if number else "Rim"
 
 
 def _record_failure(report: KoebeReport, name: str, text: str) -> None:

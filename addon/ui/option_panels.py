@@ -79,6 +79,8 @@ class DomainsPanel(ClosedPanel):
         draw_domain_button(column, settings, "sphere")
         for name in ("layout", "add_sphere"):
             draw_option(column, settings, name, context)
+        draw_domain_button(column, settings, "schottky")
+        draw_option(column, settings, "normalization", context)
 
 
 class LayerPanel(ClosedPanel):

@@ -45,10 +45,11 @@ def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial:
     copy_part_options(settings, button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
 
 
-DOMAIN_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER", "MESH_UVSPHERE"]]] = {
+DOMAIN_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER", "MESH_UVSPHERE", "META_ELLIPSOID"]]] = {
     "torus": ("Unwrap to Torus Tile", "MESH_TORUS"),
     "ring": ("Unwrap to Cylinder", "MESH_CYLINDER"),
     "sphere": ("Unwrap to Sphere", "MESH_UVSPHERE"),
+    "schottky": ("Unwrap Handles", "META_ELLIPSOID"),
 }
 
 

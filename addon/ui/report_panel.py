@@ -106,7 +106,13 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         ("Torn", f"{torn}"),
         sweeps,
     ]
-    of_domain = of_sphere if entry.domain == "sphere" else of_tile
+    of_handles = [
+        ("Handles", f"{entry.handles}"),
+        ("Holes", f"{len(entry.loops)}"),
+        ("Cut along", "circles" if entry.by_circles else "edges"),
+        sweeps,
+    ]
+    of_domain = {"sphere": of_sphere, "schottky": of_handles}.get(entry.domain, of_tile)
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),
         *(of_parts if entry.parts else of_domain if entry.domain else of_circles),
@@ -132,11 +138,15 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
 
 
 def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
-    """The button of what takes a surface that is no such domain."""
-    if entry.offer in DOMAIN_BUTTONS:
-        draw_domain_button(column, settings_of(context), entry.offer)
-    elif entry.offer:
-        draw_parts_button(column, settings_of(context), dial=False)
+    """The buttons of what takes a surface that is no such domain."""
+    for offer in entry.offer.split():
+        if offer in DOMAIN_BUTTONS:
+            draw_domain_button(column, settings_of(context), offer)
+        elif offer == "uniformize":
+            button = column.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE")
+            copy_options(settings_of(context), button)
+        else:
+            draw_parts_button(column, settings_of(context), dial=False)
 
 
 def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:

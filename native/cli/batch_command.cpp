@@ -14,6 +14,7 @@
 #include "batch/program.h"
 #include "batch/summary.h"
 #include "core/counted.h"
+#include "domains/schottky_map.h"
 #include "domains/sphere_map.h"
 #include "domains/tile_map.h"
 
@@ -32,12 +33,14 @@ namespace fs = std::filesystem;
 constexpr const char* disk_domain = "disk";
 constexpr const char* ring_domain = "ring";
 constexpr const char* sphere_domain = "sphere";
+constexpr const char* schottky_domain = "schottky";
 
 struct Request : MapRequest {
     UniformizeWords words;
     std::vector<CLI::Option*> forwarded;  ///< the options of a map
     std::string domain = disk_domain, holes = to_string(RingHoles::circles),
-                layout = to_string(SphereLayout::equirectangular);
+                layout = to_string(SphereLayout::equirectangular),
+                normalization = to_string(SchottkyNormalization::area);
     std::vector<std::string> inputs, blender_arguments;
     std::string folder, base, format = "obj", blender, blender_script;
     int workers = 0;
@@ -80,8 +83,8 @@ void add_batch_options(CLI::App& app, Request& request)
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
     app.add_option("--domain", request.domain,
-                   "disk: koebe uniformize; torus, ring: those commands, UVs that are a tile; sphere: that command")
-        ->check(CLI::IsMember({disk_domain, "torus", ring_domain, sphere_domain}))
+                   "disk: koebe uniformize; torus, ring: those commands, UVs that are a tile; sphere, schottky: those")
+        ->check(CLI::IsMember({disk_domain, "torus", ring_domain, sphere_domain, schottky_domain}))
         ->capture_default_str();
     app.add_option("--holes", request.holes, "of --domain ring: what becomes of the loops that are no rims")
         ->check(CLI::IsMember(
@@ -89,6 +92,9 @@ void add_batch_options(CLI::App& app, Request& request)
         ->capture_default_str();
     app.add_option("--layout", request.layout, "of --domain sphere: the sphere as texture coordinates")
         ->check(CLI::IsMember({to_string(SphereLayout::equirectangular), to_string(SphereLayout::octahedral)}))
+        ->capture_default_str();
+    app.add_option("--normalization", request.normalization, "of --domain schottky: even texels, or equal circles")
+        ->check(CLI::IsMember({to_string(SchottkyNormalization::area), to_string(SchottkyNormalization::circles)}))
         ->capture_default_str();
     const std::string group = "Files of Blender";
     app.add_option("--blender", request.blender, "map .blend files too, by this program and the add-on")
@@ -110,6 +116,8 @@ void check_domain(const CLI::App& app, const Request& request)
         throw CLI::ValidationError("--holes", "is of --domain ring");
     if (app.count("--layout") > 0 && request.domain != sphere_domain)
         throw CLI::ValidationError("--layout", "is of --domain sphere");
+    if (app.count("--normalization") > 0 && request.domain != schottky_domain)
+        throw CLI::ValidationError("--normalization", "is of --domain schottky");
     if (request.domain == disk_domain) return;
     for (const CLI::Option* option : request.forwarded)
         if (option->count() > 0 && !option->check_name("--tolerance") && !option->check_name("--max-sweeps"))
@@ -123,6 +131,7 @@ nlohmann::ordered_json recipe_options(const Request& request)
     nlohmann::ordered_json report{{"domain", request.domain}};
     if (request.domain == ring_domain) report["holes"] = request.holes;
     if (request.domain == sphere_domain) report["layout"] = request.layout;
+    if (request.domain == schottky_domain) report["normalization"] = request.normalization;
     report.update({{"tolerance", request.options.tolerance}, {"max_sweeps", request.options.max_sweeps}});
     return report;
 }
@@ -133,6 +142,7 @@ std::vector<std::string> given_words(const Request& request, bool with_threads)
     std::vector<std::string> words;
     if (request.domain == ring_domain) words.push_back("--holes=" + request.holes);
     if (request.domain == sphere_domain) words.push_back("--layout=" + request.layout);
+    if (request.domain == schottky_domain) words.push_back("--normalization=" + request.normalization);
     for (const CLI::Option* option : request.forwarded) {
         if (option->count() == 0 || (!with_threads && option->check_name("--threads"))) continue;
         if (option->get_expected_max() == 0) {  // a flag

@@ -210,12 +210,13 @@ class RandomRun:
         if name == "uv.koebe_parts":
             return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5, 1.0]),
                     "seams": one(["add", "only"]), "write_seams": one([True, False])}  # fmt: skip
-        if name in ("uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere"):
+        if name in ("uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky"):
             own = {
                 "uv.koebe_torus": {"fit": one(["inside", "period", "square"])},
                 "uv.koebe_ring": {"fit": one(["inside", "period", "square"]), "rims": one(["auto", "auto", "selected"]),
                                   "holes": one(["circles", "concentric", "radial"])},
                 "uv.koebe_sphere": {"layout": one(["equirectangular", "octahedral"]), "add_sphere": one([True, False])},
+                "uv.koebe_schottky": {"normalization": one(["area", "circles"])},
             }[name]  # fmt: skip
             return {"layer": layer, "checker": one([True, False]), "checker_even": one([True, False]),
                     "checker_size": one([8.0, 32.0]), "max_sweeps": one([1, 50]), **own}  # fmt: skip
@@ -237,7 +238,7 @@ class RandomRun:
     def _call(self):
         name = self._one([
             "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_checker",
-            "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_sphere",
+            "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_sphere", "uv.koebe_schottky",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import balls
 import bpy
+import handles
 import numpy as np
 import pytest
 import scenes
@@ -106,6 +107,23 @@ def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
     (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
     assert entry["domain"] == "sphere" and entry["layout"]["kind"] == layout and entry["converged"] is True
     assert entry["flipped"] == 0 and len(entry["loops"]) == 1 and 0 < entry["loops"][0]["radius"] < 1
+
+
+@pytest.mark.parametrize("normalization", ["area", "circles"])
+def test_handles_are_those_of_the_operator(batch, tmp_path, normalization):
+    obj = handles.add_plate(holes=handles.HOLE)
+    words = ["--domain", "schottky", "--normalization", normalization, "--layer", "Own"]
+    done = batch("--output", "out.blend", "--report", "out.json", *words)
+    assert done.returncode == 0, done.stderr
+    assert "Plate: 1 fundamental domain, 2 handles, 1 hole, cut along " in done.stdout
+    assert bpy.ops.uv.koebe_schottky(layer="Own", normalization=normalization) == {"FINISHED"}
+    expected = scenes.corner_uv(obj.data, "Own").copy()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Plate"].data, "Own"), expected)
+    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    assert entry["domain"] == "schottky" and entry["options"]["normalization"] == normalization
+    assert entry["converged"] is True and entry["flipped"] == 0
+    assert (len(entry["handles"]), len(entry["loops"])) == (2, 1)
 
 
 def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):

@@ -189,7 +189,7 @@ def test_nothing_is_added_where_nothing_is_mapped():
 
 WRONG = {
     "a torus": (add_torus, "this surface has 1 handle: a sphere has none", "torus"),
-    "two handles": (lambda: pretzel(), "this surface has 2 handles: a sphere has none", "parts"),
+    "two handles": (lambda: pretzel(), "this surface has 2 handles: a sphere has none", "schottky parts"),
 }
 
 

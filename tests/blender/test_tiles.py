@@ -217,11 +217,11 @@ def two_handles():
 
 
 WRONG = {
-    "two handles": ("torus", two_handles, "this surface has 2 handles: a torus tile needs exactly one", "parts"),
+    "two handles": ("torus", two_handles, "this surface has 2 handles: a torus tile needs exactly one", "schottky parts"),
     "a panel": ("torus", scenes.add_panel, "this surface has no handle: a torus tile needs one", "ring"),
     "a cube": ("torus", scenes.add_cube, "this surface has no handle", "parts"),
     "a torus": ("ring", add_torus, "this surface has 1 handle: a cylinder has none", "torus"),
-    "a pretzel": ("ring", two_handles, "this surface has 2 handles: a cylinder has none", "parts"),
+    "a pretzel": ("ring", two_handles, "this surface has 2 handles: a cylinder has none", "schottky parts"),
     "a closed cube": ("ring", scenes.add_cube, "this surface has no boundary loop: a cylinder needs two", "parts"),
     "a cup": ("ring", lambda: scenes.add_cube(closed=False), "this surface has one boundary loop", "parts"),
 }

@@ -25,7 +25,7 @@ class Touched:
     def on_error(self, key):
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
-        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere")
+        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky")
         if self._name not in (*selecting, "uv.koebe_parts"):
             return False
         return key == "file: report" or (self._name in selecting and self._selects(owner, what))
@@ -68,7 +68,7 @@ class Touched:
             or (self._options.get("checker", True) and self._dresses(owner, what))
         )  # fmt: skip
 
-    _torus = _ring = _uniformize
+    _torus = _ring = _schottky = _uniformize
 
     def _sphere(self, owner, what):
         """With new data, if asked for: a copy of the object, which shares the materials."""

@@ -38,13 +38,15 @@ WRONG = [
     *([*OUT, f"--{name}", "nonsense"] for name in ("method", "engine", "balance", "tube", "placement")),
     *([*OUT, "--objects", value] for value in ("", ",", "A,", ",A", '"A', '"A"B', '""')),
     [*OUT, "--polish=yes"], [*OUT, "--objects"],
-    [*OUT, "--domain", "ball"], [*OUT, "--layout", "octahedral"],
+    [*OUT, "--domain", "ball"], [*OUT, "--layout", "octahedral"], [*OUT, "--normalization", "area"],
     [*OUT, "--holes", "circles"], [*OUT, "--fit", "square"],
     *([*OUT, "--domain", "torus", *words] for words in
       (["--layout", "octahedral"],
        ["--holes", "radial"], ["--tube", "unroll"], ["--no-cut"], ["--outer", "3"], ["--tolerance", "0"])),
     *([*OUT, "--domain", "sphere", *words] for words in
       (["--layout", "flat"], ["--holes", "radial"], ["--fit", "inside"], ["--tube", "unroll"], ["--max-sweeps", "0"])),
+    *([*OUT, "--domain", "schottky", *words] for words in
+      (["--normalization", "none"], ["--layout", "octahedral"], ["--balance", "area"], ["--tolerance", "nan"])),
     *([*OUT, "--domain", "ring", *words] for words in
       (["--holes", "square"], ["--fit", "tight"], ["--balance", "none"], ["--symmetry", "auto"], ["--margin", "0"])),
 ]  # fmt: skip
@@ -130,3 +132,8 @@ def test_the_options_of_a_tile(batch):
     sphere = batch("maps.options").SphereChoice
     assert parse([*OUT, "--domain", "sphere", "--layout", "octahedral"]).domain == sphere("octahedral")
     assert parse([*OUT, "--domain", "sphere", "--tolerance", "1e-4"]).domain == sphere(tolerance=1e-4)
+    handles = batch("maps.options").SchottkyChoice
+    words = ["--domain", "schottky", "--normalization", "circles"]
+    assert parse([*OUT, *words, "--max-sweeps", "9"]).domain == handles("circles", max_sweeps=9)
+    assert parse([*OUT, "--domain", "schottky"]).domain == handles()
+    assert parse([*OUT, *words]).library.each == ["--domain=schottky", "--normalization=circles"]

@@ -207,11 +207,32 @@ def test_spheres_are_those_of_the_command(tiles, tmp_path, layout):
     assert "unchanged" not in batch(tiles, "--output", out, "--domain", "sphere", "--layout", other).stdout
 
 
+@pytest.mark.parametrize("normalization", ["area", "circles"])
+def test_handles_are_those_of_the_command(tiles, tmp_path, normalization):
+    """The torus has one; the normalization is a part of the recipe."""
+    out, words = tmp_path / "out", ["--domain", "schottky", "--normalization", normalization]
+    done = batch(tiles, "--output", out, *words)
+    assert done.returncode == CANNOT_BE_MAPPED and done.stdout.startswith("3 files: 1 done, 2 failed;")
+    table = rows(out)
+    assert [table[name]["error"] for name in ("ring.obj", "closed.off")] == ["TopologyError(genus)"] * 2
+    row = table["torus.obj"]
+    assert row["options"] == {
+        "domain": "schottky", "normalization": normalization, "tolerance": 1e-6, "max_sweeps": 50}  # fmt: skip
+    assert row["flipped"] == 0 and row["faces"] > 0 and row["angle_error_deg"] > 0
+    koebe("schottky", tiles / "torus.obj", tmp_path / "alone.obj", "--normalization", normalization)
+    assert (tmp_path / "alone.obj").read_bytes() == (out / "torus.obj").read_bytes()
+    assert "(3 unchanged)" in batch(tiles, "--output", out, *words).stdout
+    other = {"area": "circles", "circles": "area"}[normalization]
+    assert "unchanged" not in batch(tiles, "--output", out, "--domain", "schottky", "--normalization", other).stdout
+
+
 @pytest.mark.parametrize("words", [
     ["--domain", "ball"], ["--holes", "radial"], ["--layout", "octahedral"], ["--domain", "torus", "--holes", "radial"],
     ["--domain", "torus", "--balance", "area"], ["--domain", "ring", "--cut"], ["--domain", "ring", "--outer", "3"],
     ["--domain", "ring", "--holes", "square"], ["--domain", "ring", "--layout", "octahedral"],
     ["--domain", "sphere", "--layout", "flat"], ["--domain", "sphere", "--polish"],
+    ["--normalization", "area"], ["--domain", "schottky", "--normalization", "none"],
+    ["--domain", "schottky", "--layout", "octahedral"], ["--domain", "torus", "--normalization", "area"],
 ], ids=" ".join)  # fmt: skip
 def test_options_of_another_domain_are_wrong_usage(tiles, tmp_path, words):
     done = batch(tiles, "--output", tmp_path / "out", *words)
@@ -229,6 +250,8 @@ def test_files_of_blender_are_told_the_domain(blends, tmp_path):
     assert len(files.runs("a")) == 2
     assert batch(*files.words, "--output", out, "--domain", "sphere", "--layout", "octahedral").returncode == 0
     assert rows(out)["a.blend"]["options"]["arguments"] == ["--domain=sphere", "--layout=octahedral"]
+    assert batch(*files.words, "--output", out, "--domain", "schottky", "--normalization", "circles").returncode == 0
+    assert rows(out)["a.blend"]["options"]["arguments"] == ["--domain=schottky", "--normalization=circles"]
 
 
 def test_each_file_has_a_result_a_report_and_a_row(library, tmp_path):

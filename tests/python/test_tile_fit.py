@@ -121,15 +121,17 @@ def test_flipped_triangles_are_counted_with_their_direction():
 
 
 @pytest.mark.parametrize("handles, loops, domain, offer", [
-    (0, 0, "torus", "parts"), (0, 1, "torus", "parts"), (0, 2, "torus", "ring"), (2, 0, "torus", "parts"),
-    (1, 3, "ring", "torus"), (2, 2, "ring", "parts"), (0, 0, "ring", "parts"), (0, 1, "ring", "parts"),
-    (1, 0, "sphere", "torus"), (1, 2, "sphere", "torus"), (2, 1, "sphere", "parts"),
+    (0, 0, "torus", "parts"), (0, 1, "torus", "parts"), (0, 2, "torus", "ring"), (2, 0, "torus", "schottky parts"),
+    (1, 3, "ring", "torus"), (2, 2, "ring", "schottky parts"), (0, 0, "ring", "parts"), (0, 1, "ring", "parts"),
+    (1, 0, "sphere", "torus"), (1, 2, "sphere", "torus"), (2, 1, "sphere", "schottky parts"),
+    (0, 0, "schottky", "sphere"), (0, 1, "schottky", "uniformize"), (0, 3, "schottky", "uniformize"),
 ])  # fmt: skip
 def test_what_is_no_such_domain_is_offered_another(handles, loops, domain, offer):
     domains = maps_module("domains")
     with pytest.raises(domains.DomainError, match="this surface has") as caught:
         domains.DOMAINS[domain].check(handles, loops)
-    assert caught.value.offer == offer
+    assert caught.value.offer == tuple(offer.split())
     domains.DOMAINS["torus"].check(1, loops)
     domains.DOMAINS["ring"].check(0, 2 + loops)
     domains.DOMAINS["sphere"].check(0, loops)
+    domains.DOMAINS["schottky"].check(1 + handles, loops)

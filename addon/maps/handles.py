@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces with handles as fundamental domains of Schottky groups: from a surface to UV coordinates of its corners."""
+
+import dataclasses
+import functools
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from .circle_fit import fitted_circle
+from .domain_outcomes import DomainIsland, DomainOutcome, checked_loops, islands_to_map, map_islands
+from .errors import MapError, elements_of, kind_of
+from .options import SchottkyChoice
+from .outcomes import LATER, Progress, Task
+from .rounding import RESOLUTION
+from .surface import Surface
+from .triangles import density_ratio, signed_areas
+from .wording import counted
+
+ROUND = 1e-3  # of its radius, by which the vertices of a hole that is round may be off its circle
+
+
+class CutError(MapError):
+    """Handles that cannot be cut open; `elements` are vertices of the cuts that there would be."""
+
+    kind = "cut"
+
+    def __init__(self, reason: str, elements: list[int]) -> None:
+        super().__init__(reason)
+        self.elements = elements
+
+
+@dataclasses.dataclass
+class SchottkyIsland(DomainIsland):
+    """What became of one island: a result of `koebe.schottky_map`, or an error.
+
+    circles  center (2,) and radius in the UVs of each loop of the result; 0 and 0 of one that the cuts have torn
+    """
+
+    circles: list[tuple[tuple[float, float], float]] = LATER
+
+    @functools.cached_property
+    def density_ratio(self) -> float:
+        """Texel density at 95 % of the area over that at 5 %."""
+        uv = self.result.uv
+        corners = np.arange(3 * len(uv)).reshape(-1, 3)
+        return density_ratio(self.island.areas, np.abs(signed_areas(uv.reshape(-1, 2), corners)))
+
+    def cut(self) -> str:
+        """What the UVs are cut along."""
+        return "circles" if self.result.by_circles else "edges"
+
+
+class SchottkyOutcome(DomainOutcome):
+    """What became of one surface: each island has the UV square for itself."""
+
+    choice: SchottkyChoice
+
+    def figures(self) -> list[str]:
+        results = [one.result for one in self.mapped]
+        return [
+            counted(sum(len(result.handles) for result in results), "handle"),
+            counted(sum(len(result.loops) for result in results), "hole"),
+            "cut along " + " and ".join(sorted({one.cut() for one in self.mapped})),
+        ]
+
+
+def map_handles(
+    koebe: ModuleType, task: Task, choice: SchottkyChoice, progress: Progress | None = None, cancel: Any = None
+) -> SchottkyOutcome:
+    """Map each island of the selected faces of a surface into the disk, its handles cut open. Polygons stay whole.
+
+    Errors are those of their islands; `koebe.Cancelled` goes on.
+    """
+    outcome = SchottkyOutcome(task, choice, [SchottkyIsland(island) for island in islands_to_map(task.surface)])
+
+    def map_one(one: SchottkyIsland, own: Progress | None) -> None:
+        _map(koebe, task.surface, one, choice, own, cancel)
+
+    map_islands(koebe, outcome.islands, map_one, progress)
+    return outcome
+
+
+def _map(
+    koebe: ModuleType,
+    surface: Surface,
+    one: SchottkyIsland,
+    choice: SchottkyChoice,
+    progress: Progress | None,
+    cancel: Any,
+) -> None:
+    island = one.island
+    checked_loops(koebe, island, choice.domain)
+    try:
+        result = koebe.schottky_map(
+            island.vertices, island.triangles, normalization=choice.normalization, tolerance=choice.tolerance,
+            max_sweeps=choice.max_sweeps, polygon=island.triangle_face, progress=progress, cancel=cancel,
+        )  # fmt: skip
+    except koebe.TopologyError as error:
+        if kind_of(error) != "genus":
+            raise
+        known = [vertex for vertex in elements_of(error) if vertex < len(island.vertices)]
+        raise CutError(str(error), known) from error  # not that it has handles
+    one.take_corners(surface, result.uv.astype(np.float32))
+    one.flipped = result.flipped_faces.astype(np.int64)
+    one.circles = [_circle(island.triangles, result.uv, loop["vertices"]) for loop in result.loops]
+    one.result = result
+
+
+def _circle(triangles: np.ndarray, uv: np.ndarray, loop: list[int]) -> tuple[tuple[float, float], float]:
+    """Of a loop whose corners, in the UVs (t, 3, 2) of triangles (t, 3), are on one circle, one for each vertex."""
+    at_loop = np.isin(triangles, loop)
+    places = np.unique(np.column_stack([triangles[at_loop], uv[at_loop]]), axis=0)
+    if len(places) == len(loop):
+        center, radius, off = fitted_circle(places[:, 1:])
+        if off < ROUND * radius + RESOLUTION:
+            return (float(center[0]), float(center[1])), radius
+    return (0.0, 0.0), 0.0
