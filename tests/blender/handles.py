@@ -24,6 +24,9 @@ def plate_arrays(windows=TWO, holes=(), size=1, n=None, m=7, bent=0.05):
     inside = (around[1:, 1:] + around[:-1, 1:] + around[1:, :-1] + around[:-1, :-1] == 4).ravel()
     lower = np.arange(inside.size) + inside * inside.size
     x, y = (one.ravel().astype(float) for one in np.meshgrid(np.arange(n + 1), np.arange(m + 1), indexing="ij"))
+    # Both sheets have three vertices of a corner's face: the diagonal between two of them must be in none.
+    corner = ((x == 0) | (x == n)) & ((y == 0) | (y == m))
+    x, y = x + 0.6 * corner * np.sign(n - 2 * x), y + 0.6 * corner * np.sign(m - 2 * y)
     height = bent * (x - n / 2) ** 2 + 0.1 * np.sin(y + 0.3 * x)
     upper_points = np.stack([x, y + 0.2 * np.sin(x), height + 0.7 * inside], axis=1)
     points = np.concatenate([upper_points, upper_points - (0, 0, 1.4)])

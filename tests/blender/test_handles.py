@@ -281,7 +281,7 @@ def wild_plate(random):
     if random.random() < 0.3:
         points, faces = damaged(random, points, faces)
     obj = scenes.add_object("Wild", points, faces)
-    return join_faces(random, obj, random.choice([0.0, 0.2, 0.6]))
+    return join_faces(random, obj, random.choice([0.0, 0.0, 0.1, 0.3]))
 
 
 def assert_is_cut_open(outcome, one):
