@@ -42,7 +42,7 @@ CASES = {
     "closed": (lambda: add_plate(), "area"),
     "holes": (lambda: add_plate(holes=HOLES), "area"),
     "a hole, circles": (lambda: add_plate(holes=HOLE), "circles"),
-    "three": (lambda: add_plate(windows=THREE, holes=HOLES), "area"),
+    "three": (lambda: add_plate(windows=THREE, holes=HOLE), "area"),
 }
 
 

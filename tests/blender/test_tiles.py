@@ -217,7 +217,7 @@ def two_handles():
 
 
 WRONG = {
-    "two handles": ("torus", two_handles, "this surface has 2 handles: a torus tile needs exactly one", "schottky parts"),
+    "two handles": ("torus", two_handles, "this surface has 2 handles: a torus tile needs", "schottky parts"),
     "a panel": ("torus", scenes.add_panel, "this surface has no handle: a torus tile needs one", "ring"),
     "a cube": ("torus", scenes.add_cube, "this surface has no handle", "parts"),
     "a torus": ("ring", add_torus, "this surface has 1 handle: a cylinder has none", "torus"),
