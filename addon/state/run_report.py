@@ -63,7 +63,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     cuts: StringProperty(description="Vertices of the mesh along each cut, as JSON, with the first of its pieces")
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
-    density: FloatProperty(description="Of parts, or on a sphere: density at 95 % of the area over that at 5 %")
+    density: FloatProperty(description="Density at 95 % of the area over that at 5 %, of a sphere on it")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     domain: StringProperty(description="The domain: torus, ring, sphere or schottky; else empty")
@@ -240,6 +240,7 @@ def _record_sphere(entry: KoebeIslandReport, outcome: SphereOutcome, one: Sphere
 
 def _record_handles(entry: KoebeIslandReport, one: SchottkyIsland) -> None:
     entry.handles, entry.by_circles = len(one.result.handles), one.result.by_circles
+    entry.density = one.density_ratio
     for number, (loop, (center, radius)) in enumerate(zip(entry.loops, one.circles, strict=True)):
         loop.uv_center, loop.uv_radius = center, radius
         loop.name = f"{number}" if number else "Rim"

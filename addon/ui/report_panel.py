@@ -110,6 +110,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         ("Handles", f"{entry.handles}"),
         ("Holes", f"{len(entry.loops)}"),
         ("Cut along", "circles" if entry.by_circles else "edges"),
+        ("Density", f"1 : {entry.density:.1f}, on 90 %"),
         sweeps,
     ]
     of_domain = {"sphere": of_sphere, "schottky": of_handles}.get(entry.domain, of_tile)
