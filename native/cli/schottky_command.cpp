@@ -69,7 +69,7 @@ Subcommand add_schottky(CLI::App& app)
         {to_string(SchottkyNormalization::circles), SchottkyNormalization::circles}};
     options
         ->add_option("--normalization", request->schottky.normalization,
-                     "with holes: the least area distortion, or the most room for equally large circles of handles")
+                     "with holes: the least area distortion, or near it room for equally large circles of handles")
         ->transform(CLI::Transformer(names))
         ->type_name("area|circles")
         ->default_str("area");

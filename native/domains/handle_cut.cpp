@@ -58,10 +58,12 @@ std::vector<std::size_t> order_of(const std::vector<CutLoop>& loops, const std::
     return result;
 }
 
-[[noreturn]] void throw_too_near(const OpenedSurface& opened)
+[[noreturn]] void throw_too_near(const OpenedSurface& opened, Index vertex_count)
 {
     std::vector<Index> elements;
-    for (const SurfaceCut& cut : opened.cuts) elements.insert(elements.end(), cut.vertices.begin(), cut.vertices.end());
+    for (const SurfaceCut& cut : opened.cuts)
+        for (const Index v : cut.vertices)
+            if (v < vertex_count) elements.push_back(v);
     std::ranges::sort(elements);
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
     throw TopologyError(TopologyKind::genus,
@@ -117,14 +119,15 @@ bool take_loops(HandleCut& cut, const Triangles& triangles, const std::vector<st
     return cut.loops.size() == cut.holes + 2 * static_cast<std::size_t>(cut.handles);
 }
 
-HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, ExecutionContext& context)
+HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, Index vertex_count,
+                      ExecutionContext& context)
 {
     const Surface input = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
     OpenOptions options;
     options.long_slit = false;
     options.slit_beside_handles = false;
     const OpenedSurface opened = open_surface(vertices, input.triangles, options, context);
-    if (opened.pieces.size() != 1) throw_too_near(opened);
+    if (opened.pieces.size() != 1) throw_too_near(opened, vertex_count);
     const SurfacePiece& piece = opened.pieces.front();
     HandleCut cut;
     cut.handles = input.genus;
@@ -134,7 +137,7 @@ HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, Exec
     cut.corners.resize(cut.input_face.size());
     for (std::size_t f = 0; f < cut.input_face.size(); ++f)
         for (int k = 0; k < 3; ++k) cut.corners.at(cut.input_face[f])[k] = 3 * static_cast<Index>(f) + k;
-    if (!take_loops(cut, piece.triangles, {})) throw_too_near(opened);
+    if (!take_loops(cut, piece.triangles, {})) throw_too_near(opened, vertex_count);
     // A loop of edges with two faces each that has no other side is no hole: there cuts touch.
     std::map<std::pair<Index, Index>, char> border;
     for (Index h = 0; h < static_cast<Index>(input.triangles.size()); ++h)
@@ -143,7 +146,7 @@ HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, Exec
         for (std::size_t i = 0; loop.handle < 0 && i < loop.vertices.size(); ++i)
             if (!border.contains(
                     {cut.original[loop.vertices[i]], cut.original[loop.vertices[(i + 1) % loop.vertices.size()]]}))
-                throw_too_near(opened);
+                throw_too_near(opened, vertex_count);
     return cut;
 }
 

@@ -45,7 +45,9 @@ bool take_loops(HandleCut& cut, const Triangles& triangles, const std::vector<st
 
 /// Cut along short loops that share no vertex with each other or with a hole (handle_loops.h).
 /// @param vertices, triangles of one orientation, of genus 1 at least
+/// @param vertex_count of the input: vertices beyond are inside its edges, and no error names them
 /// @throws TopologyError genus: loops that cannot keep apart along the edges
-HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, ExecutionContext& context);
+HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, Index vertex_count,
+                      ExecutionContext& context);
 
 }  // namespace koebe

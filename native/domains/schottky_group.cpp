@@ -14,6 +14,7 @@ namespace {
 
 constexpr int tried_radii = 256;
 constexpr int most_letters = 64;
+constexpr double some_room = 0.05;  // between circles, over the sum of their radii
 constexpr int rounds_of_choice = 2, tried_turns = 12;
 
 /// Fits the generator, and moves both sides by half of what it misses.
@@ -170,19 +171,14 @@ SchottkyPlane moved_loops(const SchottkyPlane& plane, const Moebius& map)
 
 }  // namespace
 
-Moebius roomiest_automorphism(const SchottkyPlane& plane)
+Moebius nearest_with_room(const SchottkyPlane& plane)
 {
-    Moebius best;
-    double room = -std::numeric_limits<double>::infinity();
     const std::vector<PairKind> isometric(plane.generators.size(), PairKind::isometric);
     for (const Complex center : tried_centers()) {
         const Moebius away{center, 1.0};
-        const double own = circles_of(moved_loops(plane, away), isometric).room;
-        if (!(own > room)) continue;
-        room = own;
-        best = away;
+        if (circles_of(moved_loops(plane, away), isometric).room > some_room) return away;
     }
-    return best;
+    return {};
 }
 
 void SchottkyPlane::move(const LinearFractional& map)

@@ -49,9 +49,9 @@ struct FundamentalCircles {
 /// radius, keeps clear of the others.
 FundamentalCircles fundamental_circles(SchottkyPlane& plane);
 
-/// The automorphism of the unit disk after which isometric circles have the most room, of some that are tried.
-/// @param plane with holes
-Moebius roomiest_automorphism(const SchottkyPlane& plane);
+/// The automorphism of the unit disk nearest to the identity after which isometric circles are apart, of some that are
+/// tried; the identity if there is none. @param plane with holes
+Moebius nearest_with_room(const SchottkyPlane& plane);
 
 /// Others round the same cuts: the first one of each pair so many times as large.
 FundamentalCircles circles_beside(const SchottkyPlane& plane, const FundamentalCircles& circles, double factor);

@@ -28,8 +28,9 @@ namespace {
 constexpr std::size_t most_condensed = 12000;  // boundary vertices
 constexpr Index balanced_faces = 20000;        // that are looked at for it
 constexpr double least_radius = 1e-12;         // of a circle whose points 64-bit coordinates tell apart
-constexpr double worst_spread = 1e3;           // worse than any where circles are apart
-constexpr Index enough_faces = 6000;           // a surface of fewer is split finer, at most so many times:
+constexpr double large_misfit = 0.5;
+constexpr double worst_spread = 1e3;  // worse than any where circles are apart
+constexpr Index enough_faces = 6000;  // a surface of fewer is split finer, at most so many times:
 constexpr int most_levels = 2;
 constexpr int circle_cuts = 2;  // after the first along edges
 
@@ -63,24 +64,21 @@ PlanarPoints as_points(const VectorXcd& z)
     return points;
 }
 
-/// With holes: the automorphism of the disk with the most even texels, or with the most room for equal circles. The
-/// loops are solved for anew, not moved: where a handle's loops are tiny, a flux of the size of the mesh's errors would
-/// draw all of them to one side.
+/// With holes: the automorphism of the disk with the most even texels, or the nearest one with room for equal circles.
+/// The loops are solved for anew, not moved: where a handle's loops are tiny, a flux of the size of the mesh's errors
+/// would draw all of them to one side.
 SchottkyPlane plane_in_disk(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state,
                             SchottkyNormalization normalization)
 {
     const VectorXcd rim = state.rim();
     SchottkyPlane plane = schottky_plane(cut, state.images_in_disk(rim));
     fill_inside(surface, state, plane);
-    Moebius map;
-    if (normalization == SchottkyNormalization::circles) {
-        map = roomiest_automorphism(plane);
-    } else {
-        double left = 0.0;
-        map = least_area_distortion(
-            face_scales(cut.vertices, cut.surface.triangles, as_points(plane.z), balanced_faces), left);
-    }
-    plane = schottky_plane(cut, state.images_in_disk(map(rim)));
+    double left = 0.0;
+    const Moebius even = least_area_distortion(
+        face_scales(cut.vertices, cut.surface.triangles, as_points(plane.z), balanced_faces), left);
+    plane = schottky_plane(cut, state.images_in_disk(even(rim)));
+    if (normalization == SchottkyNormalization::circles)
+        plane = schottky_plane(cut, state.images_in_disk(nearest_with_room(plane)(even(rim))));
     fill_inside(surface, state, plane);
     return plane;
 }
@@ -142,6 +140,10 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
     if (!circles.apart)
         result.warnings.push_back(
             {WarningKind::no_circles, "circles of the handles meet each other or a hole: the UVs are cut along edges"});
+    if (std::ranges::any_of(result.handles, [](const SchottkyHandle& handle) { return handle.misfit > large_misfit; }))
+        result.warnings.push_back({WarningKind::coarse_mesh,
+                                   "the sides of a handle's cut miss each other by half of their radius and more: the "
+                                   "faces are too large there"});
     if (!faults.any()) {
         if (!faults.flipped.empty())
             result.warnings.push_back(
@@ -299,7 +301,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     if (surface.genus == 0)
         throw TopologyError(TopologyKind::genus, "the surface has no handle: a Schottky group needs one at least");
     const FinerFaces faces = finer_faces(vertices, surface.triangles, enough_faces, finer);
-    HandleCut first = cut_handles(faces.vertices, faces.triangles, context);
+    HandleCut first = cut_handles(faces.vertices, faces.triangles, result.vertex_count, context);
     result.seconds.topology = stage.lap();
     std::vector<std::vector<Index>> paths;  // of the cuts along edges
     for (std::size_t k = first.holes; k < first.loops.size(); k += 2) {
@@ -362,13 +364,26 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
 {
     const SerialDenseKernels serial;
     SchottkyResult result = map_split(vertices, triangles, options, most_levels, context);
-    if (result.converged || triangles.rows() >= enough_faces) return result;
-    try {
-        SchottkyResult whole = map_split(vertices, triangles, options, 0, context);
-        if (whole.converged) return whole;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const KoebeError&) {  // too coarse to be cut: what there is has to do
+    const auto take_if_better = [&](const SchottkyOptions& other, int finer) {
+        if (result.converged) return;
+        try {
+            SchottkyResult own = map_split(vertices, triangles, other, finer, context);
+            if (own.converged) result = std::move(own);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const KoebeError&) {  // too coarse to be cut: what there is has to do
+        }
+    };
+    if (triangles.rows() < enough_faces) take_if_better(options, 0);
+    if (!result.converged && options.normalization == SchottkyNormalization::circles) {
+        SchottkyOptions even = options;
+        even.normalization = SchottkyNormalization::area;
+        take_if_better(even, most_levels);
+        if (result.converged)
+            result.warnings.push_back(
+                {WarningKind::no_circles,
+                 "where equal circles have room the map is not one to one: this is the one of the "
+                 "least area distortion"});
     }
     return result;
 }

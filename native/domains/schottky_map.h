@@ -16,7 +16,7 @@ namespace koebe {
 /// Which of the maps that automorphisms of the disk lead to each other, where there are holes.
 enum class SchottkyNormalization {
     area,     ///< that of the least area distortion
-    circles,  ///< that where equally large circles of each handle have the most room
+    circles,  ///< the nearest one where equally large circles of each handle are apart, if there is such
 };
 
 /// As in the JSON report: the enumerator's name.
@@ -31,7 +31,7 @@ struct SchottkyOptions {
 
 /// A handle: all in the plane of the unit disk, z = 2 (u + i v) - 1 - i.
 struct SchottkyHandle {
-    std::vector<Index> cut;         ///< vertices of the loop that it was cut along, in its order
+    std::vector<Index> cut;         ///< the input's vertices on the loop that it was cut along, in its order
     LinearFractional generator;     ///< continues the pattern: from one circle, and side of the cut, to the other
     std::array<Circle, 2> circles;  ///< paired by the generator, the outside of the first with the inside of the second
     bool outer = false;             ///< the inside of the first with the outside of the second
@@ -66,7 +66,7 @@ struct SchottkyResult {
 /// group, its holes round: the copies of the UVs under the group fill the plane up to a set of no area, continuing the
 /// pattern. Handles are cut along short loops, which decide on the group; their sides differ by its generators
 /// [Koebe 1908; Maskit 1988, chapter X.H]. With holes the longest is the unit circle, and the map the one of its
-/// automorphisms with the least area distortion, or with the most room for equal circles. Without holes one handle's
+/// automorphisms with the least area distortion, or near it one with room for equal circles. Without holes one handle's
 /// generator is z -> lambda z: that for which texel density is most even.
 /// @throws InputError, TopologyError genus (no handle, or cuts that touch each other) and those of analyze_surface,
 /// SolverError, Cancelled; what is not one to one is reported as not converged

@@ -30,8 +30,8 @@ class SchottkyMap(DomainMap):
                      first, which is round 0, goes to that of the second
     by_circles       whether the UVs are cut along these circles, as closely as faces can be; else along the edges of
                      `cut`, as the circles meet each other or a hole
-    handles          list of dicts, longer cuts first: generator, multiplier, circles, outer; cut, the vertices of the
-                     loop it was cut along; misfit, by how much the two sides of the cut missed a Moebius map before
+    handles          list of dicts, longer cuts first: generator, multiplier, circles, outer; cut, the vertices on the
+                     loop it was cut along, which may run through faces between them; misfit, by how much the two sides of the cut missed a Moebius map before
                      they were made to fit, over their radius: an estimate of the error
     loops            list of dicts of the holes, by falling length, the first on the unit circle (scaled where the UVs
                      would not fit in the square): vertices, center, radius, roundness, roundness_least_squares
@@ -84,7 +84,7 @@ def schottky_map(
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
     normalization    with holes, which of the maps that differ by an automorphism of the disk: 'area', that of the least
-                 area distortion; 'circles', that where equally large circles of each handle have the most room
+                 area distortion; 'circles', the nearest one where equally large circles of each handle are apart
     tolerance    stop when, in a sweep, the disks that fill the loops change by less, as matrices and relative
     max_sweeps   then stop with converged = False
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
