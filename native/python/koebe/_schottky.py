@@ -31,8 +31,9 @@ class SchottkyMap(DomainMap):
     by_circles       whether the UVs are cut along these circles, as closely as faces can be; else along the edges of
                      `cut`, as the circles meet each other or a hole
     handles          list of dicts, longer cuts first: generator, multiplier, circles, outer; cut, the vertices on the
-                     loop it was cut along, which may run through faces between them; misfit, by how much the two sides of the cut missed a Moebius map before
-                     they were made to fit, over their radius: an estimate of the error
+                     loop it was cut along, which may run through faces between them; misfit, by how much the two sides
+                     of the cut missed a Moebius map before they were made to fit, over their radius: an estimate of
+                     the error
     loops            list of dicts of the holes, by falling length, the first on the unit circle (scaled where the UVs
                      would not fit in the square): vertices, center, radius, roundness, roundness_least_squares
     converged, sweeps, changes    of the disks that fill the loops, in each sweep
