@@ -29,6 +29,7 @@ constexpr std::size_t most_condensed = 12000;  // boundary vertices
 constexpr Index balanced_faces = 20000;        // that are looked at for it
 constexpr double least_radius = 1e-12;         // of a circle whose points 64-bit coordinates tell apart
 constexpr double large_misfit = 0.5;
+constexpr double equal_radii = 1e-6;  // a smaller difference, over the radius, is rounding
 constexpr double worst_spread = 1e3;  // worse than any where circles are apart
 constexpr Index enough_faces = 6000;  // a surface of fewer is split finer, at most so many times:
 constexpr int most_levels = 2;
@@ -127,7 +128,14 @@ Distortion distortion_of(const SchottkyTile& tile, const HandleCut& cut)
     return measure_distortion(vertices, tile.triangles, tile.points);
 }
 
-void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool iterated, SchottkyResult& result)
+bool unequal_circles(const SchottkyHandle& handle)
+{
+    const double first = handle.circles[0].radius, second = handle.circles[1].radius;
+    return !handle.outer && std::abs(first - second) > equal_radii * std::max(first, second);
+}
+
+void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool iterated,
+          SchottkyNormalization normalization, SchottkyResult& result)
 {
     if (!result.turned.empty())
         result.warnings.push_back({WarningKind::reoriented_faces,
@@ -140,6 +148,12 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
     if (!circles.apart)
         result.warnings.push_back(
             {WarningKind::no_circles, "circles of the handles meet each other or a hole: the UVs are cut along edges"});
+    else if (const auto unequal = std::ranges::count_if(result.handles, unequal_circles);
+             unequal > 0 && normalization == SchottkyNormalization::circles)
+        result.warnings.push_back({WarningKind::no_circles, "equal circles have no room in any position that was "
+                                                            "tried: those of " +
+                                                                counted(static_cast<std::size_t>(unequal), "handle") +
+                                                                " differ"});
     if (std::ranges::any_of(result.handles, [](const SchottkyHandle& handle) { return handle.misfit > large_misfit; }))
         result.warnings.push_back({WarningKind::coarse_mesh,
                                    "the sides of a handle's cut miss each other by half of their radius and more: the "
@@ -349,7 +363,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     result.changes = best.map.changes;
     result.distortion = distortion_of(best.tile, cut);
     result.converged = best.map.converged && !best.faults.any();
-    warn(circles, best.faults, best.map.converged, result);
+    warn(circles, best.faults, best.map.converged, options.normalization, result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();

@@ -134,6 +134,15 @@ def test_pairs_of_circles_are_equally_large_and_apart():
     assert abs(abs(z[rim]) - 1).max() < 1e-6
 
 
+def test_circles_that_cannot_be_equal_are_told():
+    vertices, triangles, _ = double_ring(4, open_hole=True)  # one handle begins beside the small end of the other
+    for normalization, told in (("area", False), ("circles", True)):
+        result = koebe.schottky_map(vertices, triangles, normalization=normalization)
+        assert result.converged and result.by_circles
+        assert (result.circles[:, 0, 2] > 2 * result.circles[:, 1, 2]).all()
+        assert [warning["kind"] for warning in result.warnings] == ["no_circles"] * told
+
+
 def test_texels_of_a_closed_surface_fill_an_annulus():
     vertices, triangles, _ = double_ring(4)
     result = koebe.schottky_map(vertices, triangles)
