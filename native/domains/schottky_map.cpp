@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t most_condensed = 12000;  // boundary vertices
 constexpr Index balanced_faces = 20000;        // that are looked at for it
-constexpr double least_radius = 1e-12;         // of a circle whose points 64-bit coordinates tell apart
+constexpr double least_circle = 1e-12;         // of a circle whose points 64-bit coordinates tell apart
 constexpr double large_misfit = 0.5;
 constexpr double equal_radii = 1e-6;  // a smaller difference, over the radius, is rounding
 constexpr double worst_spread = 1e3;  // worse than any where circles are apart
@@ -354,7 +354,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
         handle.circles = circles.pairs[j];
         handle.outer = j == plane.outer_handle;
         handle.misfit = plane.misfit[j];
-        if (std::min(handle.circles[0].radius, handle.circles[1].radius) < least_radius)
+        if (std::min(handle.circles[0].radius, handle.circles[1].radius) < least_circle)
             throw SolverError("a handle is too long beside its girth for a plane: rounding loses its end",
                               ElementKind::vertices, handle.cut);
     }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
@@ -36,22 +39,47 @@ struct Arc {
     double middle, width;
 };
 
-/// The mean of kernel(s - t) over two arcs, from its second antiderivative.
-template <class Antiderivative>
-double mean_by_antiderivative(const Antiderivative& p, double t, double e, double f)
+/// Values of clausen_cosine_3 at the differences of the arcs' ends, each computed when it is asked for first: each is
+/// in four means.
+class EndDifferences {
+public:
+    explicit EndDifferences(const VectorXd& angles) : angles_(angles), kept_(angles.size() <= most_kept)
+    {
+        if (kept_) value_ = MatrixXd::Constant(angles.size(), angles.size(), std::numeric_limits<double>::quiet_NaN());
+    }
+    double operator()(Eigen::Index i, Eigen::Index j)
+    {
+        if (i < j) std::swap(i, j);
+        if (!kept_) return clausen_cosine_3(angles_[i] - angles_[j]);
+        double& value = value_(i, j);
+        if (std::isnan(value)) value = clausen_cosine_3(angles_[i] - angles_[j]);
+        return value;
+    }
+
+private:
+    static constexpr Eigen::Index most_kept = 512;  // of more, hardly any arcs are near and so far from equal
+    const VectorXd& angles_;
+    bool kept_;
+    MatrixXd value_;
+};
+
+/// From second antiderivatives of a kernel at the distances of the arcs' ends: its mean over two arcs of widths e and
+/// f.
+double mean_of_second_differences(double ends_crossed, double starts, double ends, double crossed_starts, double e,
+                                  double f)
 {
-    const double sum = 0.5 * (e + f), difference = 0.5 * (e - f);
-    return (p(t + sum) - p(t - difference) - p(t + difference) + p(t - sum)) / (e * f);
+    return (ends_crossed - starts - ends + crossed_starts) / (e * f);
 }
 
 /// Mean of ln |2 sin((s - t) / 2)| over arcs whose middles are t apart, near or overlapping.
 double near_mean(double t, double e, double f)
 {
     const double widest = std::max(e, f);
-    if (std::abs(t) + widest > 0.5) return mean_by_antiderivative(clausen_cosine_3, t, e, f);
     // ln|2 sin(x/2)| = ln|x| - x^2/24 - x^4/2880 - x^6/181440 - ..., the logarithm in units of the wider arc.
-    const double log_mean =
-        std::log(widest) + mean_by_antiderivative(second_antiderivative_of_log, t / widest, e / widest, f / widest);
+    const double sum = 0.5 * (e + f) / widest, difference = 0.5 * (e - f) / widest;
+    const auto p = [&](double x) { return second_antiderivative_of_log(t / widest + x); };
+    const double log_mean = std::log(widest) + mean_of_second_differences(p(sum), p(-difference), p(difference),
+                                                                          p(-sum), e / widest, f / widest);
     const double variance = (e * e + f * f) / 12.0;
     const double fourth = (e * e * e * e + f * f * f * f) / 80.0 + e * e * f * f / 24.0;
     const double t2 = t * t;
@@ -68,14 +96,50 @@ double far_mean(double chord_squared, double e, double f)
     return 0.5 * std::log(chord_squared) - 0.5 * variance * inverse +
            fourth / 24.0 * (inverse - 6.0 * inverse * inverse);
 }
-constexpr double far = 10.0;  // dimensionless; leaves a relative error near 1e-8
+constexpr double far = 10.0;     // dimensionless; leaves a relative error near 1e-8
+constexpr double nearest = 0.5;  // rad, from middle to farther end: below, the logarithm is taken out of the kernel
+
+/// The arcs of a loop, from each node to the next.
+class Arcs {
+public:
+    explicit Arcs(const VectorXd& angles)
+        : count_(angles.size()), arcs_(angles.size()), x_(angles.size()), y_(angles.size()), at_ends_(angles)
+    {
+        for (Eigen::Index e = 0; e < count_; ++e) {
+            const double end = e + 1 < count_ ? angles[e + 1] : angles[0] + 2.0 * pi;
+            arcs_[e] = {0.5 * (angles[e] + end), end - angles[e]};
+            x_[e] = std::cos(arcs_[e].middle);
+            y_[e] = std::sin(arcs_[e].middle);
+        }
+    }
+
+    /// The mean of ln |2 sin((s - t) / 2)| over two arcs.
+    double mean_log(Eigen::Index e, Eigen::Index f)
+    {
+        const double dx = x_[e] - x_[f], dy = y_[e] - y_[f];
+        const double chord_squared = dx * dx + dy * dy;
+        const double first = arcs_[e].width, second = arcs_[f].width, widest = std::max(first, second);
+        if (chord_squared > far * widest * far * widest) return far_mean(chord_squared, first, second);
+        const double t = std::remainder(arcs_[e].middle - arcs_[f].middle, 2.0 * pi);
+        if (std::abs(t) + widest <= nearest) return near_mean(t, first, second);
+        const Eigen::Index e1 = e + 1 < count_ ? e + 1 : 0, f1 = f + 1 < count_ ? f + 1 : 0;
+        return mean_of_second_differences(at_ends_(e1, f), at_ends_(e, f), at_ends_(e1, f1), at_ends_(e, f1), first,
+                                          second);
+    }
+
+private:
+    Eigen::Index count_;
+    std::vector<Arc> arcs_;
+    Eigen::ArrayXd x_, y_;
+    EndDifferences at_ends_;
+};
 
 }  // namespace
 
 double clausen_cosine_3(double t)
 {
     static const std::array<double, series_length> coefficient = series_coefficients();
-    t = std::remainder(t, 2.0 * pi);
+    if (std::abs(t) > pi) t = std::remainder(t, 2.0 * pi);
     const double t2 = t * t;
     double tail = 0.0;
     for (int j = series_length - 1; j >= 0; --j) tail = (tail + coefficient[j]) * t2;
@@ -85,27 +149,10 @@ double clausen_cosine_3(double t)
 MatrixXd disk_dirichlet_to_neumann(const VectorXd& angles)
 {
     const Eigen::Index m = angles.size();
-    std::vector<Arc> arcs(m);
-    Eigen::ArrayXd x(m), y(m);
-    for (Eigen::Index e = 0; e < m; ++e) {
-        const double end = e + 1 < m ? angles[e + 1] : angles[0] + 2.0 * pi;
-        arcs[e] = {0.5 * (angles[e] + end), end - angles[e]};
-        x[e] = std::cos(arcs[e].middle);
-        y[e] = std::sin(arcs[e].middle);
-    }
-
+    Arcs arcs(angles);
     MatrixXd w(m, m);
     for (Eigen::Index f = 0; f < m; ++f)
-        for (Eigen::Index e = f; e < m; ++e) {
-            const double dx = x[e] - x[f], dy = y[e] - y[f];
-            const double chord_squared = dx * dx + dy * dy;
-            const double reach = far * std::max(arcs[e].width, arcs[f].width);
-            const double mean = chord_squared > reach * reach
-                                    ? far_mean(chord_squared, arcs[e].width, arcs[f].width)
-                                    : near_mean(std::remainder(arcs[e].middle - arcs[f].middle, 2.0 * pi),
-                                                arcs[e].width, arcs[f].width);
-            w(e, f) = w(f, e) = -mean / pi;
-        }
+        for (Eigen::Index e = f; e < m; ++e) w(e, f) = w(f, e) = -arcs.mean_log(e, f) / pi;
 
     // Second difference D W D', the hat at node a rising on arc a - 1 and falling on arc a.
     MatrixXd t(m, m);

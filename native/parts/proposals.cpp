@@ -2,10 +2,12 @@
 
 #include "circles/moebius.h"
 #include "core/connectivity.h"
+#include "core/side_by_side.h"
 #include "parts/log_polar.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace koebe {
@@ -137,34 +139,47 @@ std::vector<Side> sides_of(const LogPolar& polar, double from, double until, dou
     return sides;
 }
 
-void add_tubes(const PartMesh& part, const PartMap& map, Complex about, int hole, std::vector<Proposal>& all)
+/// What tubes are proposed about.
+struct Axis {
+    Complex about;
+    int hole = -1;  ///< its loop, if it is a hole
+};
+
+std::vector<Proposal> tubes_about(const PartMesh& part, const PartMap& map, const Axis& axis)
 {
-    const LogPolar polar = log_polar(part, map, about, hole);
+    std::vector<Proposal> tubes;
+    const LogPolar polar = log_polar(part, map, axis.about, axis.hole);
     for (const double share : {0.985, 0.95}) {
         const TubeRange tube = longest_tube(part, map, polar, share);
         if (!(tube.area > 0.0)) continue;
         const double gap = std::min(0.5 * margin, 0.2 * (tube.until - tube.from));
-        all.push_back({sides_of(polar, tube.from, tube.until, gap), tube.area, "tube"});
-        all.push_back(
+        tubes.push_back({sides_of(polar, tube.from, tube.until, gap), tube.area, "tube"});
+        tubes.push_back(
             {sides_of(polar, -std::numeric_limits<double>::infinity(), tube.until, gap), 0.5 * tube.area, "circle"});
     }
+    return tubes;
 }
 
 }  // namespace
 
-std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map)
+std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map, int threads, ExecutionContext& context)
 {
     std::vector<Proposal> all;
     const std::vector<Window> windows = best_windows(part, map);
     for (const Window& window : windows) all.push_back(propose(map, window));
     if (windows.empty()) return all;
-    for (const Complex tip : tips(part, map, windows.front())) add_tubes(part, map, tip, -1, all);
+    std::vector<Axis> axes;
+    for (const Complex tip : tips(part, map, windows.front())) axes.push_back({tip});
     std::vector<int> holes;
     for (std::size_t k = 0; k < map.circles.size(); ++k)
         if (static_cast<int>(k) != map.outer) holes.push_back(static_cast<int>(k));
     std::ranges::sort(holes, [&](int a, int b) { return map.circles[a].radius < map.circles[b].radius; });
     for (std::size_t i = 0; i < std::min(holes.size(), most_holes); ++i)
-        add_tubes(part, map, center_circle(map.circles[holes[i]]).a, holes[i], all);
+        axes.push_back({center_circle(map.circles[holes[i]]).a, holes[i]});
+    std::vector<std::vector<Proposal>> tubes(axes.size());
+    side_by_side(axes.size(), threads, context,
+                 [&](std::size_t i, ExecutionContext&) { tubes[i] = tubes_about(part, map, axes[i]); });
+    for (auto& own : tubes) std::ranges::move(own, std::back_inserter(all));
     return all;
 }
 

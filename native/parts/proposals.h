@@ -1,6 +1,7 @@
 // Where a part could be cut.
 #pragma once
 
+#include "core/execution.h"
 #include "parts/dual_cut.h"
 #include "parts/part_map.h"
 
@@ -15,7 +16,7 @@ struct Proposal {
 };
 
 /// Windows of u, whose largest piece is to be an even disk; about tips and holes, in log polar coordinates, tubes, and
-/// circles at their outer ends.
-std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map);
+/// circles at their outer ends. @param threads as in side_by_side
+std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map, int threads, ExecutionContext& context);
 
 }  // namespace koebe

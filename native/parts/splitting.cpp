@@ -22,6 +22,7 @@ constexpr double crumb_leaves = 0.9;       // of a part's area
 constexpr double least_return = 0.5;       // of the price, in cost that is gone at once
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
+constexpr std::size_t few_open = 3;        // parts: what is done for each goes side by side, too
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
                                            // is so large that its cost matters
 
@@ -91,7 +92,7 @@ double gain_of(const Split& split, const Part& part, const SplitOptions& options
 std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions& options, int threads,
                                     ExecutionContext& context, SplitEffort& effort)
 {
-    std::vector<Proposal> all = proposals(part->mesh, part->map);
+    std::vector<Proposal> all = proposals(part->mesh, part->map, threads, context);
     std::ranges::stable_sort(all, [](const Proposal& a, const Proposal& b) { return a.area > b.area; });
     if (all.size() > most_looked_at) all.resize(most_looked_at);
     std::vector<Split> splits;
@@ -221,7 +222,7 @@ std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions
             return a->mesh.faces.size() > b->mesh.faces.size();
         });
         std::vector<Step> steps(open.size());
-        const int inner = open.size() == 1 ? options.threads : 1;
+        const int inner = open.size() <= few_open ? options.threads : 1;
         side_by_side(open.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
             steps[i] = take_step(whole, options, open[i], inner, own);
         });

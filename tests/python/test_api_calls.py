@@ -185,7 +185,7 @@ LONG_CALLS = {
     "annulus_map": lambda: partial(koebe.annulus_map, *plate(240, 1)),
     "disk_map": lambda: partial(koebe.disk_map, *koebe.fill_holes(*LARGE, loops=range(1, 17))[:2]),
     "harmonic_map": lambda: partial(koebe.harmonic_map, *plate(300), [0, 1, 2], np.eye(3, 2)),
-    "match_loops": lambda: partial(koebe.match_loops, domain(400), domain(400)),
+    "match_loops": lambda: partial(koebe.match_loops, domain(1200), domain(1200)),
 }
 
 

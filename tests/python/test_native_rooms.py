@@ -1,5 +1,7 @@
 """The rooms of native/: includes run one way, and each room is on the map in CONTRIBUTING.md."""
 
+import collections
+import hashlib
 import re
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -82,6 +84,40 @@ def test_no_hidden_function_has_the_name_of_a_public_one():
     assert {"triangle_area", "uniformize", "flipped_faces"} <= public
     hidden = {path.name: hidden_names(path.read_text(encoding="utf-8")) & public for path in NATIVE.rglob("*.cpp")}
     assert not {name: names for name, names in hidden.items() if names}
+
+
+def heap_of(source):
+    """Which sources the wheels' library compiles with it, as native/bundle/library.cmake has it."""
+    digits = hashlib.md5(str(source.relative_to(NATIVE)).encode(), usedforsecurity=False).hexdigest()[6:10]
+    return int(digits, 16) % 14
+
+
+def hidden_values_and_types(text):
+    """Names of constants and types in nameless namespaces of a source, and of functions with their parameters."""
+    for inside in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", text, re.MULTILINE | re.DOTALL):
+        inside = re.sub(r"//.*", "", inside)
+        for declared in re.findall(r"^(?:static )?constexpr [^;]*;", inside, re.MULTILINE):
+            yield from re.findall(r"(\w+)(?:\[\w*\])? ?(?:=|\{)", declared)
+        yield from re.findall(r"^(?:struct|class|enum class|enum) (\w+)", inside, re.MULTILINE)
+        for name, parameters in re.findall(r"^\w[\w:<>,&* ]*[ &*](\w+)(\([^{;]*\))\s*\{", inside, re.MULTILINE):
+            yield name + re.sub(r"\w+(?=[,)])|\s", "", parameters)
+
+
+def test_a_hidden_name_is_once_in_a_heap():
+    heaps = collections.defaultdict(list)
+    for source in sorted(NATIVE.rglob("*.cpp")):
+        text = source.read_text(encoding="utf-8")
+        if source.parent.name in FRONTS | WITH_THE_COMMAND | {OTHERS} or "<windows.h>" in text:
+            continue
+        heaps[heap_of(source)] += [(name, source.name) for name in set(hidden_values_and_types(text))]
+    assert len(heaps) == 14
+    twice = [
+        (name, [file for other, file in found if other == name])
+        for found in heaps.values()
+        for name, count in collections.Counter(name for name, _ in found).items()
+        if count > 1
+    ]
+    assert not twice
 
 
 def test_no_header_includes_that_of_windows():
