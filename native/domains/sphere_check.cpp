@@ -2,6 +2,8 @@
 
 #include "planar/boundary_crossings.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

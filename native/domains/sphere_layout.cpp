@@ -3,6 +3,8 @@
 #include "core/tolerances.h"
 #include "domains/sphere_polygons.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -15,6 +15,8 @@
 #include "pipeline/uniformize.h"
 #include "surface/laplacian.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>

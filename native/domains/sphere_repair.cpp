@@ -5,6 +5,8 @@
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,6 +4,8 @@
 #include "core/counted.h"
 #include "core/peak_memory.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -7,6 +7,8 @@
 #include "iteration/disk_dirichlet_to_neumann.h"
 #include "linear/sparse_cholesky.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -2,6 +2,8 @@
 
 #include "report/edge_trails.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

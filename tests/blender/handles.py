@@ -36,7 +36,10 @@ def plate_arrays(windows=TWO, holes=(), size=1, n=None, m=7, bent=0.05):
     return points[used], number.reshape(-1, 4).tolist()
 
 
-def add_plate(name="Plate", **options):
-    obj = scenes.add_object(name, *plate_arrays(**options))
+def add_plate(name="Plate", triangles=False, **options):
+    points, faces = plate_arrays(**options)
+    if triangles:
+        faces = [[a, *pair] for a, b, c, d in faces for pair in ((b, c), (c, d))]
+    obj = scenes.add_object(name, points, faces)
     scenes.select(obj)
     return obj

@@ -76,7 +76,7 @@ def test_it_is_what_the_package_makes_of_it(koebe, case, polygons):
 
 def test_the_normalization_is_another_map():
     """Of a surface whose even map has no room for equal circles."""
-    obj = add_plate(windows=((4, 2), (5, 5)), holes=block(2, 0, 3), n=8, m=10)
+    obj = add_plate(windows=((4, 2), (5, 5)), holes=block(2, 0, 3), n=8, m=10, triangles=True)
     found = []
     for normalization in ("area", "circles"):
         unwrap(normalization=normalization)

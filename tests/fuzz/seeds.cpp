@@ -11,7 +11,7 @@ namespace {
 
 using Byte = std::uint8_t;
 
-/// @param choice what a target makes of it: fuzz_arrays picks its function by it
+/// @param choice what a target makes of it: most pick their function by it
 std::vector<Byte> program(int kind, int shape, int choice, const std::vector<std::array<Byte, edit_bytes>>& edits = {})
 {
     std::vector<Byte> bytes(header_bytes, 0);
@@ -26,7 +26,9 @@ std::vector<Byte> program(int kind, int shape, int choice, const std::vector<std
 std::vector<Seed> programs(Target target)
 {
     std::vector<Seed> seeds;
-    const int choices = target == fuzz_arrays ? static_cast<int>(surface_checks().size() + planar_checks().size()) : 1;
+    int choices = 1;
+    if (target == fuzz_arrays) choices = static_cast<int>(surface_checks().size() + planar_checks().size());
+    if (target == fuzz_domains) choices = domain_choices;
     for (int choice = 0; choice < choices; ++choice)
         for (int kind = 0; kind < base_kind_count(); ++kind)
             if (choices == 1 || kind % 3 == choice % 3)

@@ -45,5 +45,5 @@ TEST_P(FuzzTarget, keeps_its_promises_on_the_seeds)
         EXPECT_NO_THROW(target_of(GetParam())(seed.bytes)) << seed.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, FuzzTarget, testing::Values("uniformize", "arrays", "read"),
+INSTANTIATE_TEST_SUITE_P(Fuzz, FuzzTarget, testing::Values("uniformize", "arrays", "domains", "read"),
                          [](const auto& info) { return std::string(info.param); });

@@ -120,6 +120,21 @@ def test_a_hidden_name_is_once_in_a_heap():
     assert not twice
 
 
+@pytest.mark.parametrize(
+    ("module", "use"),
+    {
+        "Geometry": r"\.cross\(|unitOrthogonal|AngleAxis|Quaternion",
+        "LU": r"\.determinant\(\)|PartialPivLU|partialPivLu",
+        "Eigenvalues": r"EigenSolver",
+    }.items(),
+)
+def test_what_is_used_of_eigen_is_included(module, use):
+    # Without the precompiled header, as the wheels' library is compiled, its functions would be declared and not there.
+    used = [path for path in NATIVE.rglob("*.[ch]*") if re.search(use, path.read_text(encoding="utf-8"))]
+    included = re.compile(f"#include <Eigen/({module}|Dense)>")
+    assert used and not [path.name for path in used if not included.search(path.read_text(encoding="utf-8"))]
+
+
 def test_no_header_includes_that_of_windows():
     # It makes macros of "near", "far" and other words, in every source of a heap that follows.
     assert not [path for path in NATIVE.rglob("*.h") if "<windows.h>" in path.read_text(encoding="utf-8")]
