@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 
 build=$1 total=$2 seed=${3:-0}
 targets=(uniformize arrays domains read)
-declare -A per_minute=([uniformize]=450 [arrays]=9000 [domains]=900 [read]=75000)  # about, of a minute for all four
+declare -A per_minute=([uniformize]=450 [arrays]=9000 [domains]=150 [read]=75000)  # about, of a minute for all four
 each=$(((total + ${#targets[@]} - 1) / ${#targets[@]}))
 found=0
 fresh=$(mktemp -d)
