@@ -20,13 +20,14 @@ struct Histogram {
     double area(int i, int j, int a, int b) const { return sums[j][b] - sums[i][b] - sums[j][a] + sums[i][a]; }
 };
 
-/// @param v of the faces
+/// @param v of the faces; one that is not finite counts nothing
 Histogram histogram(const PartMesh& part, const VectorXd& t, const VectorXd& v)
 {
     Histogram result;
     double t_low = 0.0, v_low = std::numeric_limits<double>::infinity(), v_high = -v_low;
+    const auto counts = [&](Eigen::Index f) { return t[f] > deepest && std::isfinite(v[f]); };
     for (Eigen::Index f = 0; f < t.size(); ++f) {
-        if (!(t[f] > deepest)) continue;
+        if (!counts(f)) continue;
         t_low = std::min(t_low, t[f]);
         v_low = std::min(v_low, v[f]);
         v_high = std::max(v_high, v[f]);
@@ -37,7 +38,7 @@ Histogram histogram(const PartMesh& part, const VectorXd& t, const VectorXd& v)
     result.v_low = v_low;
     result.v_step = std::max((v_high - v_low) / v_bins, even_range / 40.0);
     for (Eigen::Index f = 0; f < t.size(); ++f) {
-        if (!(t[f] > deepest)) continue;
+        if (!counts(f)) continue;
         const int i = std::clamp(static_cast<int>((t[f] - t_low) / result.t_step), 0, t_bins - 1);
         const int a = std::clamp(static_cast<int>((v[f] - v_low) / result.v_step), 0, v_bins - 1);
         result.sums[i + 1][a + 1] += part.areas[f];

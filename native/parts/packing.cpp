@@ -26,7 +26,8 @@ namespace {
 
 constexpr std::size_t many = 1000;  // boxes: fewer widths are tried
 
-constexpr int grid = 1 << 14;  // of a strip's width: squares of it are within an int, as the library needs
+constexpr double narrowest = 1e-4;  // strip, over the tallest box: heights are within an int
+constexpr int grid = 1 << 14;       // of a strip's width: squares of it are within an int, as the library needs
 
 /// Packs into a strip of that width; returns the height.
 double pack_strip(const std::vector<Box>& boxes, double width, double gap, std::vector<std::array<double, 2>>& corners)
@@ -57,12 +58,13 @@ PackedBoxes pack_boxes(const std::vector<Box>& boxes, double margin)
     PackedBoxes best;
     best.corners.resize(boxes.size());
     best.side = std::numeric_limits<double>::infinity();
-    double area = 0.0, widest = 0.0;
+    double area = 0.0, widest = 0.0, tallest = 0.0;
     for (const Box& box : boxes) {
         area += box.width * box.height;
         widest = std::max(widest, box.width);
+        tallest = std::max(tallest, box.height);
     }
-    const double least = std::max(std::sqrt(area), widest);
+    const double least = std::max({std::sqrt(area), widest, narrowest * tallest});
     const double factor = boxes.size() > many ? 1.1 : 1.02;
     for (double width = least; width < 2.5 * least; width *= factor) {
         const double gap = margin * width;

@@ -148,6 +148,7 @@ struct Axis {
 std::vector<Proposal> tubes_about(const PartMesh& part, const PartMap& map, const Axis& axis)
 {
     std::vector<Proposal> tubes;
+    if (!(std::norm(axis.about) < 1.0)) return tubes;  // on the rim, by rounding
     const LogPolar polar = log_polar(part, map, axis.about, axis.hole);
     for (const double share : {0.985, 0.95}) {
         const TubeRange tube = longest_tube(part, map, polar, share);
