@@ -41,6 +41,21 @@ def block(i, j, size=2):
     return tuple((i + a, j + b) for a in range(size) for b in range(size))
 
 
+def with_finger(points, faces, face, length=10):
+    """In the place of a quadrilateral a square finger, as many of its sides long."""
+    base = list(faces[face])
+    a, b, _, d = points[base]
+    up = np.cross(b - a, d - a)
+    up *= np.linalg.norm(b - a) / np.linalg.norm(up)
+    rings = [base, *(np.arange(4) + len(points) + 4 * k for k in range(length))]
+    sides = [
+        [low[i], low[(i + 1) % 4], high[(i + 1) % 4], high[i]]
+        for low, high in zip(rings, rings[1:]) for i in range(4)
+    ]  # fmt: skip
+    points = np.concatenate([points, *(points[base] + (k + 1) * up for k in range(length))])
+    return points, [*faces[:face], *faces[face + 1 :], *np.array([*sides, rings[-1]]).tolist()]
+
+
 def _used(points, faces):
     used, index = np.unique(np.array(faces), return_inverse=True)
     return points[used], index.reshape(-1, 4).tolist()
@@ -52,8 +67,9 @@ def add_torus(name="Torus", **options):
     return obj
 
 
-def add_tube(name="Tube", **options):
-    obj = scenes.add_object(name, *tube_arrays(**options))
+def add_tube(name="Tube", finger=None, **options):
+    arrays = tube_arrays(**options)
+    obj = scenes.add_object(name, *(arrays if finger is None else with_finger(*arrays, finger)))
     scenes.select(obj)
     return obj
 
