@@ -107,7 +107,7 @@ public:
         } catch (...) {
             failure_ = std::current_exception();
         }
-        claims_.remove_folder();
+        claims_.clean_up();
         if (failure_) std::rethrow_exception(failure_);
         return count_;
     }

@@ -11,6 +11,7 @@
 #include <array>
 #include <charconv>
 #include <fstream>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -120,8 +121,13 @@ bool Claims::is_dead(const std::string& key, long generation)
 
 std::optional<Claims::Claim> Claims::take(const std::string& name)
 {
+    return take_key(sha256_of_text(name).substr(0, key_digits), name);
+}
+
+std::optional<Claims::Claim> Claims::take_key(const std::string& key, const std::string& name)
+{
     Claim claim;
-    claim.key_ = sha256_of_text(name).substr(0, key_digits);
+    claim.key_ = key;
     const long holder = highest(claim.key_);
     if (holder > 0 && !is_dead(claim.key_, holder)) return {};
     claim.generation_ = holder + 1;
@@ -153,8 +159,22 @@ Claims::Claim Claims::wait(const std::string& name)
         if (auto claim = take(name)) return std::move(*claim);
 }
 
-void Claims::remove_folder() noexcept
+void Claims::release_dead()
 {
+    std::set<std::string> keys;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error))
+        if (entry->path().extension() != work_ending) keys.insert(utf8(entry->path().stem()));
+    for (const std::string& key : keys)
+        if (auto claim = take_key(key, "")) claim->release();
+}
+
+void Claims::clean_up() noexcept
+{
+    try {
+        release_dead();
+    } catch (const std::exception&) {  // the next run does it
+    }
     std::error_code error;
     for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
         std::error_code ignored;

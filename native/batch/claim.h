@@ -48,8 +48,8 @@ public:
     /// The same, once the other run has released it or is dead.
     Claim wait(const std::string& name);
 
-    /// Removes the folder if no run has a claim in it.
-    void remove_folder() noexcept;
+    /// Removes what dead runs have left, and the folder if no run has a claim in it.
+    void clean_up() noexcept;
 
 private:
     struct Watch {
@@ -58,6 +58,9 @@ private:
         std::chrono::steady_clock::time_point since;
     };
 
+    std::optional<Claim> take_key(const std::string& key, const std::string& name);
+    /// Takes over, and releases, the claims of dead runs: those of files that were done, but for that.
+    void release_dead();
     long highest(const std::string& key) const;
     bool is_dead(const std::string& key, long generation);
 

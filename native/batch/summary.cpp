@@ -117,7 +117,7 @@ void write_summary(const fs::path& folder, double stale)
 {
     Claims claims(folder / work_folder, stale);
     write_summary(folder, claims);
-    claims.remove_folder();
+    claims.clean_up();
 }
 
 void write_summary(const fs::path& folder, Claims& claims)

@@ -631,6 +631,15 @@ def test_a_claim_of_another_host_holds_while_it_is_renewed(library, tmp_path):
     assert set(contents(out)) == {"a.obj", "a.json", "summary.json"}
 
 
+def test_what_a_dead_run_left_of_a_file_that_is_done_is_removed(library, tmp_path):
+    out = tmp_path / "out"
+    assert batch(library / "a.obj", "--output", out).returncode == 0
+    before = contents(out)
+    claim_file(out, "a.obj", host=socket.gethostname(), process=2**22 + 1)
+    assert batch(library / "a.obj", "--output", out).returncode == 0
+    assert contents(out) == before and not (out / ".koebe-batch").exists()
+
+
 @pytest.mark.parametrize("owner", [{}, {"host": socket.gethostname(), "process": 2**22 + 1}])
 def test_a_claim_of_a_dead_process_is_taken_over(library, tmp_path, owner):
     out = tmp_path / "out"
