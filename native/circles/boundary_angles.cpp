@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,6 +22,21 @@ VectorXd unrolled(const VectorXcd& points)
     angles[0] = std::arg(points[0]);
     for (Eigen::Index b = 1; b < points.size(); ++b) angles[b] = angles[b - 1] + std::arg(points[b] / points[b - 1]);
     return angles;
+}
+
+/// The mean along the edge from node b: of the cubic through four nodes where they are about even, on ragged loops of
+/// the straight line through two, and a mixture in between.
+double mean_density(const VectorXd& density, const VectorXd& edges, Eigen::Index b)
+{
+    constexpr double even = 2.0, ragged = 3.0;  // largest over least
+    const Eigen::Index m = density.size(), before = (b + m - 1) % m, next = (b + 1) % m, after = (b + 2) % m;
+    const auto [least, most] = std::minmax({density[before], density[b], density[next], density[after]});
+    const auto [shortest, longest] = std::minmax({edges[before], edges[b], edges[next]});
+    const double straight = 0.5 * (density[b] + density[next]);
+    if (!(least > 0.0)) return straight;
+    const double unevenness = std::max(most / least, longest / shortest);
+    const double share = std::clamp((ragged - unevenness) / (ragged - even), 0.0, 1.0);
+    return straight - share * (density[before] - density[b] - density[next] + density[after]) / 24.0;
 }
 
 }  // namespace
@@ -57,11 +73,12 @@ VectorXd angles_from_flux(const VectorXd& flux, const VectorXd& edges, int& rais
     const double total = flux.sum();
     if (!(std::abs(total) > 0.0) || !std::isfinite(total))
         throw SolverError("no flux runs through a boundary loop: the surface is torn there in all but topology");
-    const auto density = [&](Eigen::Index b) { return flux[b] / (edges[(b + m - 1) % m] + edges[b]) / total; };
+    VectorXd density(m);
+    for (Eigen::Index b = 0; b < m; ++b) density[b] = flux[b] / (0.5 * (edges[(b + m - 1) % m] + edges[b])) / total;
     const double least = shortest_step * 2.0 * pi / static_cast<double>(m);
     VectorXd step(m);  // from node b to node b + 1
     for (Eigen::Index b = 0; b < m; ++b) {
-        step[b] = 2.0 * pi * edges[b] * (density(b) + density((b + 1) % m));
+        step[b] = 2.0 * pi * edges[b] * mean_density(density, edges, b);
         if (!(step[b] > least)) {
             step[b] = least;
             ++raised;

@@ -7,8 +7,9 @@ namespace koebe {
 
 /// Angles from the flux through each boundary node. The flux density rho_b = q_b / l_b, l_b the length that the hat
 /// function of node b stands for, is the derivative of the conjugate harmonic function along the loop; so an edge
-/// takes its length times the mean density of its ends, scaled to 2 pi in all (docs/numerics.md, "The angles"). The
-/// running sum of q itself agrees with that on even edges; on uneven ones this keeps second order.
+/// takes its length times its mean density, scaled to 2 pi in all (docs/numerics.md, "The angles"): of fourth order
+/// where edges and densities are about even, else the mean of its ends. The running sum of q itself agrees with the
+/// latter on even edges; on uneven ones this keeps second order.
 ///
 /// A step no longer than 1e-5 of the mean one is raised to that, so that nodes through which nothing flows keep
 /// distinct angles.
