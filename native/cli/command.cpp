@@ -72,7 +72,8 @@ int run_command(int argc, char** argv)
                "Where it is a symbolic link, the link stays and its target is replaced.");
     const std::vector<Subcommand> commands{add_uniformize(app), add_batch(app),    add_fill(app),   add_module(app),
                                            add_compare(app),    add_transfer(app), add_ricci(app),  add_parts(app),
-                                           add_torus(app),      add_ring(app),     add_sphere(app), add_schottky(app)};
+                                           add_torus(app),      add_ring(app),     add_sphere(app), add_schottky(app),
+                                           add_sequence(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

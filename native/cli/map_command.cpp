@@ -108,19 +108,12 @@ void show_warnings(const std::vector<Warning>& warnings)
     for (const Warning& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
 }
 
-int run_map(const MapRequest& request, const MapFunction& compute)
+MapKind<UniformizeResult> disk_map(const MapRequest& request)
 {
     MapKind<UniformizeResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        UniformizeResult result = with_filed_faces(input, [&] {
-            require_fitting_vertices(input, request.options);
-            return compute(input.polygons.vertices, input.triangulation.triangles, context);
-        });
-        add_input_warnings(input, result.warnings);
-        return result;
-    };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const UniformizeResult& result) {
-        write_with_uvs(file, request.format, input.polygons, result.uv);
+    kind.write_mesh = [format = request.format](AtomicFile& file, const MeshInput& input,
+                                                const UniformizeResult& result) {
+        write_with_uvs(file, format, input.polygons, result.uv);
     };
     kind.draw = [](const MeshInput& input, const UniformizeResult& result) { return to_svg(result, input.polygons); };
     kind.report = [](const UniformizeResult& result) { return to_json(result); };
@@ -129,6 +122,20 @@ int run_map(const MapRequest& request, const MapFunction& compute)
         for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness.paper);
         return counted(result.loops.size(), "loop") + ", " + counted(static_cast<std::size_t>(result.sweeps), "sweep") +
                ", roundness " + rounded("%.1e", roundness);
+    };
+    return kind;
+}
+
+int run_map(const MapRequest& request, const MapFunction& compute)
+{
+    MapKind<UniformizeResult> kind = disk_map(request);
+    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        UniformizeResult result = with_filed_faces(input, [&] {
+            require_fitting_vertices(input, request.options);
+            return compute(input.polygons.vertices, input.triangulation.triangles, context);
+        });
+        add_input_warnings(input, result.warnings);
+        return result;
     };
     return run_map_of(request, kind);
 }

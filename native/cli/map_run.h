@@ -34,6 +34,9 @@ struct MapKind {
     std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
 };
 
+/// The kind of a map to the disk, its computation left out.
+MapKind<UniformizeResult> disk_map(const MapRequest& request);
+
 /// The files of a request, by the names that the usage has for them.
 std::vector<OutputFile> map_files(const MapRequest& request);
 

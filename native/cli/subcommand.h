@@ -20,6 +20,7 @@ Subcommand add_parts(CLI::App& app);
 Subcommand add_ricci(CLI::App& app);
 Subcommand add_ring(CLI::App& app);
 Subcommand add_schottky(CLI::App& app);
+Subcommand add_sequence(CLI::App& app);
 Subcommand add_sphere(CLI::App& app);
 Subcommand add_torus(CLI::App& app);
 Subcommand add_transfer(CLI::App& app);

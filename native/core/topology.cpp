@@ -206,16 +206,22 @@ std::vector<Index> find_handle_loop(const Surface& surface)
 
 }  // namespace
 
-void validate_arrays(const Vertices& vertices, const Triangles& triangles)
+void require_finite(const Vertices& vertices)
 {
-    if (vertices.rows() == 0) throw InputError("the mesh has no vertices");
-    if (triangles.rows() == 0) throw InputError("the mesh has no faces");
     std::vector<Index> bad;
     for (Eigen::Index v = 0; v < vertices.rows(); ++v)
         if (!vertices.row(v).allFinite()) bad.push_back(static_cast<Index>(v));
     if (!bad.empty())
         throw InputError(std::to_string(bad.size()) + " vertices have a coordinate that is NaN or infinite",
                          ElementKind::vertices, bad);
+}
+
+void validate_arrays(const Vertices& vertices, const Triangles& triangles)
+{
+    if (vertices.rows() == 0) throw InputError("the mesh has no vertices");
+    if (triangles.rows() == 0) throw InputError("the mesh has no faces");
+    require_finite(vertices);
+    std::vector<Index> bad;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         if (triangles.row(f).minCoeff() < 0 || triangles.row(f).maxCoeff() >= vertices.rows())
             bad.push_back(static_cast<Index>(f));

@@ -20,6 +20,9 @@ struct Surface {
     int genus = 0;
 };
 
+/// @throws InputError a coordinate that is NaN or infinite; elements: vertices
+void require_finite(const Vertices& vertices);
+
 /// Checks the arrays themselves.
 /// @throws InputError empty arrays, an index out of range, a face that names a vertex twice,
 ///         a coordinate that is NaN or infinite; elements: faces or vertices, as the message says

@@ -8,14 +8,19 @@
 namespace koebe {
 
 CondensedState::CondensedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                               const std::vector<VectorXd>& edges, VectorXd source)
-    : FilledState(loops, edges), source_(std::move(source)), sigma_(surface.sigma()), filled_(sigma_)
+                               const std::vector<VectorXd>& edges, VectorXd source, std::vector<VectorXd> first_angles)
+    : FilledState(loops, edges, std::move(first_angles)),
+      source_(std::move(source)),
+      sigma_(surface.sigma()),
+      filled_(sigma_)
 {
     Index begin = 0;
     for (const Index size : size_) {
         begin_.push_back(begin);
         begin += size;
     }
+    fill();
+    if (begun()) return;
     int raised = 0;
     for (int k = 0; k < loop_count(); ++k) take_angles({k}, diagonal_block(sigma_, k).rowwise().sum(), raised);
 }

@@ -16,9 +16,10 @@ public:
     /// @param surface its boundary the concatenation of the loops, nothing grounded
     /// @param loops the outer loop first
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
+    /// @param first_angles these angles instead, if there are any
     /// @param source (m) flux that arrives at each boundary vertex from a source inside, for one open loop
     CondensedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                   const std::vector<VectorXd>& edges, VectorXd source);
+                   const std::vector<VectorXd>& edges, VectorXd source, std::vector<VectorXd> first_angles = {});
 
     std::vector<VectorXcd> images() override;
     bool opens_at_once() const override { return false; }

@@ -3,15 +3,26 @@
 #include "circles/boundary_angles.h"
 #include "iteration/disk_dirichlet_to_neumann.h"
 
+#include <utility>
+
 namespace koebe {
 
-FilledState::FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges)
-    : edges_(edges), angles_(loops.size())
+FilledState::FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
+                         std::vector<VectorXd> first_angles)
+    : edges_(edges), angles_(std::move(first_angles)), begun_(!angles_.empty())
 {
+    angles_.resize(loops.size());
     for (std::size_t k = 0; k < loops.size(); ++k) {
         size_.push_back(static_cast<Index>(loops[k].size()));
         weights_.push_back(vertex_weights(edges[k]));
     }
+}
+
+void FilledState::fill()
+{
+    if (!begun()) return;
+    for (int k = 0; k < loop_count(); ++k)
+        if (fills(k)) set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
 }
 
 VectorXcd FilledState::rim() const { return unit_circle_points(angles_[0]); }

@@ -19,6 +19,9 @@ public:
     /// The outer loop on the unit circle, at its angles.
     VectorXcd rim() const;
 
+    /// Of the vertices of each loop.
+    const std::vector<VectorXd>& angles() const { return angles_; }
+
     /// The map of the surface with all loops but the outer one filled and the outer one on the unit circle, on every
     /// loop: harmonic where it is filled.
     virtual std::vector<VectorXcd> images() = 0;
@@ -35,7 +38,15 @@ public:
 
 protected:
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
-    FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges);
+    /// @param first_angles angles for all loops, or none
+    FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
+                std::vector<VectorXd> first_angles);
+
+    /// Whether the first angles were given; else those of each loop are to be taken from a flux.
+    bool begun() const { return begun_; }
+
+    /// Disks at the first angles, if they were given.
+    void fill();
 
     /// New angles for open loops from the flux through them: the conjugate of the harmonic function.
     void take_angles(const OpenedLoops& open, const VectorXd& flux, int& raised);
@@ -52,6 +63,9 @@ protected:
     std::vector<Index> size_;        // of each loop
     std::vector<VectorXd> weights_;  // share of each vertex in the length of its loop
     std::vector<VectorXd> angles_;
+
+private:
+    bool begun_;
 };
 
 /// The outer loop held at 0 in every step, and so never filled: A is that of the surface and the disks T_k in its inner
@@ -59,7 +73,10 @@ protected:
 class GroundedState : public FilledState {
 public:
     bool opens_at_once() const final { return true; }
-    void start(int& raised) final { take_angles({0}, outer_flux(), raised); }
+    void start(int& raised) final
+    {
+        if (!begun()) take_angles({0}, outer_flux(), raised);
+    }
     void take_steps(const Sweep&, int& raised) final;
 
 protected:

@@ -7,8 +7,8 @@
 namespace koebe {
 
 DenseGroundedState::DenseGroundedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                                       const std::vector<VectorXd>& edges)
-    : GroundedState(loops, edges), surface_(surface), begin_(loops.size())
+                                       const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles)
+    : GroundedState(loops, edges, std::move(first_angles)), surface_(surface), begin_(loops.size())
 {
     std::vector<Index> first(loops.size() + 1, 0);
     for (int k = 1; k < loop_count(); ++k) first[k + 1] = first[k] + size_[k];
@@ -21,6 +21,8 @@ DenseGroundedState::DenseGroundedState(const CondensedLaplacian& surface, const 
     sigma_ = sigma.bottomRightCorner(inner, inner)(given_, given_);
     if (!surface.grounded()) coupling_ = sigma.bottomLeftCorner(inner, size_[0]);
     filled_ = sigma_;
+    fill();
+    if (begun()) return;
     int raised = 0;
     for (int k = 1; k < loop_count(); ++k)
         take_angles({k}, sigma_.block(begin_[k], begin_[k], size_[k], size_[k]).rowwise().sum(), raised);

@@ -16,8 +16,9 @@ public:
     /// @param surface its boundary the concatenation of the loops, the outer one first, grounded or not; must outlive
     /// this
     /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
+    /// @param first_angles the first angles instead, if there are any
     DenseGroundedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                       const std::vector<VectorXd>& edges);
+                       const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles = {});
 
     std::vector<VectorXcd> images() override;
 

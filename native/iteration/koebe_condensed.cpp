@@ -9,6 +9,7 @@
 #include "iteration/sweep_order.h"
 #include "surface/deepest_vertex.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -31,13 +32,39 @@ VectorXd flux_of_deepest_source(const CondensedLaplacian& surface, const VectorX
 
 std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
                                          const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
-                                         bool at_once, const VectorXd& flux_of_source)
+                                         bool at_once, const VectorXd& flux_of_source,
+                                         const std::vector<VectorXd>& first)
 {
-    if (!surface.has_sigma()) return std::make_unique<SparseState>(laplacian, surface, loops, edges);
+    if (!surface.has_sigma()) return std::make_unique<SparseState>(laplacian, surface, loops, edges, first);
     require_memory(dense_copies * 8.0 * std::pow(surface.boundary_size(), 2), "the boundary's dense matrices");
-    if (at_once) return std::make_unique<DenseGroundedState>(surface, loops, edges);
-    return std::make_unique<CondensedState>(surface, loops, edges, flux_of_source);
+    if (at_once) return std::make_unique<DenseGroundedState>(surface, loops, edges, first);
+    return std::make_unique<CondensedState>(surface, loops, edges, flux_of_source, first);
 }
+
+/// The angles to begin with, none unless there is one for each vertex.
+std::vector<VectorXd> first_angles(const KoebeOutcome* last, const std::vector<VertexLoop>& loops)
+{
+    if (!last || last->angles.size() != loops.size()) return {};
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        if (last->angles[k].size() != static_cast<Eigen::Index>(loops[k].size())) return {};
+    return last->angles;
+}
+
+/// How much of a sweep's change the next one has, at most; as long as rounding tells of it.
+class Contraction {
+public:
+    explicit Contraction(double known) : known_(known) {}
+    void add(double change)
+    {
+        if (last_ > rounding) measured_ = std::max(measured_, change / last_);
+        last_ = change;
+    }
+    double value() const { return measured_ > 0.0 ? std::min(measured_, 1.0) : known_; }
+
+private:
+    static constexpr double rounding = 1e-10;
+    double known_, measured_ = 0.0, last_ = 0.0;
+};
 
 }  // namespace
 
@@ -50,7 +77,8 @@ Index best_grounded(const std::vector<VertexLoop>& loops)
 
 KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
-                             const VectorXd& areas, const IterationOptions& options, ExecutionContext& context)
+                             const VectorXd& areas, const IterationOptions& options, ExecutionContext& context,
+                             const KoebeOutcome* last)
 {
     KoebeOutcome outcome;
     const int loop_count = static_cast<int>(loops.size());
@@ -64,7 +92,9 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         outcome.converged = true;
         return outcome;
     }
-    const std::unique_ptr<FilledState> state = first_state(laplacian, surface, loops, edges, at_once, flux_of_source);
+    const std::vector<VectorXd> first = first_angles(last, loops);
+    const std::unique_ptr<FilledState> state =
+        first_state(laplacian, surface, loops, edges, at_once, flux_of_source, first);
     const Sweep sweep = fixed_sweep(loop_count, options.method);
     std::vector<Sweep> order;  // what a sweep takes together, and after it the next such
     if (state->opens_at_once())
@@ -86,6 +116,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
                                        next.circles});
         now = std::move(next);
     };
+    Contraction contraction(first.empty() ? 1.0 : last->contraction);
     while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
         // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): record() changes now
         const CircleState at_sweep_start = now;
@@ -99,7 +130,13 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
         }
         ++outcome.sweeps;
         outcome.converged = has_converged(at_sweep_start, now, options.tolerance);
+        if (loop_count == 2) break;
+        const double change = circle_change(at_sweep_start, now);
+        contraction.add(change);
+        if (!first.empty() && 3.0 * contraction.value() * change < options.tolerance) outcome.converged = true;
     }
+    outcome.contraction = contraction.value();
+    outcome.angles = state->angles();
     return outcome;
 }
 

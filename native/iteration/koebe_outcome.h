@@ -38,6 +38,9 @@ struct KoebeOutcome {
     int sweeps = 0, steps = 0;
     bool converged = false;
     int raised_angles = 0;  ///< boundary nodes whose flux vanished in the last sweep
+    /// Where a run on a surface of nearly the same shape can begin (koebe_condensed).
+    std::vector<VectorXd> angles;  ///< of the vertices of each loop
+    double contraction = 1.0;      ///< the largest share of a sweep's change that the next sweep had
     /// (V) per step, if asked for: where its map takes the surface, the first loop that it opened on the unit circle.
     std::vector<VectorXcd> step_images;
 };

@@ -8,8 +8,9 @@
 namespace koebe {
 
 SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
-                         const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges)
-    : GroundedState(loops, edges), loops_(loops), laplacian_(laplacian)
+                         const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
+                         std::vector<VectorXd> first_angles)
+    : GroundedState(loops, edges, std::move(first_angles)), loops_(loops), laplacian_(laplacian)
 {
     std::vector<char> outer(laplacian.rows(), 0);
     for (const Index v : loops[0]) outer[v] = 1;
@@ -30,6 +31,8 @@ SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian
     empty_.setFromTriplets(entries.begin(), entries.end());
     filled_ = empty_;
 
+    fill();
+    if (begun()) return;
     int raised = 0;
     for (int k = 1; k < loop_count(); ++k) take_angles({k}, surface.flux_of_part(loops[k]), raised);
 }

@@ -18,7 +18,7 @@ public:
     /// @param surface of the same Laplacian
     /// @param laplacian (V, V) both triangles stored; must outlive this
     SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
-                const std::vector<VectorXd>& edges);
+                const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles = {});
 
     std::vector<VectorXcd> images() override;
 

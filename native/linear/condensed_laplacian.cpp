@@ -6,13 +6,15 @@ namespace koebe {
 
 namespace {
 
-/// K on the interior, the unit matrix on the boundary, nothing between them.
+/// K on the interior, the unit matrix on the boundary, nothing between them. The pattern does not depend on the values.
 SparseMatrix cut_off(SparseMatrix result, const std::vector<char>& on_boundary)
 {
     for (Index column = 0; column < static_cast<Index>(result.cols()); ++column)
         for (SparseMatrix::InnerIterator it(result, column); it; ++it)
-            if (on_boundary[it.row()] || on_boundary[column]) it.valueRef() = it.row() == column ? 1.0 : 0.0;
-    result.prune([](Index, Index, double value) { return value != 0.0; });
+            if (on_boundary[column] && it.row() == column) it.valueRef() = 1.0;
+    result.prune([&](Index row, Index column, double) {
+        return row == column || !(on_boundary[row] || on_boundary[column]);
+    });
     return result;
 }
 
@@ -26,6 +28,13 @@ struct CondensedLaplacian::Impl {
     std::unique_ptr<SparseCholesky> cholesky;  // of K + diag(0, 1 where kept), 1 in the place of what is cut off
     bool has_sigma = true;
     std::vector<Index> row;  // of each kept vertex in the factor's order, where that is another
+
+    /// What is factored of a Laplacian: 1 added to the diagonal where kept, the grounded part cut off.
+    SparseMatrix shifted(SparseMatrix matrix) const
+    {
+        for (const Index v : kept) matrix.coeffRef(v, v) += 1.0;
+        return is_cut.empty() ? matrix : cut_off(std::move(matrix), is_cut);
+    }
 
     /// Rows in the factor's order as the boundary is given now.
     template <typename Matrix>
@@ -62,15 +71,18 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
     if (!impl_->has_sigma) grounded = static_cast<Index>(boundary.size());
     impl_->ground.assign(boundary.begin(), boundary.begin() + grounded);
     impl_->kept.assign(boundary.begin() + grounded, boundary.end());
-    SparseMatrix shifted = laplacian;
-    for (const Index v : impl_->kept) shifted.coeffRef(v, v) += 1.0;
     if (grounded > 0) {
         impl_->laplacian = laplacian;
         impl_->is_cut.assign(laplacian.rows(), 0);
         for (const Index v : impl_->ground) impl_->is_cut[v] = 1;
-        shifted = cut_off(shifted, impl_->is_cut);
     }
-    impl_->cholesky = std::make_unique<SparseCholesky>(shifted, ordering, impl_->kept);
+    impl_->cholesky = std::make_unique<SparseCholesky>(impl_->shifted(laplacian), ordering, impl_->kept);
+}
+
+void CondensedLaplacian::renew(const SparseMatrix& laplacian)
+{
+    if (!impl_->is_cut.empty()) impl_->laplacian = laplacian;
+    impl_->cholesky->refactorize(impl_->shifted(laplacian));
 }
 
 CondensedLaplacian::~CondensedLaplacian() = default;

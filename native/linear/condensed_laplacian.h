@@ -36,6 +36,10 @@ public:
     CondensedLaplacian(CondensedLaplacian&&) noexcept;
     CondensedLaplacian& operator=(CondensedLaplacian&&) noexcept;
 
+    /// The same of another Laplacian with the same pattern: of the surface with its vertices elsewhere.
+    /// @throws SolverError as above; then this cannot be used any more
+    void renew(const SparseMatrix& laplacian);
+
     /// Takes the boundary in another order from now on: what is given and returned goes by it.
     /// @param boundary the same vertices
     /// @return false, and nothing has changed, if a part of it is grounded while there is a Sigma

@@ -16,6 +16,7 @@
 #include "domains/tile_map.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "pipeline/surface_solver.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "shape/conformal_module.h"

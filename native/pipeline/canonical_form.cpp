@@ -31,6 +31,76 @@ std::uint64_t mixed(std::uint64_t x)
     return x ^ (x >> 31);
 }
 
+[[noreturn]] void throw_one_point() { throw InputError("all vertices lie on one point"); }
+
+/// About 0 and of about unit size, so that no length overflows.
+Vertices scaled(const Surface& surface, const Vertices& vertices)
+{
+    const Index any = surface.triangles(0, 0);
+    Eigen::RowVector3d low = vertices.row(any), high = low;
+    for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
+        low = low.cwiseMin(vertices.row(surface.triangles.data()[i]));
+        high = high.cwiseMax(vertices.row(surface.triangles.data()[i]));
+    }
+    const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
+    const double extent = (0.5 * high - 0.5 * low).maxCoeff();
+    if (!(extent > 0.0)) throw_one_point();
+    return (vertices.rowwise() - middle) / extent;
+}
+
+/// The row that is farthest by a measure; of several about as far the first.
+template <class Measure>
+Eigen::Index farthest(const Vertices& points, const Measure& measure)
+{
+    Eigen::Index best = 0;
+    double most = measure(0);
+    for (Eigen::Index v = 1; v < points.rows(); ++v)
+        if (const double m = measure(v); m > (1.0 + same) * most) {
+            most = m;
+            best = v;
+        }
+    return best;
+}
+
+CanonicalPosition position_of(const Triangles& triangles, Vertices points)
+{
+    points.rowwise() -= points.colwise().mean().eval();
+    const Eigen::Vector3d reach = points.row(farthest(points, [&](Eigen::Index v) { return points.row(v).norm(); }));
+    const double extent = points.rowwise().norm().maxCoeff();
+    if (!(extent > 0.0)) throw_one_point();
+    const Eigen::Vector3d first = reach / reach.norm();
+    const auto aside = [&](Eigen::Index v) -> Eigen::Vector3d {
+        const Eigen::Vector3d p = points.row(v);
+        return p - p.dot(first) * first;
+    };
+    const Eigen::Vector3d sideways = aside(farthest(points, [&](Eigen::Index v) { return aside(v).norm(); }));
+    // All on a line: any second axis will do.
+    const Eigen::Vector3d second =
+        sideways.norm() > same * extent ? Eigen::Vector3d(sideways / sideways.norm()) : first.unitOrthogonal();
+    Eigen::Matrix3d frame;
+    frame << first, second, first.cross(second);
+    points = (points * frame / extent).eval();
+
+    double shortest = std::numeric_limits<double>::infinity();
+    double thinnest = shortest;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const auto edge = [&](int k) -> Eigen::RowVector3d {
+            return points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k));
+        };
+        const Eigen::RowVector3d first = edge(0), last = edge(2);
+        double longest = 0.0;
+        for (const double length : {first.norm(), edge(1).norm(), last.norm()}) {
+            if (length > 0.0) shortest = std::min(shortest, length);
+            longest = std::max(longest, length);
+        }
+        thinnest = std::min(thinnest, longest > 0.0 ? first.cross(last).norm() / longest : 0.0);
+    }
+    const double grid = std::exp2(std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
+    thinnest /= grid;
+    points = (points.array() / grid).round() * grid;
+    return {std::move(points), thinnest};
+}
+
 class Canonicalizer {
 public:
     Canonicalizer(const Surface& surface, const Vertices& vertices)
@@ -41,28 +111,14 @@ public:
     CanonicalForm run()
     {
         number_from(first_halfedge());
-        place();
+        CanonicalPosition position =
+            position_of(form_.surface.triangles, positions_(form_.original_vertices, Eigen::all));
+        form_.vertices = std::move(position.vertices);
+        form_.thinnest = position.thinnest;
         return std::move(form_);
     }
 
 private:
-    /// About 0 and of about unit size, so that no length overflows.
-    static Vertices scaled(const Surface& surface, const Vertices& vertices)
-    {
-        const Index any = surface.triangles(0, 0);
-        Eigen::RowVector3d low = vertices.row(any), high = low;
-        for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
-            low = low.cwiseMin(vertices.row(surface.triangles.data()[i]));
-            high = high.cwiseMax(vertices.row(surface.triangles.data()[i]));
-        }
-        const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
-        const double extent = (0.5 * high - 0.5 * low).maxCoeff();
-        if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
-        Vertices result = (vertices.rowwise() - middle) / extent;
-        for (const Index v : surface.unused) result.row(v).setZero();
-        return result;
-    }
-
     double length(Index h) const
     {
         return length_of(positions_.row(target(surface_.triangles, h)) - positions_.row(origin(surface_.triangles, h)));
@@ -163,61 +219,6 @@ private:
         std::sort(surface.loops.begin(), surface.loops.end());
     }
 
-    /// The row that is farthest by a measure; of several about as far the first.
-    template <class Measure>
-    Eigen::Index farthest(const Measure& measure) const
-    {
-        Eigen::Index best = 0;
-        double most = measure(0);
-        for (Eigen::Index v = 1; v < form_.vertices.rows(); ++v)
-            if (const double m = measure(v); m > (1.0 + same) * most) {
-                most = m;
-                best = v;
-            }
-        return best;
-    }
-
-    void place()
-    {
-        Vertices& points = form_.vertices;
-        points = positions_(form_.original_vertices, Eigen::all);
-        points.rowwise() -= points.colwise().mean().eval();
-        const Eigen::Vector3d reach = points.row(farthest([&](Eigen::Index v) { return points.row(v).norm(); }));
-        const double extent = points.rowwise().norm().maxCoeff();
-        if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
-        const Eigen::Vector3d first = reach / reach.norm();
-        const auto aside = [&](Eigen::Index v) -> Eigen::Vector3d {
-            const Eigen::Vector3d p = points.row(v);
-            return p - p.dot(first) * first;
-        };
-        const Eigen::Vector3d sideways = aside(farthest([&](Eigen::Index v) { return aside(v).norm(); }));
-        // All on a line: any second axis will do.
-        const Eigen::Vector3d second =
-            sideways.norm() > same * extent ? Eigen::Vector3d(sideways / sideways.norm()) : first.unitOrthogonal();
-        Eigen::Matrix3d frame;
-        frame << first, second, first.cross(second);
-        points = (points * frame / extent).eval();
-
-        double shortest = std::numeric_limits<double>::infinity();
-        form_.thinnest = shortest;
-        const Triangles& triangles = form_.surface.triangles;
-        for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-            const auto edge = [&](int k) -> Eigen::RowVector3d {
-                return points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k));
-            };
-            const Eigen::RowVector3d first = edge(0), last = edge(2);
-            double longest = 0.0;
-            for (const double length : {first.norm(), edge(1).norm(), last.norm()}) {
-                if (length > 0.0) shortest = std::min(shortest, length);
-                longest = std::max(longest, length);
-            }
-            form_.thinnest = std::min(form_.thinnest, longest > 0.0 ? first.cross(last).norm() / longest : 0.0);
-        }
-        const double grid = std::exp2(std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
-        form_.thinnest /= grid;
-        points = (points.array() / grid).round() * grid;
-    }
-
     const Surface& surface_;
     Vertices positions_;
     std::vector<Index> rank_;
@@ -229,6 +230,11 @@ private:
 CanonicalForm canonical_form(const Surface& surface, const Vertices& vertices)
 {
     return Canonicalizer(surface, vertices).run();
+}
+
+CanonicalPosition canonical_position(const Surface& surface, const Vertices& vertices)
+{
+    return position_of(surface.triangles, scaled(surface, vertices));
 }
 
 }  // namespace koebe

@@ -131,6 +131,15 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
     return domain;
 }
 
+void move_domain(Domain& domain, const Vertices& vertices)
+{
+    CanonicalPosition position = canonical_position(domain.surface, vertices(domain.original, Eigen::all));
+    domain.vertices = std::move(position.vertices);
+    domain.thinnest = position.thinnest;
+    for (std::size_t k = 0; k < domain.loops.size(); ++k)
+        domain.edges[k] = loop_edges(domain.vertices, domain.loops[k]);
+}
+
 int rank_by_lowest_vertex(const Domain& domain, const VertexLoop& loop)
 {
     const auto lowest = [&](const VertexLoop& l) {

@@ -39,6 +39,10 @@ void require_importance(const UniformizeOptions& options, Index vertex_count);
 /// @throws InputError, TopologyError
 Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
 
+/// The same domain with its vertices elsewhere: its loops keep their order, the outer one too.
+/// @param vertices (V, 3) of the input, as many as before @throws InputError
+void move_domain(Domain& domain, const Vertices& vertices);
+
 /// The domain without its flaps; takes the surface out of the cut.
 Domain core_domain(const Domain& whole, FlapCut& cut);
 

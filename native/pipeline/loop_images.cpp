@@ -34,15 +34,15 @@ KoebeOutcome polygon_outcome(const Domain& domain)
 }
 
 KoebeOutcome run_engine(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
-                        ExecutionContext& context)
+                        ExecutionContext& context, const KoebeOutcome* last = nullptr)
 {
     if (options.engine == Engine::mesh)
         return koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context, options.mesh).outcome;
-    if (!assembled.condensed) return {};
+    if (!assembled.factored) return {};
     const IntrinsicMetric& metric = assembled.metric;
     return koebe_condensed(assembled.laplacian, *assembled.condensed, domain.loops, domain.edges,
                            vertex_areas(metric.triangles, metric.lengths, domain.surface.vertex_count), options,
-                           context);
+                           context, last);
 }
 
 bool finite(const KoebeOutcome& outcome)
@@ -72,22 +72,37 @@ bool more_boundary_than_inside(const Domain& domain)
 
 void AssembledDomain::take_metric(const Domain& domain)
 {
-    metric = intrinsic_metric(domain.vertices, domain.surface);
+    std::optional<IntrinsicMetric> kept;
+    if (condensed) kept = metric_with_flips_of(metric, domain.vertices, domain.surface);
+    if (!kept) condensed.reset();
+    metric = kept ? *std::move(kept) : intrinsic_metric(domain.vertices, domain.surface);
     laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), domain.surface.vertex_count);
+    factored = false;
 }
 
 void AssembledDomain::factorize(const Domain& domain)
 {
-    condensed.emplace(laplacian, boundary_of(domain), Ordering::amd, best_grounded(domain.loops));
+    try {
+        if (condensed)
+            condensed->renew(laplacian);
+        else
+            condensed.emplace(laplacian, boundary_of(domain), Ordering::amd, best_grounded(domain.loops));
+        factored = true;
+    } catch (...) {
+        condensed.reset();
+        throw;
+    }
 }
 
 void AssembledDomain::reorder(const Domain& domain)
 {
-    if (condensed && !condensed->reorder_boundary(boundary_of(domain))) condensed.reset();
+    if (!condensed || condensed->reorder_boundary(boundary_of(domain))) return;
+    condensed.reset();
+    factored = false;
 }
 
 KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
-                         ExecutionContext& context)
+                         ExecutionContext& context, const KoebeOutcome* last)
 {
     if (is_polygon(domain)) return polygon_outcome(domain);
     const auto attempt = [&](const auto& run) {
@@ -100,7 +115,7 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
         }
         return KoebeOutcome{};
     };
-    KoebeOutcome outcome = attempt([&] { return run_engine(domain, assembled, options, context); });
+    KoebeOutcome outcome = attempt([&] { return run_engine(domain, assembled, options, context, last); });
     const bool condensed = options.engine == Engine::condensed;
     bool wanting = !sound(outcome) || (condensed && more_boundary_than_inside(domain));
     Domain fine;
@@ -122,6 +137,7 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
         if (!finite(finer) || (wanting && sound(outcome))) continue;
         for (VectorXcd& image : finer.step_images) image.conservativeResize(domain.surface.vertex_count);
         for (VectorXcd& loop : finer.loops) loop = VectorXcd(loop(Eigen::seqN(0, loop.size() / stride, stride)));
+        finer.angles.clear();  // of more vertices than the loops have
         outcome = std::move(finer);
     }
     return finite(outcome) ? outcome : KoebeOutcome{};

@@ -12,12 +12,15 @@
 
 namespace koebe {
 
-/// What is assembled once for a domain, in two steps.
+/// What is assembled once for a domain, in two steps; once more where its vertices have moved.
 struct AssembledDomain {
     IntrinsicMetric metric;
     SparseMatrix laplacian;                       ///< cotan weights of the metric
     std::optional<CondensedLaplacian> condensed;  ///< its factor, the loops last
+    bool factored = false;                        ///< whether that is of this Laplacian
 
+    /// Where there is a factor the last metric's triangulation is kept as long as it is nearly Delaunay: then the
+    /// factor can be renewed.
     void take_metric(const Domain& domain);
     /// @throws SolverError
     void factorize(const Domain& domain);
@@ -30,8 +33,9 @@ struct AssembledDomain {
 /// domain (refined_domain), up to three times, as long as that has at most 20,000 faces. The mesh engine, which is
 /// slow, does so for unsound images alone, up to 4,000 faces.
 /// @param assembled without a factor if the domain's matrix is singular
+/// @param last of the same domain with its vertices elsewhere, if there is one (koebe_condensed)
 /// @return the images of the domain's own loop vertices; no loops if nothing came of it
 KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
-                         ExecutionContext& context);
+                         ExecutionContext& context, const KoebeOutcome* last = nullptr);
 
 }  // namespace koebe

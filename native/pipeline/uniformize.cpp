@@ -5,26 +5,24 @@
 #include "circles/crowded_circles.h"
 #include "core/detachable_run.h"
 #include "core/errors.h"
-#include "core/memory_limit.h"
 #include "core/peak_memory.h"
 #include "embedding/embedded_map.h"
 #include "embedding/fixed_places.h"
 #include "foldover/angle_polish.h"
-#include "iteration/koebe_mesh.h"
 #include "linear/dense_spd.h"
-#include "pipeline/domain.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
-#include "pipeline/loop_images.h"
 #include "pipeline/map_from_loops.h"
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
 #include "pipeline/normalization.h"
 #include "pipeline/outer_loop.h"
+#include "pipeline/problem.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -56,39 +54,13 @@ VectorXd least_steps(Eigen::Index count)
     return VectorXd::Constant(count, std::min(drawable, 0.3 * 2.0 * std::numbers::pi / static_cast<double>(count)));
 }
 
-/// The domain of a run, and what it is mapped with.
-struct Problem {
-    Domain whole;
-    FlapCut cut;
-    std::optional<Domain> core;  ///< without the flaps, if there are flaps
-    AssembledDomain assembled;   ///< of domain()
-    KoebeOutcome outcome;
-
-    const Domain& domain() const { return core ? *core : whole; }
-    DomainSolver solver() const { return {*assembled.condensed, assembled.laplacian, domain()}; }
-};
-
-Problem prepare(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
-{
-    require_memory_for_faces(triangles.rows());
-    Problem problem;
-    problem.whole = prepare_domain(vertices, triangles, options);
-    if (options.engine == Engine::mesh)
-        require_possible(options.mesh, static_cast<int>(problem.whole.loops.size()), options.method);
-    // A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
-    if (!is_polygon(problem.whole))
-        problem.cut = cut_flaps(problem.whole.vertices, problem.whole.surface, problem.whole.loops);
-    if (!problem.cut.flaps.empty()) problem.core = core_domain(problem.whole, problem.cut);
-    return problem;
-}
-
 /// Factor, iteration and the map they lead to, if any.
 /// @param from, until of the progress
 std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& options, double from, double until,
                                  ExecutionContext& context, Stopwatch& stage, StageSeconds& seconds)
 {
     const auto at = [&](double share) { return from + share * (until - from); };
-    if (!problem.assembled.condensed) {
+    if (!problem.assembled.factored) {
         context.begin_stage("factor", at(0.0), at(0.45));
         try {
             problem.assembled.factorize(problem.domain());
@@ -99,10 +71,11 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
     }
     seconds.factor += stage.lap();
     context.begin_stage("iterate", at(0.45), at(0.95));
-    problem.outcome = loop_images(problem.domain(), problem.assembled, options, context);
+    problem.outcome = loop_images(problem.domain(), problem.assembled, options, context, &problem.outcome);
+    lay_over_first(problem);
     seconds.iterate += stage.lap();
     context.begin_stage("finish", at(0.95), at(1.0));
-    if (!problem.assembled.condensed || problem.outcome.loops.empty()) return {};
+    if (!problem.assembled.factored || problem.outcome.loops.empty()) return {};
     return map_from_loops(problem.solver(), problem.cut, problem.outcome);
 }
 
@@ -172,22 +145,22 @@ void rename(std::vector<Index>& numbers, const std::vector<Index>& names)
 
 }  // namespace
 
-UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
-                                 ExecutionContext& context)
+UniformizeResult map_problem(const std::function<Problem&()>& prepare, const UniformizeOptions& options,
+                             ExecutionContext& context)
 {
     UniformizeResult result;
     result.method = options.method;
     result.engine = options.engine;
-    result.vertex_count = static_cast<Index>(vertices.rows());
-    result.face_count = static_cast<Index>(triangles.rows());
     result.center = options.center;
     result.point = options.point;
     const SerialDenseKernels serial;
     Stopwatch total, stage;
 
     context.begin_stage("topology", 0.0, 0.05);
-    Problem problem = prepare(vertices, triangles, options);
+    Problem& problem = prepare();
     const Domain& whole = problem.whole;
+    result.vertex_count = problem.vertex_count;
+    result.face_count = static_cast<Index>(whole.surface.triangles.rows());
     result.seconds.topology = stage.lap();
 
     context.begin_stage("metric", 0.05, 0.15);
@@ -195,8 +168,7 @@ UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& tria
     result.seconds.metric = stage.lap();
 
     // With the outer loop to be chosen the map is perhaps made twice, first on the longest loop.
-    const bool choose = options.balance == Balance::area && options.outer == OuterLoop::automatic && whole.point < 0 &&
-                        whole.loops.size() > 1;
+    const bool choose = chooses_outer_loop(options, whole);
     std::optional<CircleMap> map = iterate(problem, options, 0.15, choose ? 0.5 : 0.9, context, stage, result.seconds);
     if (map && options.balance == Balance::area)
         result.unbalanced_area =
@@ -276,6 +248,14 @@ UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& tria
     result.peak_memory_mb = peak_memory_mb();
     context.advance(1.0);
     return result;
+}
+
+UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
+                                 ExecutionContext& context)
+{
+    Problem problem;
+    return map_problem([&]() -> Problem& { return problem = prepare_problem(vertices, triangles, options); }, options,
+                       context);
 }
 
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,

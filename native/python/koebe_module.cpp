@@ -2,6 +2,7 @@
 #include "error_translation.h"
 #include "native_call.h"
 #include "report_object.h"
+#include "surface_binding.h"
 
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
@@ -208,6 +209,7 @@ PYBIND11_MODULE(_koebe, m)
             return uniformize(vertices, triangles, options, context);
         });
     });
+    bind_surface(m);
     m.def("uniformize_with_cuts",
           [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
              const std::vector<Index>& polygon, const UniformizeOptions& options, const py::object& progress,

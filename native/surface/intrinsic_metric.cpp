@@ -30,6 +30,7 @@ public:
         : triangles_(metric.triangles),
           lengths_(metric.lengths),
           twin_(metric.twin),
+          flips_(metric.flips),
           carried_(carried),
           loop_of_(surface.vertex_count, -1)
     {
@@ -37,33 +38,49 @@ public:
             for (const Index v : surface.loops[k]) loop_of_[v] = static_cast<Index>(k);
     }
 
-    int run()
+    void run()
     {
         const Index halfedge_count = static_cast<Index>(twin_.size());
         std::vector<Index> stack;
         const EdgeLengths halves = half_cotangents(lengths_);
         for (Index h = 0; h < halfedge_count; ++h)
             if (twin_[h] > h && -2.0 * (halves.data()[h] + halves.data()[twin_[h]]) > tolerance) stack.push_back(h);
-        int flips = 0;
         // Lawson's algorithm ends; the bound only guards against round-off on cocircular quadrilaterals.
-        const long most = 20L * halfedge_count + 1000;
-        while (!stack.empty() && flips < most) {
+        const std::size_t most = 20 * twin_.size() + 1000;
+        while (!stack.empty() && flips_.size() < most) {
             const Index h = stack.back();
             stack.pop_back();
             if (twin_[h] == no_twin || excess(h) <= tolerance || !may_flip(h)) continue;
             const Index f = face_of(h), g = face_of(twin_[h]);
             carry(h);
-            flip_edge(triangles_, lengths_, twin_, h, opposite_diagonal(h, twin_[h]));
-            ++flips;
+            flip(h);
             for (const Index face : {f, g})
                 for (Index e = 3 * face; e < 3 * face + 3; ++e)
                     if (twin_[e] != no_twin) stack.push_back(e);
         }
-        return flips;
+    }
+
+    /// Flips the same edges. @return whether all could be, and none is far from Delaunay
+    bool repeat(const std::vector<Index>& flips)
+    {
+        for (const Index h : flips) {
+            if (!crosses_edge(h)) return false;
+            flip(h);
+        }
+        for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h)
+            if (twin_[h] > h && excess(h) > most_excess && may_flip(h)) return false;
+        return true;
     }
 
 private:
-    static constexpr double tolerance = 1e-9;  // on the sum of cotangents, dimensionless
+    static constexpr double tolerance = 1e-9;   // on the sum of cotangents, dimensionless
+    static constexpr double most_excess = 0.2;  // of a triangulation that is kept
+
+    void flip(Index h)
+    {
+        flip_edge(triangles_, lengths_, twin_, h, std::abs(opposite_diagonal(h)));
+        flips_.push_back(h);
+    }
 
     double length(Index h) const { return lengths_.data()[h]; }
 
@@ -97,37 +114,66 @@ private:
         return c != d && face_of(h) != face_of(twin_[h]) && (loop_of_[c] < 0 || loop_of_[c] != loop_of_[d]);
     }
 
-    /// Length of c-d, the two triangles unfolded into the plane.
-    double opposite_diagonal(Index h, Index t) const
+    /// The apex of the triangle of an edge, which lies on the real axis from 0.
+    Complex apex(double edge, double from_start, double from_end) const
     {
-        const double l = length(h);
-        const auto apex = [&](double from_start, double from_end) {
-            const double x = (l * l + from_start * from_start - from_end * from_end) / (2.0 * l);
-            return Complex(x, 2.0 * triangle_area(l, from_start, from_end) / l);
-        };
-        const Complex c = apex(length(previous_halfedge(h)), length(next_halfedge(h)));
-        const Complex d = apex(length(next_halfedge(t)), length(previous_halfedge(t)));
-        return std::abs(c - std::conj(d));
+        const double x = (edge * edge + from_start * from_start - from_end * from_end) / (2.0 * edge);
+        return {x, 2.0 * triangle_area(edge, from_start, from_end) / edge};
+    }
+
+    Complex above(Index h) const { return apex(length(h), length(previous_halfedge(h)), length(next_halfedge(h))); }
+    Complex below(Index h) const
+    {
+        const Index t = twin_[h];
+        return std::conj(apex(length(h), length(next_halfedge(t)), length(previous_halfedge(t))));
+    }
+
+    /// From d to c, the two triangles unfolded into the plane.
+    Complex opposite_diagonal(Index h) const { return above(h) - below(h); }
+
+    /// Whether d-c crosses the edge inside it: else it is no geodesic of the two triangles.
+    bool crosses_edge(Index h) const
+    {
+        if (twin_[h] == no_twin || !may_flip(h)) return false;
+        const Complex c = above(h), d = below(h);
+        const double at = (c.real() * -d.imag() + d.real() * c.imag()) / (c.imag() - d.imag());
+        return at > 0.0 && at < length(h);
     }
 
     Triangles& triangles_;
     EdgeLengths& lengths_;
     std::vector<Index>& twin_;
+    std::vector<Index>& flips_;
     std::vector<VectorXd>* carried_;
     std::vector<Index> loop_of_;
 };
 
-}  // namespace
-
-IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
-                                 const IntrinsicMetricOptions& options, std::vector<VectorXd>* carried)
+/// Before any flip.
+IntrinsicMetric metric_of_mesh(const Vertices& vertices, const Surface& surface, const IntrinsicMetricOptions& options)
 {
     IntrinsicMetric metric;
     metric.triangles = surface.triangles;
     metric.lengths = edge_lengths(vertices, surface.triangles);
     metric.twin = surface.twin;
     if (options.mollify) metric.mollification = mollify(metric.lengths, options.margin);
-    if (options.delaunay) metric.flips = DelaunayFlipper(metric, surface, carried).run();
+    return metric;
+}
+
+}  // namespace
+
+IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
+                                 const IntrinsicMetricOptions& options, std::vector<VectorXd>* carried)
+{
+    IntrinsicMetric metric = metric_of_mesh(vertices, surface, options);
+    if (options.delaunay) DelaunayFlipper(metric, surface, carried).run();
+    return metric;
+}
+
+std::optional<IntrinsicMetric> metric_with_flips_of(const IntrinsicMetric& last, const Vertices& vertices,
+                                                    const Surface& surface, const IntrinsicMetricOptions& options)
+{
+    IntrinsicMetric metric = metric_of_mesh(vertices, surface, options);
+    if (!DelaunayFlipper(metric, surface, nullptr).repeat(last.flips)) return {};
     return metric;
 }
 

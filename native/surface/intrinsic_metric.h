@@ -4,6 +4,9 @@
 #include "core/topology.h"
 #include "surface/laplacian.h"
 
+#include <optional>
+#include <vector>
+
 namespace koebe {
 
 struct IntrinsicMetricOptions {
@@ -18,7 +21,7 @@ struct IntrinsicMetric {
     EdgeLengths lengths;
     std::vector<Index> twin;     ///< (3F) opposite half-edges: flips may leave two edges between the same vertices
     double mollification = 0.0;  ///< added to every edge length, in the unit of the positions
-    int flips = 0;
+    std::vector<Index> flips;    ///< the half-edges that were flipped, one after the other
 };
 
 /// The surface's metric, made safe for a Laplacian with nonnegative weights inside.
@@ -31,5 +34,12 @@ struct IntrinsicMetric {
 /// half-edges
 IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surface,
                                  const IntrinsicMetricOptions& options = {}, std::vector<VectorXd>* carried = nullptr);
+
+/// The metric with the vertices elsewhere, triangulated by the flips of another: so a matrix of its edges has the same
+/// pattern. Nothing where a flip is impossible now, or an edge is far from Delaunay: the cotangents opposite to it of a
+/// sum below -0.2.
+/// @param last of the same surface with its vertices elsewhere, by the same options
+std::optional<IntrinsicMetric> metric_with_flips_of(const IntrinsicMetric& last, const Vertices& vertices,
+                                                    const Surface& surface, const IntrinsicMetricOptions& options = {});
 
 }  // namespace koebe

@@ -144,3 +144,21 @@ def test_a_mesh_brings_its_own_faces():
         koebe.uniformize(MESHES["trimesh"](), TRIANGLES)
     with pytest.raises(koebe.InputError, match="no mesh to give back"):
         koebe.uniformize(VERTICES, TRIANGLES).to_mesh()
+
+
+@pytest.mark.parametrize("kind", ["trimesh", "PolyData", "meshio"])
+def test_a_surface_takes_new_positions_as_such_a_mesh(kind):
+    surface = koebe.Surface(MESHES[kind]())
+    surface.uniformize()
+    there = MESHES[kind]()
+    moved = VERTICES + 0.01 * np.sin(3.0 * VERTICES[:, [1, 2, 0]])
+    setattr(there, "vertices" if kind == "trimesh" else "points", moved)
+    back = surface.uniformize(there).to_mesh()
+    assert type(back) is type(there)
+    assert np.allclose(back.vertices if kind == "trimesh" else back.points, moved)
+
+
+def test_a_surface_refuses_a_mesh_with_other_faces():
+    surface = koebe.Surface(MESHES["trimesh"]())
+    with pytest.raises(koebe.InputError, match="other faces"):
+        surface.uniformize(trimesh.Trimesh(VERTICES, TRIANGLES[::-1], process=False))

@@ -35,6 +35,7 @@ from ._shapes import (
     module_names,
 )
 from ._sphere import SphereMap, sphere_map
+from ._surface import Surface
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
 from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
@@ -56,6 +57,7 @@ __all__ = [
     "SchottkyMap",
     "SolverError",
     "SphereMap",
+    "Surface",
     "SurfaceCut",
     "SurfacePiece",
     "TileMap",

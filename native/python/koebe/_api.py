@@ -42,7 +42,7 @@ def _set_mesh_engine(
         raise OptionError("annulus='yamabe' needs metric='planar' or 'reflected'")
 
 
-def _options(
+def solver_options(
     method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any,
     center: Any, point: Any,
 ) -> "_koebe.UniformizeOptions":
@@ -131,13 +131,13 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
-    options = _options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point)
+    options = solver_options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point)
     _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     if flag(cut, "cut") and (schedule is not None or record_steps):
         raise OptionError("cut excludes schedule and record_steps: they are about the loops of one surface")
     source = surface_of(vertices, triangles, degenerate=cut)
-    options.importance = _importance(importance, balance, len(source.vertices))
+    options.importance = importance_of(importance, balance, len(source.vertices))
     chosen = {
         "method": method, "engine": engine, "outer": outer if isinstance(outer, str) else int(outer),
         "tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "balance": balance,
@@ -158,7 +158,7 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
 
-def _importance(values: Any, balance: str, count: int) -> np.ndarray:
+def importance_of(values: Any, balance: str, count: int) -> np.ndarray:
     """(V,) of the vertices, or none."""
     if values is None:
         return np.zeros(0)

@@ -1,0 +1,53 @@
+// A surface on its way to a map, and what of it stays when its vertices move.
+#pragma once
+
+#include "core/execution.h"
+#include "flaps/flaps.h"
+#include "pipeline/domain.h"
+#include "pipeline/loop_images.h"
+#include "pipeline/map_from_loops.h"
+#include "pipeline/result.h"
+
+#include <functional>
+#include <optional>
+
+namespace koebe {
+
+/// The domain of a run, and what it is mapped with.
+struct Problem {
+    Domain whole;
+    FlapCut cut;
+    std::optional<Domain> core;  ///< without the flaps, if there are flaps
+    AssembledDomain assembled;   ///< of domain()
+    KoebeOutcome outcome;        ///< of the last run on it: where the next one begins
+    Index vertex_count = 0;      ///< of the input
+    VectorXcd first_places;  ///< of the input's vertices: where lay_over_first is to bring them, NaN inside, or none
+
+    const Domain& domain() const { return core ? *core : whole; }
+    DomainSolver solver() const { return {*assembled.condensed, assembled.laplacian, domain()}; }
+};
+
+/// @throws InputError, TopologyError, OutOfMemory
+Problem prepare_problem(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
+
+/// Whether the first map is to choose the outer loop: with Balance::area, unless something else does.
+bool chooses_outer_loop(const UniformizeOptions& options, const Domain& domain);
+
+/// The same surface with its vertices elsewhere. Topology, outer loop and order of elimination stay, and the angles of
+/// the last map, unless other flaps hang on it now: then the rest of it is another surface.
+/// @param vertices (V, 3) as many as before
+/// @throws InputError
+void move_problem(Problem& problem, const Vertices& vertices);
+
+/// Where the last run took the vertices of the loops, as first_places.
+VectorXcd places_of_loops(const Problem& problem);
+
+/// Moves the images of the loops by the automorphism of the disk that brings them nearest to first_places, if there are
+/// any.
+void lay_over_first(Problem& problem);
+
+/// The map of a problem, and its report. @param prepare makes the problem ready; its time counts as topology
+UniformizeResult map_problem(const std::function<Problem&()>& prepare, const UniformizeOptions& options,
+                             ExecutionContext& context);
+
+}  // namespace koebe

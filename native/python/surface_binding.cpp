@@ -1,0 +1,44 @@
+#include "surface_binding.h"
+
+#include "native_call.h"
+#include "pipeline/surface_solver.h"
+
+#include <pybind11/eigen.h>
+
+#include <chrono>
+#include <mutex>
+
+namespace py = pybind11;
+
+namespace koebe::python {
+namespace {
+
+/// One call at a time: a second thread waits for the first.
+struct SharedSolver {
+    SurfaceSolver solver;
+    std::timed_mutex busy;
+};
+
+}  // namespace
+
+void bind_surface(py::module_& m)
+{
+    py::class_<SharedSolver>(m, "Surface")
+        .def(py::init([](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                         const UniformizeOptions& options) {
+            return new SharedSolver{detached([points = Vertices(vertices), faces = Triangles(triangles), options] {
+                                        return SurfaceSolver(points, faces, options);
+                                    }),
+                                    {}};
+        }))
+        .def("uniformize", [](SharedSolver& shared, const Eigen::Ref<const Vertices>& vertices,
+                              const py::object& progress, const CancelToken& cancel) {
+            return without_gil(progress, cancel, [&](ExecutionContext& context) {
+                std::unique_lock lock(shared.busy, std::defer_lock);
+                while (!lock.try_lock_for(std::chrono::milliseconds(20))) context.checkpoint();
+                return shared.solver.uniformize(vertices, context);
+            });
+        });
+}
+
+}  // namespace koebe::python
