@@ -24,7 +24,7 @@ namespace koebe::cli {
 /// What the kinds of map differ in. The result has `seconds`, `converged`, `warnings` and `distortion`.
 template <typename Result>
 struct MapKind {
-    bool any_polygon = false;  ///< of read_mesh_input
+    bool any_polygon = false;  ///< of ReadOptions
     /// All numbers in the result are the file's.
     std::function<Result(const MeshInput&, ExecutionContext&)> compute;
     std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
@@ -85,7 +85,8 @@ int run_map_of(const MapRequest& request, const MapKind<Result>& kind)
     const auto begin = std::chrono::steady_clock::now();
     const CancelToken token = cancel_on_signal();
     require_writable_files(map_files(request), !request.quiet);
-    const MeshInput input = read_mesh_input(request.input, token, kind.any_polygon);
+    const MeshInput input =
+        read_mesh_input(request.input, token, {.any_polygon = kind.any_polygon, .hash = !request.json.empty()});
     Result result;
     {
         ProgressLine progress(request.quiet);

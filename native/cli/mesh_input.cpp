@@ -14,16 +14,16 @@ namespace koebe::cli {
 
 namespace {
 
-MeshInput read_and_triangulate(const std::filesystem::path& path, bool any_polygon)
+MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions options)
 {
     const auto begin = std::chrono::steady_clock::now();
     MeshInput input;
     // Before it is read: if it changes in between, the hash is that of no mesh, and nobody takes the map for this
     // one's.
     std::error_code error;
-    if (std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
+    if (options.hash && std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
     input.polygons = read_mesh(path);
-    input.triangulation = triangulate(input.polygons, !any_polygon);
+    input.triangulation = triangulate(input.polygons, !options.any_polygon);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())
         input.warnings.push_back(
@@ -43,11 +43,11 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, bool any_polyg
 
 }  // namespace
 
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, bool any_polygon)
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
 {
     ExecutionContext context({}, token);
     return run_detachable<MeshInput>(
-        context, [path, any_polygon](ExecutionContext&) { return read_and_triangulate(path, any_polygon); });
+        context, [path, options](ExecutionContext&) { return read_and_triangulate(path, options); });
 }
 
 void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)

@@ -17,13 +17,17 @@ struct MeshInput {
     PolygonMesh polygons;
     Triangulation triangulation;
     std::vector<Warning> warnings;
-    std::string sha256;    ///< of the file; empty where it is a pipe or a device
+    std::string sha256;    ///< of the file, if asked for; empty where it is a pipe or a device
     double seconds = 0.0;  ///< to read and triangulate
 };
 
-/// @param any_polygon those that cannot be cut into triangles are a warning, no error
+struct ReadOptions {
+    bool any_polygon = false;  ///< those that cannot be cut into triangles are a warning, no error
+    bool hash = false;         ///< which takes as long as the reading
+};
+
 /// @throws FileError, InputError, Cancelled
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, bool any_polygon = false);
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options = {});
 
 /// Faces of the triangulation to faces of the file, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
