@@ -2,7 +2,6 @@
 
 #include "cli/error_line.h"
 #include "cli/exit_code.h"
-#include "cli/roomy_heap.h"
 #include "cli/scarce_memory.h"
 #include "cli/standard_streams.h"
 #include "cli/subcommand.h"
@@ -93,7 +92,6 @@ int koebe::cli::command(int argc, char** argv)
     try {
         return run_guarded([&] {
             prepare_for_scarce_memory();
-            take_roomy_heap();
             return run_command(argc, argv);
         });
     } catch (...) {  // not even the error's line could be put together

@@ -46,6 +46,7 @@ int run_cut_map(const MapRequest& request)
 {
     MapKind<CutUniformizeResult> kind;
     kind.any_polygon = true;
+    kind.many_pieces = true;
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
         require_fitting_vertices(input, request.options);
         CutUniformizeResult result = uniformize_with_cuts(input.polygons.vertices, input.triangulation.triangles,

@@ -8,6 +8,7 @@
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/result_line.h"
+#include "cli/roomy_heap.h"
 #include "cli/standard_streams.h"
 #include "core/warning.h"
 #include "io/atomic_file.h"
@@ -25,6 +26,7 @@ namespace koebe::cli {
 template <typename Result>
 struct MapKind {
     bool any_polygon = false;  ///< of ReadOptions
+    bool many_pieces = false;  ///< that threads work on side by side
     /// All numbers in the result are the file's.
     std::function<Result(const MeshInput&, ExecutionContext&)> compute;
     std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
@@ -84,6 +86,7 @@ int run_map_of(const MapRequest& request, const MapKind<Result>& kind)
 {
     const auto begin = std::chrono::steady_clock::now();
     const CancelToken token = cancel_on_signal();
+    if (!kind.many_pieces) take_roomy_heap();
     require_writable_files(map_files(request), !request.quiet);
     const MeshInput input =
         read_mesh_input(request.input, token, {.any_polygon = kind.any_polygon, .hash = !request.json.empty()});
