@@ -3,9 +3,36 @@
 #include "core/errors.h"
 
 #include <algorithm>
+#include <compare>
 #include <string>
+#include <vector>
 
 namespace koebe {
+
+namespace {
+
+/// A half-edge in the bucket of its smaller vertex.
+struct Entry {
+    Index other_vertex;
+    Index halfedge;
+
+    auto operator<=>(const Entry&) const = default;
+};
+
+/// Buckets hold one fan at most, so nearly all are short.
+void sort_bucket(std::vector<Entry>::iterator first, std::vector<Entry>::iterator last)
+{
+    constexpr std::ptrdiff_t few = 24;
+    if (last - first > few) return std::sort(first, last);
+    for (auto next = first; next != last; ++next) {
+        const Entry entry = *next;
+        auto place = next;
+        for (; place != first && entry < *(place - 1); --place) *place = *(place - 1);
+        *place = entry;
+    }
+}
+
+}  // namespace
 
 std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count)
 {
@@ -16,10 +43,6 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
     for (Index h = 0; h < halfedge_count; ++h) ++bucket_begin[std::min(origin(triangles, h), target(triangles, h)) + 1];
     for (Index v = 0; v < vertex_count; ++v) bucket_begin[v + 1] += bucket_begin[v];
 
-    struct Entry {
-        Index other_vertex;
-        Index halfedge;
-    };
     std::vector<Entry> entries(halfedge_count);
     std::vector<Index> cursor(bucket_begin.begin(), bucket_begin.end() - 1);
     for (Index h = 0; h < halfedge_count; ++h) {
@@ -32,9 +55,7 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
     for (Index v = 0; v < vertex_count; ++v) {
         const auto begin = entries.begin() + bucket_begin[v];
         const auto end = entries.begin() + bucket_begin[v + 1];
-        std::sort(begin, end, [](const Entry& a, const Entry& b) {
-            return a.other_vertex != b.other_vertex ? a.other_vertex < b.other_vertex : a.halfedge < b.halfedge;
-        });
+        sort_bucket(begin, end);
         for (auto run = begin; run != end;) {
             auto run_end = run + 1;
             while (run_end != end && run_end->other_vertex == run->other_vertex) ++run_end;

@@ -18,14 +18,20 @@ PolygonMesh read_obj(std::string_view bytes)
         const std::string_view keyword = lines.next_word();
         const std::size_t vertex_count = coordinates.size() / 3;
         if (keyword == "v") {
-            for (int axis = 0; axis < 3; ++axis)
-                if (!to_number(lines.next_word_of_joined_lines(), coordinates.emplace_back()))
+            for (int axis = 0; axis < 3; ++axis) {
+                double& number = coordinates.emplace_back();
+                if (!lines.next_plain(number) && !to_number(lines.next_word_of_joined_lines(), number))
                     refuse("vertex", vertex_count, "is not three finite numbers");
+            }
         } else if (keyword == "f") {
-            for (std::string_view word; !(word = lines.next_word_of_joined_lines()).empty();) {
+            for (;;) {
                 Index corner = 0;  // from 1 on; from the last vertex backwards if it is negative
-                if (!to_number(word.substr(0, word.find('/')), corner))
-                    refuse("face", mesh.face_begin.size() - 1, "has a corner that is no integer");
+                if (!lines.next_plain(corner)) {
+                    const std::string_view word = lines.next_word_of_joined_lines();
+                    if (word.empty()) break;
+                    if (!to_number(word.substr(0, word.find('/')), corner))
+                        refuse("face", mesh.face_begin.size() - 1, "has a corner that is no integer");
+                }
                 mesh.corners.push_back(corner > 0 ? corner - 1 : static_cast<Index>(vertex_count) + corner);
             }
             mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));

@@ -65,10 +65,10 @@ void add_face(TextWriter& text, std::span<const Index> face, bool with_texture)
     text.add('f');
     for (const Index v : face) {
         text.add(' ');
-        text.add_number(v + 1);
-        if (!with_texture) continue;
-        text.add('/');
-        text.add_number(v + 1);
+        if (with_texture)
+            text.add_twice(v + 1, '/');
+        else
+            text.add_number(v + 1);
     }
     text.add('\n');
 }

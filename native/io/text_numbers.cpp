@@ -3,6 +3,7 @@
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -11,7 +12,29 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-bool is_blank(char c) { return blanks.find(c) != std::string_view::npos; }
+/// What each character is to words. A search among a few characters would be a call for each one of the text.
+enum Kind : unsigned char { letter, blank, end_of_words };
+constexpr std::array<Kind, 256> kinds = [] {
+    std::array<Kind, 256> result{};
+    for (const char c : blanks) result[static_cast<unsigned char>(c)] = blank;
+    for (const char c : {'\n', '#'}) result[static_cast<unsigned char>(c)] = end_of_words;
+    return result;
+}();
+
+Kind kind_of(char c) { return kinds[static_cast<unsigned char>(c)]; }
+
+const char* after_blanks(std::string_view text)
+{
+    const char *here = text.data(), *const last = here + text.size();
+    while (here != last && kind_of(*here) == blank) ++here;
+    return here;
+}
+
+const char* end_of_word(const char* here, const char* last)
+{
+    while (here != last && kind_of(*here) == letter) ++here;
+    return here;
+}
 
 /// Neither from_chars takes a plus sign.
 std::string_view without_plus(std::string_view word)
@@ -40,20 +63,19 @@ bool to_number(std::string_view word, Index& number)
 
 bool TextLines::next_line()
 {
-    if (begun_) rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size() - 1) + 1);
+    if (begun_ && !rest_.empty())
+        rest_.remove_prefix(rest_.front() == '\n' ? 1 : std::min(rest_.find('\n'), rest_.size() - 1) + 1);
     begun_ = !rest_.empty();
     return begun_;
 }
 
 std::string_view TextLines::next_word()
 {
-    std::size_t begin = 0;
-    while (begin < rest_.size() && is_blank(rest_[begin])) ++begin;
-    std::size_t end = begin;
-    while (end < rest_.size() && !is_blank(rest_[end]) && rest_[end] != '\n' && rest_[end] != '#') ++end;
-    const std::string_view word = rest_.substr(begin, end - begin);
-    rest_.remove_prefix(end);
-    return word;
+    const char* const last = rest_.data() + rest_.size();
+    const char* const begin = after_blanks(rest_);
+    const char* const end = end_of_word(begin, last);
+    rest_ = {end, last};
+    return {begin, end};
 }
 
 std::string_view TextLines::next_word_of_joined_lines()
@@ -67,6 +89,29 @@ std::string_view TextLines::next_word_of_joined_lines()
         word.remove_suffix(1);
         if (!word.empty()) return word;
     }
+}
+
+bool TextLines::next_plain(double& number)
+{
+    const char* const last = rest_.data() + rest_.size();
+    const auto [end, error] = fast_float::from_chars(after_blanks(rest_), last, number);
+    if (error != std::errc() || !std::isfinite(number) || (end != last && kind_of(*end) == letter)) return false;
+    rest_ = {end, last};
+    return true;
+}
+
+bool TextLines::next_plain(Index& number)
+{
+    const char* const last = rest_.data() + rest_.size();
+    auto [end, error] = std::from_chars(after_blanks(rest_), last, number);
+    if (error != std::errc()) return false;
+    if (end != last && *end == '/') {
+        end = end_of_word(end, last);
+        if (end[-1] == '\\') return false;  // which may join lines
+    }
+    if (end != last && kind_of(*end) == letter) return false;
+    rest_ = {end, last};
+    return true;
 }
 
 }  // namespace koebe::io

@@ -27,6 +27,13 @@ public:
     /// The same where a backslash at the end of a line joins it with the next one.
     std::string_view next_word_of_joined_lines();
 
+    /// The next word of this line as a number, in one pass over it: what nearly all words of a mesh file are.
+    /// @return false, and nothing is taken, if it is anything else than a plain finite number
+    bool next_plain(double& number);
+
+    /// The same for an integer, behind which a slash and whatever may stand.
+    bool next_plain(Index& number);
+
 private:
     std::string_view rest_;
     bool begun_ = false;

@@ -4,9 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace koebe {
 namespace {
+
+/// One end of a half-edge as the row of the other end has it.
+struct Entry {
+    Index row;
+    double weight;
+};
+
+/// By row, equal ones in their order. Rows are short: a few entries for each neighbour.
+void sort_row(std::vector<Entry>::iterator first, std::vector<Entry>::iterator last)
+{
+    constexpr std::ptrdiff_t few = 40;
+    const auto by_row = [](const Entry& a, const Entry& b) { return a.row < b.row; };
+    if (last - first > few) return std::stable_sort(first, last, by_row);
+    for (auto next = first; next != last; ++next) {
+        const Entry entry = *next;
+        auto place = next;
+        for (; place != first && by_row(entry, *(place - 1)); --place) *place = *(place - 1);
+        *place = entry;
+    }
+}
 
 template <class Positions>
 EdgeLengths lengths_of(const Positions& positions, const Triangles& triangles)
@@ -64,10 +85,6 @@ SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half
     std::vector<Index> begin(vertex_count + 1, 0);
     for (Eigen::Index i = 0; i < triangles.size(); ++i) begin[triangles.data()[i] + 1] += 2;
     for (Index v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
-    struct Entry {
-        Index row;
-        double weight;
-    };
     std::vector<Entry> entries(begin[vertex_count]);
     std::vector<Index> cursor(begin.begin(), begin.end() - 1);
     for (Eigen::Index f = 0; f < face_count; ++f)
@@ -82,7 +99,7 @@ SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half
     for (Index v = 0; v < vertex_count; ++v) {
         laplacian.startVec(v);
         const auto first = entries.begin() + begin[v], last = entries.begin() + begin[v + 1];
-        std::stable_sort(first, last, [](const Entry& a, const Entry& b) { return a.row < b.row; });
+        sort_row(first, last);
         double diagonal = 0.0;
         for (auto e = first; e != last; ++e) diagonal += e->weight;
         bool diagonal_written = first == last;

@@ -227,6 +227,17 @@ TEST(MeshReader, ObjFacesInAllTheirForms)
     EXPECT_EQ(mesh.vertices(5, 0), 7.0);
 }
 
+TEST(MeshReader, ObjWordsThatAreNoPlainNumbersMeanTheSame)
+{
+    const PolygonMesh plain = parse("plain.obj", "v 1 2.5 -3\nv 4 5 6\nv 7 8 90\nf 1 2 3\nf 3 2 1\n");
+    const PolygonMesh same = parse("same.obj", "v +1 2.5\\\n -3#\nv 4\\\n5 \\\n 6\nv 7\t8 9E+1#9\r\n"
+                                               "f 1/7 2/7/\\\n 3//5#\nf +3 -2\\\n\\\n -3/\\\n\n");
+    expect_same_faces(same, plain);
+    EXPECT_TRUE(same.vertices == plain.vertices);
+    for (const char* bad : {"v 1 2 3x\n", "v 1 2 inf\n", "v 1 2 1e999\n", "v 1 2\n", "f 1 2 3.5\n", "f 1 2 3\\4\n"})
+        EXPECT_THROW(parse("bad.obj", "v 0 0 0\n" + std::string(bad)), InputError) << bad;
+}
+
 TEST(MeshReader, OffPassesOverColorsNormalsAndTexturesHoweverManyNumbersTheyHave)
 {
     for (const char* keyword : {"OFF", "COFF", "NOFF", "STOFF", "STCNOFF"})

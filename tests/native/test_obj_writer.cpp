@@ -3,13 +3,19 @@
 
 #include "core/errors.h"
 #include "io/mesh_reader.h"
+#include "io/text_writer.h"
 #include "random_polygons.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <charconv>
+#include <cmath>
 #include <limits>
+#include <random>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 namespace koebe {
 namespace {
@@ -36,6 +42,26 @@ TEST(ObjWriter, ReadsBackToTheLastBitInTheSameOrder)
     EXPECT_TRUE(read.vertices == mesh.vertices);
     EXPECT_EQ(read.corners, mesh.corners);
     EXPECT_EQ(read.face_begin, mesh.face_begin);
+}
+
+/// All numbers of few decimals are written on a way of their own.
+TEST(ObjWriter, NumbersAreTheShortestThatReadBack)
+{
+    std::mt19937_64 random(5);
+    std::vector<double> numbers{0.0, -0.0, 0.1, 1.0, 0.5, 100000.0, 1e6, 1e9, 999999999.999999, 0.3, 0.1 + 0.2, 1e-6};
+    for (int i = 0; i < 200000; ++i) {
+        const double scale = std::pow(10.0, static_cast<double>(random() % 16) - 4.0);
+        const double any = scale * (static_cast<double>(random() % 2000001) / 1e6 - 1.0);
+        for (const double steps : {1.0, 1e1, 1e3, 1e5, 1e6, 1e7, 1e8})
+            numbers.push_back(std::round(any * steps) / steps);
+        numbers.insert(numbers.end(), {any, std::nextafter(any, 1e300), std::nextafter(numbers.back(), -1e300)});
+    }
+    char own[24], expected[24];
+    for (const double number : numbers) {
+        const std::string_view word(own, static_cast<std::size_t>(io::write_number(own, number) - own));
+        const auto end = std::to_chars(expected, expected + sizeof expected, number).ptr;
+        ASSERT_EQ(word, std::string_view(expected, static_cast<std::size_t>(end - expected)));
+    }
 }
 
 TEST(ObjWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquare)
