@@ -6,7 +6,7 @@
     bench/doc_figures.py write                     writes the pages from docs/figures.json
 
 In a page a table stands between <!-- figures: NAME --> and <!-- end -->; a single figure of a table,
-TABLE/ROW/COLUMN, between <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->.
+TABLE/ROW/COLUMN, between <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
 Rows whose meshes are not there keep what was measured before. tests/python/test_docs_figures.py compares.
 """
 
@@ -35,9 +35,12 @@ def save(figures: dict) -> None:
     FIGURES.write_text(json.dumps(figures, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
-def keep(name: str, head: list[str], rows: dict) -> None:
+def keep(name: str, head: list[str], rows: dict, command: str = "", date: str = "") -> None:
+    """@param command that measures the table, if not this one @param date of what another day gives otherwise"""
     figures = load()
-    figures[name] = {"command": f"bench/doc_figures.py measure {name}", "head": head, "rows": rows}
+    figures[name] = {"command": command or f"bench/doc_figures.py measure {name}", "head": head, "rows": rows}
+    if date:
+        figures[name]["date"] = date
     save(figures)
 
 
@@ -63,10 +66,12 @@ def markdown(table: dict) -> str:
 
 
 def figure(figures: dict, place: str) -> str:
-    """One cell, TABLE/ROW/COLUMN."""
-    name, row, column = place.split("/")
+    """One cell, TABLE/ROW/COLUMN, or TABLE/date."""
+    name, row, *column = place.split("/")
     table = figures[name]
-    return table["rows"][row][table["head"].index(column) - 1]
+    if not column:
+        return table[row]
+    return table["rows"][row][table["head"].index(*column) - 1]
 
 
 def filled(text: str, figures: dict) -> str:

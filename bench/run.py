@@ -2,7 +2,7 @@
 
 Every time is a ratio to one cotan Laplacian of the same mesh (assemble, AMD, supernodal factor, two-column solve),
 taken turn by turn in the same process; medians of RUNS pairs. The command as a whole is set against Blender's own
-conformal unwrap, also turn by turn.
+conformal unwrap, also turn by turn, and against boundary-first flattening (against_bff.py).
 """
 
 import json
@@ -173,7 +173,8 @@ def main() -> None:
         text = markdown(title, note, columns, rows)
         (OUT / f"{name}.md").write_text(text)
         (OUT / f"{name}.json").write_text(json.dumps(rows, indent=2) + "\n")
-        print(text)
+        print(text, flush=True)
+    subprocess.run([sys.executable, ROOT / "bench" / "against_bff.py"], check=True)
 
 
 if __name__ == "__main__":

@@ -10,12 +10,14 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
 
+import against_bff  # noqa: E402
 import doc_figures  # noqa: E402
+import doc_tables  # noqa: E402
 import reproduce  # noqa: E402
 from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
-MEASURED_ELSEWHERE = {"reliability", "cancel"}  # make reliability
+MEASURED_ELSEWHERE = {"reliability", "cancel", "bff"}  # make reliability, make bench
 CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "distances"}
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
 NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -63,6 +65,24 @@ def test_a_changed_figure_is_seen():
     changed = json.loads(json.dumps(FIGURES))
     changed["quality"]["rows"]["face"][2] = "0.01"
     assert doc_figures.filled(page, changed) != page
+
+
+def test_without_the_peer_the_last_measurement_is_printed(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(against_bff, "SOURCE", tmp_path)
+    monkeypatch.setattr(sys, "argv", ["against_bff.py"])
+    against_bff.main()
+    printed = capsys.readouterr().out
+    assert f"Measured on {FIGURES['bff']['date']}" in printed and doc_figures.markdown(FIGURES["bff"]) in printed
+
+
+def test_the_angle_error_of_both_commands_is_the_one_of_the_report(tmp_path):
+    sample = ROOT / "blend_samples" / "face.obj"
+    report = doc_tables.report("face")
+    doc_tables.run(doc_tables.KOEBE, "uniformize", sample, tmp_path / "out.obj", "--quiet")
+    points, _, corners = against_bff.arrays(sample)
+    assert len(corners) == report["faces"]
+    error = against_bff.angle_error(points, tmp_path / "out.obj")
+    assert error == pytest.approx(report["angle_error_deg"]["mean"], rel=1e-9)
 
 
 def rows():
