@@ -1,165 +1,183 @@
 #include "foldover/angle_polish.h"
 
-#include "foldover/patch_problem.h"
-#include "quality/distortion.h"
-
-#include <Eigen/LU>
+#include "foldover/angle_map.h"
+#include "foldover/angle_newton.h"
+#include "foldover/angle_relaxation.h"
+#include "foldover/tangled_map.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace koebe {
 namespace {
 
-using Mobility = FoldoverProblem::Mobility;
+using Mobility = AngleMap::Mobility;
 
-constexpr int most_passes = 6;
-constexpr double worthwhile = 2e-3;       // relative fall of the angle error that another pass is made for
-constexpr double least_distortion = 0.1;  // |mu| at which a weight is taken, over the mean
-constexpr double flat = 1e-3;             // (1 - |mu|^2) / (1 + |mu|^2) of a face that keeps its vertices
-constexpr int most_restorations = 16;     // of vertices around faces that a pass has flipped
-
-/// (1 - |mu|^2) / (1 + |mu|^2) for each face.
-VectorXd conformality(const FoldoverProblem& problem)
-{
-    VectorXd ratio(problem.triangles.rows());
-    for (Eigen::Index f = 0; f < ratio.size(); ++f) {
-        const auto corner = [&](int k) { return problem.points.row(problem.triangles(f, k)).transpose(); };
-        Eigen::Matrix2d image;
-        image << corner(1) - corner(0), corner(2) - corner(0);
-        const Eigen::Matrix2d j = image * problem.reference[f].inverse();
-        ratio[f] = std::clamp(2.0 * j.determinant() / j.squaredNorm(), 1e-30, 1.0);
-    }
-    return ratio;
-}
-
-/// conformality / |mu| for each face: so weighted, the sum's excess over that of a conformal map is 4 |mu| / (1 +
-/// |mu|^2) a face, to first order its angle error.
-VectorXd distortion_weights(const FoldoverProblem& problem)
-{
-    const VectorXd ratio = conformality(problem);
-    const VectorXd mu = ((1.0 - ratio.array()) / (1.0 + ratio.array())).sqrt();
-    return ratio.array() / mu.array().max(least_distortion * mu.mean() + 1e-30);
-}
+constexpr int most_passes = 6;  // of Newton
+constexpr double large = 0.2;   // relative fall of the angle error that another is made for
+constexpr int most_sweeps = 8;
+constexpr double worthwhile = 2e-3;    // relative fall of the angle error that another sweep is made for
+constexpr double least_error = 0.3;    // at which a weight is taken, over the mean
+constexpr int most_restorations = 16;  // of vertices around faces that became too small
 
 class AnglePolish {
 public:
     AnglePolish(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                 const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
                 const std::vector<Index>& held)
-        : vertices_(vertices),
+        : uv_(uv),
           triangles_(surface.triangles),
-          loops_(loops),
-          circles_(circles),
-          off_circle_(surface.vertex_count, 0),
-          uv_(uv),
-          map_(vertices, surface, loops, circles, off_circle, uv)
+          tangled_(vertices, surface, loops, circles, off_circle, uv),
+          map_(vertices, surface.triangles, uv)
     {
-        for (const Index v : held) map_.hold(v);
-        std::vector<Index> faces(triangles_.rows());
-        std::iota(faces.begin(), faces.end(), 0);
-        problem_ = patch_problem(map_, faces, PatchShape::surface, PatchBoundary::sliding).problem;
-        problem_.floor.setZero();
-        for (const Index v : off_circle) {
-            off_circle_[v] = 1;
-            problem_.mobility[v] = Mobility::held;
-        }
-        const VertexLoop& outer = loops[0];
-        std::size_t first = 0, pins = loops.size() == 1 ? 3 : 1;
-        for (const Index v : held)
-            if (map_.loop_of(v) == 0)
-                first = static_cast<std::size_t>(std::ranges::find(outer, v) - outer.begin());
-            else
-                pins = 1;
-        for (std::size_t i = 0; i < pins; ++i)
-            problem_.mobility[outer[(first + i * outer.size() / 3) % outer.size()]] = Mobility::held;
-        const VectorXd ratio = conformality(problem_);
-        for (Eigen::Index f = 0; f < ratio.size(); ++f)
-            if (ratio[f] < flat)
-                for (const Index v : problem_.triangles.row(f)) problem_.mobility[v] = Mobility::held;
-        for (std::size_t k = 0; k < loops.size(); ++k) ordered_.push_back(out_of_order(k).empty());
+        for (const Index v : held) tangled_.hold(v);
+        for (std::size_t k = 0; k < loops.size(); ++k) let_slide(loops[k], circles[k], k == 0 ? 1.0 : -1.0);
+        pin(loops, held);
+        for (Index v = 0; v < map_.vertex_count(); ++v)
+            if (!tangled_.mobile(v, PatchBoundary::sliding)) map_.mobility[v] = Mobility::held;
+        for (Index v = 0; v < map_.vertex_count(); ++v)
+            for (const AngleMap::Corner& corner : map_.star(v))
+                if (!(area(corner, v, map_.points) > 0.0)) map_.mobility[v] = Mobility::held;
     }
 
     bool run(ExecutionContext& context)
     {
-        const FoldoverOptions one_step{.max_iterations = 1, .area_weight = 0.0};
-        const std::size_t tangled = map_.tangled().size();
-        double error = angle_error();
-        bool better = false;
-        for (int pass = 0; pass < most_passes; ++pass) {
-            context.advance(static_cast<double>(pass) / most_passes);
-            const PlanarPoints before = uv_;
-            problem_.points = before;
-            problem_.weight = distortion_weights(problem_);
-            minimize_foldover_free(problem_, context, one_step);
-            uv_ = problem_.points;
-            const double now = uv_.allFinite() && restore_flipped(before, tangled) ? angle_error() : error;
-            if (!(now < error)) {
-                uv_ = before;
-                break;
-            }
-            better = true;
-            const bool last = now > (1.0 - worthwhile) * error;
-            error = now;
-            if (last) break;
+        const double before = map_.measure();
+        double error = newton(before, context);
+        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+            context.advance(0.5 + 0.5 * sweep / most_sweeps);
+            const double fall = relax_angles(map_, least(error), sweep % 2 == 0);
+            error -= fall;
+            if (fall < worthwhile * error) break;
         }
-        return better;
+        return write() && map_.measure() < before;
     }
 
 private:
-    double angle_error() const { return measure_distortion(vertices_, triangles_, uv_).angle_error_deg.mean; }
+    double least(double error) const { return least_error * error / std::max<Index>(map_.corner_count(), 1); }
 
-    /// The ends of a loop's edges that run backwards, if its vertices that are on its circle do not run round it once.
-    std::vector<Index> out_of_order(std::size_t k) const
+    static double area(const AngleMap::Corner& corner, Index v, const std::vector<Complex>& places)
     {
-        std::vector<Index> on, back;
-        for (const Index v : loops_[k])
-            if (!off_circle_[v]) on.push_back(v);
-        const auto arm = [&](Index v) { return Complex(uv_(v, 0), uv_(v, 1)) - circles_[k].center; };
-        double sum = 0.0;
-        for (std::size_t i = 0; i < on.size(); ++i) {
-            const Index a = on[i], b = on[(i + 1) % on.size()];
-            const double step = (k == 0 ? 1.0 : -1.0) * std::arg(arm(b) / arm(a));
-            sum += step > 0.0 ? step : step + 2.0 * std::numbers::pi;
-            if (!(step > 0.0)) back.insert(back.end(), {a, b});
-        }
-        if (sum < 3.0 * std::numbers::pi) back.clear();
-        return back;
+        return cross(places[corner.next] - places[v], places[corner.previous] - places[v]);
     }
 
-    /// Puts the vertices of faces that are flipped now, and of loops where they run backwards, back where they were;
-    /// at last all of such a loop.
-    /// @param allowed flipped faces that there may be @return whether no more are left, and all loops are in order
-    bool restore_flipped(const PlanarPoints& before, std::size_t allowed)
+    /// The vertices of a loop that are on its circle, if they run round it.
+    void let_slide(const VertexLoop& loop, const Circle& circle, double sense)
     {
-        for (int i = 0; i <= most_restorations; ++i) {
-            std::vector<Index> wrong;
-            for (std::size_t k = 0; k < loops_.size(); ++k) {
-                if (!ordered_[k]) continue;
-                const std::vector<Index> back = out_of_order(k);
-                if (back.empty()) continue;
-                const std::vector<Index>& part = 2 * i < most_restorations ? back : loops_[k];
-                wrong.insert(wrong.end(), part.begin(), part.end());
+        std::vector<Index> on;
+        for (const Index v : loop) {
+            map_.mobility[v] = Mobility::held;
+            if (tangled_.place(v) == TangledMap::Place::on_circle) on.push_back(v);
+        }
+        const std::size_t n = on.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const AngleMap::Slide slide{circle, on[(i + 1) % n], on[(i + n - 1) % n], sense};
+            if (in_order(on[i], slide, map_.points)) map_.let_slide(on[i], slide);
+        }
+    }
+
+    static bool in_order(Index v, const AngleMap::Slide& slide, const std::vector<Complex>& places)
+    {
+        const auto arm = [&](Index w) { return places[w] - slide.circle.center; };
+        return slide.sense * cross(arm(v), arm(slide.next)) > 0.0 &&
+               slide.sense * cross(arm(slide.previous), arm(v)) > 0.0;
+    }
+
+    /// What would turn otherwise: one vertex of the outer loop, three if there is no other and none inside is held.
+    void pin(const std::vector<VertexLoop>& loops, const std::vector<Index>& held)
+    {
+        const VertexLoop& outer = loops[0];
+        std::size_t first = 0, pins = loops.size() == 1 ? 3 : 1;
+        for (const Index v : held)
+            if (tangled_.loop_of(v) == 0)
+                first = static_cast<std::size_t>(std::ranges::find(outer, v) - outer.begin());
+            else
+                pins = 1;
+        for (std::size_t i = 0; i < pins; ++i)
+            map_.mobility[outer[(first + i * outer.size() / 3) % outer.size()]] = Mobility::held;
+    }
+
+    /// Steps of all vertices as long as they lower the error by much. @return the error
+    double newton(double error, ExecutionContext& context)
+    {
+        AngleNewton newton(map_);
+        for (int pass = 0; pass < most_passes; ++pass) {
+            context.advance(0.5 * pass / most_passes);
+            std::vector<Complex> places = newton.places(least(error));
+            if (places.empty() || !restore(places)) break;
+            std::swap(map_.points, places);
+            const double now = map_.measure();
+            if (!(now < error)) {
+                std::swap(map_.points, places);
+                map_.measure();
+                break;
             }
-            const std::vector<Index> tangled = map_.tangled();
-            if (wrong.empty() && tangled.size() <= allowed) return true;
-            for (const Index f : tangled) wrong.insert(wrong.end(), triangles_.row(f).begin(), triangles_.row(f).end());
-            for (const Index v : wrong) uv_.row(v) = before.row(v);
+            const bool far = now < (1.0 - large) * error;
+            error = now;
+            if (!far) break;
+        }
+        return error;
+    }
+
+    /// Puts the vertices of faces that got too small, and those out of their order on a loop, back where they are.
+    /// @return whether none is left
+    bool restore(std::vector<Complex>& places) const
+    {
+        std::vector<Index> moved(map_.vertex_count()), wrong;
+        std::iota(moved.begin(), moved.end(), 0);
+        for (int i = 0; i < most_restorations; ++i) {
+            wrong.clear();
+            for (const Index v : moved) collect_wrong(v, places, wrong);
+            if (wrong.empty()) return true;
+            moved.clear();  // those whose faces change now
+            for (const Index v : wrong) {
+                if (places[v] == map_.points[v]) continue;
+                places[v] = map_.points[v];
+                moved.push_back(v);
+            }
         }
         return false;
     }
 
-    const Vertices& vertices_;
-    const Triangles& triangles_;
-    const std::vector<VertexLoop>& loops_;
-    const std::vector<Circle>& circles_;
-    std::vector<char> off_circle_;
+    void collect_wrong(Index v, const std::vector<Complex>& places, std::vector<Index>& wrong) const
+    {
+        if (map_.mobility[v] == Mobility::sliding && !in_order(v, map_.slide(v), places))
+            wrong.insert(wrong.end(), {v, map_.slide(v).next, map_.slide(v).previous});
+        for (const AngleMap::Corner& corner : map_.star(v)) {
+            const double now = area(corner, v, places);
+            if (!(now > 0.0) || now < map_.least_area(corner))
+                wrong.insert(wrong.end(), {v, corner.next, corner.previous});
+        }
+    }
+
+    /// Writes the map, but for vertices of faces that are flipped as stored and were not: those stay.
+    /// @return whether no such face is left
+    bool write()
+    {
+        const PlanarPoints before = uv_;
+        const std::vector<Index> allowed = tangled_.tangled();
+        for (Index v = 0; v < map_.vertex_count(); ++v)
+            if (map_.mobility[v] != Mobility::held) uv_.row(v) << map_.points[v].real(), map_.points[v].imag();
+        for (int i = 0; i < most_restorations; ++i) {
+            bool any = false;
+            for (const Index f : tangled_.tangled()) {
+                if (std::ranges::binary_search(allowed, f)) continue;
+                any = true;
+                for (const Index v : triangles_.row(f)) {
+                    uv_.row(v) = before.row(v);
+                    map_.points[v] = {before(v, 0), before(v, 1)};
+                }
+            }
+            if (!any) return true;
+        }
+        return false;
+    }
+
     PlanarPoints& uv_;
-    TangledMap map_;
-    FoldoverProblem problem_;
-    std::vector<char> ordered_;  // loops that were from the start
+    const Triangles& triangles_;
+    TangledMap tangled_;
+    AngleMap map_;
 };
 
 }  // namespace
@@ -168,7 +186,10 @@ bool polish_angles(const Vertices& vertices, const Surface& surface, const std::
                    const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,
                    ExecutionContext& context, const std::vector<Index>& held)
 {
-    return AnglePolish(vertices, surface, loops, circles, off_circle, uv, held).run(context);
+    PlanarPoints before = uv;
+    const bool better = AnglePolish(vertices, surface, loops, circles, off_circle, uv, held).run(context);
+    if (!better) uv = std::move(before);
+    return better;
 }
 
 }  // namespace koebe

@@ -1,0 +1,28 @@
+// The angle error lowered for all vertices at once.
+#pragma once
+
+#include "foldover/angle_map.h"
+
+#include <memory>
+
+namespace koebe {
+
+/// Newton steps on the same map: the linear systems are analyzed once.
+class AngleNewton {
+public:
+    explicit AngleNewton(const AngleMap& map);
+    ~AngleNewton();
+
+    /// Where the vertices are that minimize sum_k w_k e_k^2 over all corners to first order, e_k the error of an angle
+    /// and w_k = (e_k^2 + least^2)^-1/2: one linear system of two unknowns a free vertex, one a sliding vertex. The
+    /// map's errors have to be up to date, and who moves the same each time.
+    /// @param least radians
+    /// @return (V) empty if the system cannot be solved
+    std::vector<Complex> places(double least);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace koebe
