@@ -50,7 +50,7 @@ class Options:
     point         what goes to the right end of the disk: "auto", or a boundary vertex as for center. The island that
                   has it has that vertex's loop as its rim, and is not turned upright
     tolerance     change of the circles between two sweeps, in units of the disk's radius
-    polish        lower the angle error at the end, circles as they are; takes about as long as the map
+    polish        lower the angle error at the end, circles as they are; takes one to three times as long as the map
     cut           open, cut and split in the UVs what cannot be mapped as it is; else it is refused
     importance    name of a vertex group by which the balance is weighed, or empty
     upright       turn every island so that the world's up is up in the UV Editor, else as computed

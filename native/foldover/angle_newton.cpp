@@ -32,32 +32,35 @@ public:
         }
     }
 
-    std::vector<Complex> places(double least)
+    bool solve(double least)
     {
-        if (unknowns_ == 0) return {};
+        if (unknowns_ == 0) return false;
         weight_.clear();
         weight_.reserve(map_.error.size());
         for (const double e : map_.error) weight_.push_back(1.0 / std::sqrt(e * e + least * least));
         assemble();
-        VectorXd step;
         try {
             if (solver_)
                 solver_->refactorize(hessian_);
             else
                 solver_.emplace(hessian_);
-            step = -solver_->solve(gradient_);
+            step_ = -solver_->solve(gradient_);
         } catch (const SolverError&) {
-            return {};
+            return false;
         }
-        if (!step.allFinite()) return {};
+        return step_.allFinite();
+    }
+
+    std::vector<Complex> places(double share) const
+    {
         std::vector<Complex> result = map_.points;
         for (Index v = 0; v < map_.vertex_count(); ++v) {
             const Index u = first_unknown_[v];
             if (u < 0) continue;
             if (map_.mobility[v] == Mobility::free)
-                result[v] += Complex(step[u], step[u + 1]);
+                result[v] += share * Complex(step_[u], step_[u + 1]);
             else
-                result[v] = map_.slid(v, step[u]);
+                result[v] = map_.slid(v, share * step_[u]);
         }
         return result;
     }
@@ -150,13 +153,15 @@ private:
     std::vector<double> weight_;
     std::vector<Block> blocks_;
     SparseMatrix hessian_;  // the lower triangle
-    VectorXd gradient_;
+    VectorXd gradient_, step_;
     std::optional<SparseCholesky> solver_;
 };
 
 AngleNewton::AngleNewton(const AngleMap& map) : impl_(std::make_unique<Impl>(map)) {}
 AngleNewton::~AngleNewton() = default;
 
-std::vector<Complex> AngleNewton::places(double least) { return impl_->places(least); }
+bool AngleNewton::solve(double least) { return impl_->solve(least); }
+
+std::vector<Complex> AngleNewton::places(double share) const { return impl_->places(share); }
 
 }  // namespace koebe

@@ -1,9 +1,11 @@
 #include "foldover/angle_polish.h"
 
+#include "core/tolerances.h"
 #include "foldover/angle_map.h"
 #include "foldover/angle_newton.h"
 #include "foldover/angle_relaxation.h"
 #include "foldover/tangled_map.h"
+#include "planar/boundary_crossings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +16,12 @@ namespace {
 
 using Mobility = AngleMap::Mobility;
 
-constexpr int most_passes = 6;  // of Newton
-constexpr double large = 0.2;   // relative fall of the angle error that another is made for
-constexpr int most_sweeps = 8;
-constexpr double worthwhile = 2e-3;    // relative fall of the angle error that another sweep is made for
+constexpr int most_passes = 6;         // of Newton
+constexpr double large = 0.1;          // relative fall of the angle error that another is made for
+constexpr double least_share = 0.25;   // of such a step
+constexpr int first_sweeps = 2;        // before the Newton step, which weighs by what they leave
+constexpr int most_sweeps = 8;         // after it
+constexpr double worthwhile = 1e-3;    // relative fall of the angle error that another sweep is made for
 constexpr double least_error = 0.3;    // at which a weight is taken, over the mean
 constexpr int most_restorations = 16;  // of vertices around faces that became too small
 
@@ -44,13 +48,9 @@ public:
     bool run(ExecutionContext& context)
     {
         const double before = map_.measure();
-        double error = newton(before, context);
-        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-            context.advance(0.5 + 0.5 * sweep / most_sweeps);
-            const double fall = relax_angles(map_, least(error), sweep % 2 == 0);
-            error -= fall;
-            if (fall < worthwhile * error) break;
-        }
+        double error = sweeps(before, first_sweeps, context, 0.0);
+        error = newton(error, context);
+        sweeps(error, most_sweeps, context, 0.5);
         return write() && map_.measure() < before;
     }
 
@@ -98,25 +98,41 @@ private:
             map_.mobility[outer[(first + i * outer.size() / 3) % outer.size()]] = Mobility::held;
     }
 
+    /// Up to so many sweeps, as long as they are worthwhile. @return the error
+    double sweeps(double error, int most, ExecutionContext& context, double begin)
+    {
+        for (int sweep = 0; sweep < most; ++sweep) {
+            context.advance(begin + 0.5 * sweep / most_sweeps);
+            const double fall = relax_angles(map_, least(error), sweep % 2 == 0);
+            error -= fall;
+            if (!(fall > worthwhile * error)) break;
+        }
+        return error;
+    }
+
     /// Steps of all vertices as long as they lower the error by much. @return the error
     double newton(double error, ExecutionContext& context)
     {
         AngleNewton newton(map_);
         for (int pass = 0; pass < most_passes; ++pass) {
-            context.advance(0.5 * pass / most_passes);
-            std::vector<Complex> places = newton.places(least(error));
-            if (places.empty() || !restore(places)) break;
-            std::swap(map_.points, places);
-            const double now = map_.measure();
-            if (!(now < error)) {
-                std::swap(map_.points, places);
-                map_.measure();
-                break;
-            }
-            const bool far = now < (1.0 - large) * error;
-            error = now;
-            if (!far) break;
+            context.advance(0.15 + 0.35 * pass / most_passes);
+            if (!newton.solve(least(error))) break;
+            const double before = error;
+            for (double share = 1.0; share >= least_share && error == before; share *= 0.5)
+                error = with_step(newton.places(share), error);
+            if (!(error < (1.0 - large) * before)) break;
         }
+        return error;
+    }
+
+    /// Moves the vertices there if that lowers the error. @return the error
+    double with_step(std::vector<Complex> places, double error)
+    {
+        if (!restore(places)) return error;
+        std::swap(map_.points, places);
+        if (const double now = map_.measure(); now < error) return now;
+        std::swap(map_.points, places);
+        map_.measure();
         return error;
     }
 
@@ -151,8 +167,9 @@ private:
         }
     }
 
-    /// Writes the map, but for vertices of faces that are flipped as stored and were not: those stay.
-    /// @return whether no such face is left
+    /// Writes the map, but for vertices of faces that are flipped as stored and were not, and of loops that cross
+    /// themselves or each other: those stay.
+    /// @return whether all others are right
     bool write()
     {
         const PlanarPoints before = uv_;
@@ -160,16 +177,21 @@ private:
         for (Index v = 0; v < map_.vertex_count(); ++v)
             if (map_.mobility[v] != Mobility::held) uv_.row(v) << map_.points[v].real(), map_.points[v].imag();
         for (int i = 0; i < most_restorations; ++i) {
-            bool any = false;
-            for (const Index f : tangled_.tangled()) {
-                if (std::ranges::binary_search(allowed, f)) continue;
-                any = true;
-                for (const Index v : triangles_.row(f)) {
-                    uv_.row(v) = before.row(v);
-                    map_.points[v] = {before(v, 0), before(v, 1)};
-                }
+            std::vector<Index> wrong;
+            for (const Index f : tangled_.tangled())
+                if (!std::ranges::binary_search(allowed, f))
+                    wrong.insert(wrong.end(), triangles_.row(f).begin(), triangles_.row(f).end());
+            if (wrong.empty())
+                for (const auto& [a, b] : crossing_boundary_edges(tangled_.loops(), uv_, 2.0 * uv_resolution))
+                    for (const Index v : {a, b}) {
+                        const VertexLoop& loop = tangled_.loops()[tangled_.loop_of(v)];
+                        wrong.insert(wrong.end(), loop.begin(), loop.end());
+                    }
+            if (std::ranges::all_of(wrong, [&](Index v) { return uv_.row(v) == before.row(v); })) return true;
+            for (const Index v : wrong) {
+                uv_.row(v) = before.row(v);
+                map_.points[v] = {before(v, 0), before(v, 1)};
             }
-            if (!any) return true;
         }
         return false;
     }

@@ -105,8 +105,7 @@ CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<Cir
     return map;
 }
 
-/// The map polished, unless that brings a fault: it looks after faces and circles, but a loop with vertices off its
-/// circle may still come to cross itself.
+/// The map polished, unless that brings a fault, though the polish looks after faces, circles and loops itself.
 void polish(const Domain& whole, CircleMap& map, MapFaults& faults, ExecutionContext& context)
 {
     PlanarPoints before = map.uv;
