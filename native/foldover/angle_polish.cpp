@@ -23,6 +23,7 @@ constexpr int first_sweeps = 2;        // before the Newton step, which weighs b
 constexpr int most_sweeps = 8;         // after it
 constexpr double worthwhile = 1e-3;    // relative fall of the angle error that another sweep is made for
 constexpr double least_error = 0.3;    // at which a weight is taken, over the mean
+constexpr double noticeable = 1e-6;    // relative fall that a result is kept for: above what angle_of is off
 constexpr int most_restorations = 16;  // of vertices around faces that became too small
 
 class AnglePolish {
@@ -51,7 +52,7 @@ public:
         double error = sweeps(before, first_sweeps, context, 0.0);
         error = newton(error, context);
         sweeps(error, most_sweeps, context, 0.5);
-        return write() && map_.measure() < before;
+        return write() && map_.measure() < (1.0 - noticeable) * before;
     }
 
 private:

@@ -18,7 +18,7 @@ namespace koebe {
 /// is held. The circles do not change.
 ///
 /// Around faces that would be flipped as stored, and on loops that would cross, vertices stay where they were. The
-/// result is kept if the mean angle error is lower.
+/// result is kept if the mean angle error is lower by a millionth of it.
 /// @param loops the outer one first @param circles of the loops @param off_circle loop vertices off their circles
 /// @param uv (V, 2) points of the unit disk, moved in place
 /// @param held vertices that stay as well, one of the outer loop in the place of the one that would

@@ -90,6 +90,12 @@ def test_the_polish_is_undone_only_where_a_loop_would_cross_itself():
     assert error["mean"] < error["before_polish"]
 
 
+@pytest.mark.parametrize(("kind", "seed"), [("strip", 7004), ("tube", 7009), ("planar", 7011)])
+def test_the_polish_keeps_nothing_that_rounding_alone_calls_better(kind, seed):
+    error = koebe.uniformize(*random_surfaces.make(kind, seed), polish=True).to_dict()["angle_error_deg"]
+    assert error["mean"] <= error["before_polish"]
+
+
 def test_faces_that_were_turned_are_no_flips():
     vertices, triangles = random_surfaces.make("uneven", 409)
     result = koebe.uniformize(vertices, triangles, method="ck")
