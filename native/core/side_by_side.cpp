@@ -1,11 +1,13 @@
 #include "core/side_by_side.h"
 
 #include "core/thread_memory.h"
+#include "core/thread_share.h"
 
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -68,6 +70,7 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
                 } catch (const std::bad_alloc&) {
                     return;  // the other threads do it
                 }
+                const BesideOthers beside;
                 run(own, {});
             });
         } catch (const std::system_error&) {
@@ -76,6 +79,8 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
     std::exception_ptr cancelled;
     try {
         ExecutionContext own({}, {}, [&context] { context.checkpoint(); });
+        std::optional<BesideOthers> beside;
+        if (!others.empty()) beside.emplace();
         run(own, [&] { context.advance(static_cast<double>(shared.done) / static_cast<double>(count)); });
         context.checkpoint();
     } catch (...) {

@@ -16,7 +16,7 @@ PathSolution path_solution(const SupernodalFactor& l, const SparseMatrix& b)
 {
     PathSolution solution;
     std::vector<Index>& place = solution.place;
-    place.assign(l.factor->nsuper, -1);
+    place.assign(l.supernode_count(), -1);
     for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
         for (SparseMatrix::InnerIterator it(b, c); it; ++it)
             for (Index s = l.supernode[l.rank[it.row()]]; place[s] < 0; s = l.parent(s)) {

@@ -20,7 +20,7 @@ namespace {
 /// J, lower triangle, and then R.
 class PatternInverse {
 public:
-    explicit PatternInverse(const SupernodalFactor& l) : l_(l), blocks_(l.factor->nsuper) {}
+    explicit PatternInverse(const SupernodalFactor& l) : l_(l), blocks_(l.supernode_count()) {}
 
     void compute(Index s)
     {
@@ -94,12 +94,12 @@ private:
 
 std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vector<std::vector<Index>>& sets)
 {
-    std::vector<char> needed(l.factor->nsuper, 0);
+    std::vector<char> needed(l.supernode_count(), 0);
     for (const std::vector<Index>& set : sets)
         for (const Index v : set)
             for (Index s = l.supernode[l.rank[v]]; !needed[s]; s = l.parent(s)) needed[s] = 1;
     PatternInverse inverse(l);
-    for (Index s = static_cast<Index>(l.factor->nsuper); s-- > 0;)
+    for (Index s = l.supernode_count(); s-- > 0;)
         if (needed[s]) inverse.compute(s);
 
     std::vector<MatrixXd> result;

@@ -18,6 +18,15 @@ struct SparseCholesky::Impl {
     SupernodalFactor l;
     std::vector<Index> last;
     MatrixXd trailing;  // L_BB in the factor's own order
+    SparseMatrix both;  // triangles of the matrix, where one was given
+
+    const SparseMatrix& full(const SparseMatrix& matrix)
+    {
+        for (Index c = 0; c < static_cast<Index>(matrix.cols()); ++c)
+            if (const SparseMatrix::InnerIterator it(matrix, c); it && it.row() < c) return matrix;
+        both = matrix.selfadjointView<Eigen::Lower>();
+        return both;
+    }
 
     Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
     Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
@@ -25,11 +34,21 @@ struct SparseCholesky::Impl {
     MatrixXd last_in_given_order(const MatrixXd& trailing_rows) const;
 };
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last)
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
+                               Index split_rows)
     : impl_(std::make_unique<Impl>())
 {
     SupernodalFactor& l = impl_->l;
     impl_->last = last;
+    if (ordering == Ordering::amd && matrix.rows() > split_rows) {
+        l.split = SplitFactor::analyze(impl_->full(matrix), last, split_rows);
+        if (l.split) {
+            require_memory(l.split->memory(), "the factorization");
+            l.number();
+            refactorize(matrix);
+            return;
+        }
+    }
     cholmod_sparse lower = view(matrix, -1);
     // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
     // postorder A_II by itself and forbid any further change.
@@ -55,6 +74,12 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, co
 void SparseCholesky::refactorize(const SparseMatrix& matrix)
 {
     SupernodalFactor& l = impl_->l;
+    if (l.split) {
+        l.split->factorize(impl_->full(matrix));
+        impl_->both = {};
+        impl_->trailing = l.trailing_block(static_cast<Index>(impl_->last.size()));
+        return;
+    }
     cholmod_sparse lower = view(matrix, -1);
     const SerialRegions serial;
     const int done = cholmod_factorize(&lower, l.factor.get(), l.common.get());

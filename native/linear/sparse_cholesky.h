@@ -17,11 +17,12 @@ enum class Ordering { amd, metis };
 /// L_BB L_BB', and the leading part is the factor of A_II, I all other rows.
 class SparseCholesky {
 public:
-    /// @param matrix symmetric, of which the lower triangle is read
+    /// @param matrix symmetric: the lower triangle, or both
     /// @param last the rows B
+    /// @param split_rows a larger matrix is cut into pieces that are factored side by side (linear/split_factor.h)
     /// @throws SolverError if the matrix is not positive definite
     explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd,
-                            const std::vector<Index>& last = {});
+                            const std::vector<Index>& last = {}, Index split_rows = 50000);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;

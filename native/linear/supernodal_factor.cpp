@@ -6,10 +6,26 @@ namespace koebe::detail {
 
 void SupernodalFactor::number()
 {
+    if (split) {
+        const SupernodeLayout& l = split->layout();
+        size_ = static_cast<Index>(l.order.size());
+        supernode_count_ = static_cast<Index>(l.first.size()) - 1;
+        order_ = l.order.data();
+        first_ = l.first.data();
+        rows_ = l.rows.data();
+        split_row_begin_ = l.row_begin.data();
+    } else {
+        size_ = static_cast<Index>(factor->n);
+        supernode_count_ = static_cast<Index>(factor->nsuper);
+        order_ = static_cast<const Index*>(factor->Perm);
+        first_ = static_cast<const Index*>(factor->super);
+        rows_ = static_cast<const Index*>(factor->s);
+        row_begin_ = static_cast<const Index*>(factor->pi);
+    }
     rank.resize(size());
     supernode.resize(size());
     for (Index j = 0; j < size(); ++j) rank[order()[j]] = j;
-    for (Index s = 0; s < static_cast<Index>(factor->nsuper); ++s)
+    for (Index s = 0; s < supernode_count(); ++s)
         std::fill(supernode.begin() + first_column(s), supernode.begin() + first_column(s + 1), s);
 }
 
@@ -17,8 +33,7 @@ MatrixXd SupernodalFactor::trailing_block(Index count) const
 {
     MatrixXd trailing = MatrixXd::Zero(count, count);
     const Index begin = size() - count;
-    for (Index s = count > 0 ? supernode[begin] : static_cast<Index>(factor->nsuper);
-         s < static_cast<Index>(factor->nsuper); ++s)
+    for (Index s = count > 0 ? supernode[begin] : supernode_count(); s < supernode_count(); ++s)
         for (Index column = std::max(first_column(s), begin); column < first_column(s + 1); ++column) {
             const Index at = column - first_column(s);
             const double* values_of_column = values(s) + static_cast<std::ptrdiff_t>(at) * height(s);
@@ -31,6 +46,19 @@ MatrixXd SupernodalFactor::solve(int system, const MatrixXd& right_hand_side)
 {
     MatrixXd result(right_hand_side.rows(), right_hand_side.cols());
     if (result.size() == 0) return result;
+    if (split) {
+        const bool permuted = system == CHOLMOD_A;
+        MatrixXd x(right_hand_side.rows(), right_hand_side.cols());
+        if (permuted)
+            for (Index j = 0; j < size(); ++j) x.row(j) = right_hand_side.row(order()[j]);
+        else
+            x = right_hand_side;
+        if (system != CHOLMOD_Lt) split->solve_lower(x);
+        if (system != CHOLMOD_L) split->solve_upper(x);
+        if (!permuted) return x;
+        for (Index j = 0; j < size(); ++j) result.row(order()[j]) = x.row(j);
+        return result;
+    }
     // CHOLMOD looks at its status after the last of three arrays alone: without memory for an earlier one it would
     // follow a null pointer. So those are ours.
     MatrixXd permuted(result.rows(), result.cols());

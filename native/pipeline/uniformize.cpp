@@ -6,6 +6,7 @@
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/peak_memory.h"
+#include "core/thread_share.h"
 #include "embedding/embedded_map.h"
 #include "embedding/fixed_places.h"
 #include "foldover/angle_polish.h"
@@ -153,6 +154,7 @@ UniformizeResult map_problem(const std::function<Problem&()>& prepare, const Uni
     result.center = options.center;
     result.point = options.point;
     const SerialDenseKernels serial;
+    const ThreadShare threads(options.threads);
     Stopwatch total, stage;
 
     context.begin_stage("topology", 0.0, 0.05);

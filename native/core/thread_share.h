@@ -1,0 +1,49 @@
+// The threads that a computation may use, known wherever it goes.
+#pragma once
+
+#include "core/api.h"
+
+#include <cstddef>
+#include <functional>
+
+namespace koebe {
+
+/// How many threads what runs on this thread may take, itself counted, for the object's lifetime. It is 1 where nothing
+/// is said, and always in work that runs beside other work (side_by_side, each_beside).
+class KOEBE_API ThreadShare {
+public:
+    /// @param threads 0: as many as the machine has
+    explicit ThreadShare(int threads);
+    ~ThreadShare();
+    ThreadShare(const ThreadShare&) = delete;
+    ThreadShare& operator=(const ThreadShare&) = delete;
+
+    static int here();
+
+private:
+    int before_;
+};
+
+/// This thread has work beside others for the object's lifetime: its share is 1 whatever is said.
+class BesideOthers {
+public:
+    BesideOthers();
+    ~BesideOthers();
+    BesideOthers(const BesideOthers&) = delete;
+    BesideOthers& operator=(const BesideOthers&) = delete;
+
+private:
+    bool before_;
+};
+
+/// Calls work(i) once for each i < count, on this thread's share of threads. The work must not share what it changes:
+/// then its results are the same for any number.
+/// @throws of what the work throws that of the lowest i; no more work is begun then
+KOEBE_API void each_beside(std::size_t count, const std::function<void(std::size_t i)>& work);
+
+/// Calls work(begin, end) for the pieces of [0, size) of `length` each, the last one shorter: the same ones for any
+/// number of threads.
+KOEBE_API void in_pieces(std::size_t size, std::size_t length,
+                         const std::function<void(std::size_t begin, std::size_t end)>& work);
+
+}  // namespace koebe
