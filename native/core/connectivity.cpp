@@ -1,6 +1,7 @@
 #include "core/connectivity.h"
 
 #include "core/errors.h"
+#include "core/thread_share.h"
 
 #include <algorithm>
 #include <compare>
@@ -51,8 +52,8 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
     }
 
     std::vector<Index> twin(halfedge_count, no_twin);
-    std::vector<Index> nonmanifold;
-    for (Index v = 0; v < vertex_count; ++v) {
+    const std::vector<Index> crowded = found_in_pieces(vertex_count, [&](Index v) {
+        bool any = false;
         const auto begin = entries.begin() + bucket_begin[v];
         const auto end = entries.begin() + bucket_begin[v + 1];
         sort_bucket(begin, end);
@@ -63,11 +64,18 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
                 twin[run->halfedge] = (run + 1)->halfedge;
                 twin[(run + 1)->halfedge] = run->halfedge;
             } else if (run_end - run > 2) {
-                nonmanifold.insert(nonmanifold.end(), {v, run->other_vertex});
+                any = true;
             }
             run = run_end;
         }
-    }
+        return any;
+    });
+    std::vector<Index> nonmanifold;
+    for (const Index v : crowded)
+        for (Index e = bucket_begin[v]; e + 2 < bucket_begin[v + 1]; ++e)
+            if (const Index other = entries[e].other_vertex;
+                (e == bucket_begin[v] || entries[e - 1].other_vertex != other) && entries[e + 2].other_vertex == other)
+                nonmanifold.insert(nonmanifold.end(), {v, other});
     if (!nonmanifold.empty())
         throw TopologyError(TopologyKind::nonmanifold_edge,
                             std::to_string(nonmanifold.size() / 2) +

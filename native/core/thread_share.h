@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace koebe {
 
@@ -45,5 +46,21 @@ KOEBE_API void each_beside(std::size_t count, const std::function<void(std::size
 /// number of threads.
 KOEBE_API void in_pieces(std::size_t size, std::size_t length,
                          const std::function<void(std::size_t begin, std::size_t end)>& work);
+
+/// The numbers below `size` that a test finds, ascending.
+template <class Number, class Test>
+std::vector<Number> found_in_pieces(Number size, const Test& test)
+{
+    constexpr std::size_t at_a_time = 32768;
+    const std::size_t all = static_cast<std::size_t>(size);
+    std::vector<std::vector<Number>> found((all + at_a_time - 1) / at_a_time);
+    in_pieces(all, at_a_time, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (test(static_cast<Number>(i))) found[begin / at_a_time].push_back(static_cast<Number>(i));
+    });
+    std::vector<Number> result;
+    for (const std::vector<Number>& some : found) result.insert(result.end(), some.begin(), some.end());
+    return result;
+}
 
 }  // namespace koebe

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/thread_share.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,17 +98,16 @@ void require_manifold_vertices(const Surface& surface)
         // Clockwise from a boundary half-edge one meets the whole fan.
         if (outgoing[v] == no_twin || surface.twin[h] == no_twin) outgoing[v] = h;
     }
-    std::vector<Index> bad;
-    for (Index v = 0; v < vertex_count; ++v) {
-        if (face_count[v] == 0) continue;
+    const std::vector<Index> bad = found_in_pieces(vertex_count, [&](Index v) {
+        if (face_count[v] == 0) return false;
         Index met = 0;
         Index h = outgoing[v];
         do {
             ++met;
             h = surface.twin[previous_halfedge(h)];
         } while (h != no_twin && h != outgoing[v]);
-        if (met != face_count[v]) bad.push_back(v);
-    }
+        return met != face_count[v];
+    });
     if (!bad.empty())
         throw TopologyError(TopologyKind::nonmanifold_vertex,
                             std::to_string(bad.size()) + " vertices join separate fans of faces (vertices listed)",
@@ -208,9 +208,8 @@ std::vector<Index> find_handle_loop(const Surface& surface)
 
 void require_finite(const Vertices& vertices)
 {
-    std::vector<Index> bad;
-    for (Eigen::Index v = 0; v < vertices.rows(); ++v)
-        if (!vertices.row(v).allFinite()) bad.push_back(static_cast<Index>(v));
+    const std::vector<Index> bad =
+        found_in_pieces(static_cast<Index>(vertices.rows()), [&](Index v) { return !vertices.row(v).allFinite(); });
     if (!bad.empty())
         throw InputError(std::to_string(bad.size()) + " vertices have a coordinate that is NaN or infinite",
                          ElementKind::vertices, bad);
@@ -221,17 +220,17 @@ void validate_arrays(const Vertices& vertices, const Triangles& triangles)
     if (vertices.rows() == 0) throw InputError("the mesh has no vertices");
     if (triangles.rows() == 0) throw InputError("the mesh has no faces");
     require_finite(vertices);
-    std::vector<Index> bad;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (triangles.row(f).minCoeff() < 0 || triangles.row(f).maxCoeff() >= vertices.rows())
-            bad.push_back(static_cast<Index>(f));
+    const Index faces = static_cast<Index>(triangles.rows());
+    std::vector<Index> bad = found_in_pieces(faces, [&](Index f) {
+        return triangles.row(f).minCoeff() < 0 || triangles.row(f).maxCoeff() >= vertices.rows();
+    });
     if (!bad.empty())
         throw InputError(std::to_string(bad.size()) + " faces name a vertex that does not exist (faces listed)",
                          ElementKind::faces, bad);
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (triangles(f, 0) == triangles(f, 1) || triangles(f, 1) == triangles(f, 2) ||
-            triangles(f, 2) == triangles(f, 0))
-            bad.push_back(static_cast<Index>(f));
+    bad = found_in_pieces(faces, [&](Index f) {
+        return triangles(f, 0) == triangles(f, 1) || triangles(f, 1) == triangles(f, 2) ||
+               triangles(f, 2) == triangles(f, 0);
+    });
     if (!bad.empty())
         throw InputError(std::to_string(bad.size()) + " faces name the same vertex twice (faces listed)",
                          ElementKind::faces, bad);

@@ -1,5 +1,6 @@
 #include "foldover/untangle.h"
 
+#include "core/thread_share.h"
 #include "foldover/untangle_patch.h"
 #include "quality/stored_uv.h"
 
@@ -129,9 +130,7 @@ UntangleReport untangle(const Vertices& vertices, const Surface& surface, const 
         const StoredFace face(surface.triangles, uv, f);
         return face.doubtful() && !face.below_resolution();
     };
-    Eigen::Index f = 0;
-    while (f < surface.triangles.rows() && !tangled(f)) ++f;
-    if (f == surface.triangles.rows()) return {};
+    if (found_in_pieces(surface.triangles.rows(), tangled).empty()) return {};
     TangledMap map(vertices, surface, loops, circles, off_circle, uv);
     for (const Index v : options.held) map.hold(v);
     return Untangler(map, context, options).run();

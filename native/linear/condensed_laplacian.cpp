@@ -6,15 +6,26 @@ namespace koebe {
 
 namespace {
 
-/// K on the interior, the unit matrix on the boundary, nothing between them. The pattern does not depend on the values.
-SparseMatrix cut_off(SparseMatrix result, const std::vector<char>& on_boundary)
+/// K on the interior, the unit matrix where something is cut off, nothing between them; 1 more on the diagonal of what
+/// is kept to the end. The pattern does not depend on the values.
+SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<char>& is_cut,
+                             const std::vector<Index>& kept)
 {
-    for (Index column = 0; column < static_cast<Index>(result.cols()); ++column)
-        for (SparseMatrix::InnerIterator it(result, column); it; ++it)
-            if (on_boundary[column] && it.row() == column) it.valueRef() = 1.0;
-    result.prune([&](Index row, Index column, double) {
-        return row == column || !(on_boundary[row] || on_boundary[column]);
-    });
+    std::vector<char> is_kept(laplacian.rows(), 0);
+    for (const Index v : kept) is_kept[v] = 1;
+    SparseMatrix result(laplacian.rows(), laplacian.cols());
+    result.reserve(laplacian.nonZeros());
+    for (Index column = 0; column < static_cast<Index>(laplacian.cols()); ++column) {
+        result.startVec(column);
+        if (is_cut[column]) {
+            result.insertBack(column, column) = 1.0;
+            continue;
+        }
+        for (SparseMatrix::InnerIterator it(laplacian, column); it; ++it)
+            if (!is_cut[it.row()])
+                result.insertBack(it.row(), column) = it.value() + (is_kept[column] && it.row() == column ? 1.0 : 0.0);
+    }
+    result.finalize();
     return result;
 }
 
@@ -30,10 +41,12 @@ struct CondensedLaplacian::Impl {
     std::vector<Index> row;  // of each kept vertex in the factor's order, where that is another
 
     /// What is factored of a Laplacian: 1 added to the diagonal where kept, the grounded part cut off.
-    SparseMatrix shifted(SparseMatrix matrix) const
+    SparseMatrix shifted(const SparseMatrix& matrix) const
     {
-        for (const Index v : kept) matrix.coeffRef(v, v) += 1.0;
-        return is_cut.empty() ? matrix : cut_off(std::move(matrix), is_cut);
+        if (!is_cut.empty()) return shifted_and_cut(matrix, is_cut, kept);
+        SparseMatrix result = matrix;
+        for (const Index v : kept) result.coeffRef(v, v) += 1.0;
+        return result;
     }
 
     /// Rows in the factor's order as the boundary is given now.

@@ -45,22 +45,23 @@ private:
     std::vector<Index> own_begin_, own_neighbours_;
 };
 
-/// Marks of rows: of each set three, its own and those of the two searches through it.
+/// Marks of rows: of each set four, its own and those of the searches through it.
 struct Marks {
-    Index own, there, back;
-    explicit Marks(Index set) : own(3 * set), there(3 * set + 1), back(3 * set + 2) {}
+    Index own, first, second, third;
+    explicit Marks(Index set) : own(4 * set), first(4 * set + 1), second(4 * set + 2), third(4 * set + 3) {}
 };
 constexpr Index left_out = -1, in_separator = -2;
 
 struct PartedSet {
     std::vector<Index> rows;    // of a separator once it is parted
     Index children[2]{-1, -1};  // sets, if it is parted
+    Index end = -1;             // a row far from others
 };
 
 class Dissector {
 public:
     Dissector(const RowGraph& graph, std::vector<Index> mark, std::vector<Index> rows, Index most_rows)
-        : graph_(graph), mark_(std::move(mark)), level_(graph.size()), most_rows_(most_rows)
+        : graph_(graph), mark_(std::move(mark)), distance_(graph.size()), between_(graph.size()), most_rows_(most_rows)
     {
         sets_.emplace_back().rows = std::move(rows);
     }
@@ -71,14 +72,15 @@ public:
         for (std::size_t begin = 0; begin < sets_.size();) {
             const std::size_t end = sets_.size();
             std::vector<std::vector<Index>> halves(2 * (end - begin));
+            std::vector<Index> ends(halves.size(), -1);
             each_beside(end - begin, [&](std::size_t i) {
                 if (static_cast<Index>(sets_[begin + i].rows.size()) > most_rows_)
-                    part(static_cast<Index>(begin + i), static_cast<Index>(end + 2 * i), &halves[2 * i]);
+                    part(static_cast<Index>(begin + i), static_cast<Index>(end + 2 * i), &halves[2 * i], &ends[2 * i]);
             });
             if (std::ranges::all_of(halves, [](const auto& half) { return half.empty(); })) break;
             for (std::size_t i = 0; i < halves.size(); ++i) {
                 if (!halves[i].empty()) sets_[begin + i / 2].children[i % 2] = static_cast<Index>(end + i);
-                sets_.emplace_back().rows = std::move(halves[i]);
+                sets_.push_back({std::move(halves[i]), {-1, -1}, ends[i]});
             }
             begin = end;
         }
@@ -88,71 +90,109 @@ public:
     }
 
 private:
-    void part(Index set, Index first_child, std::vector<Index>* halves)
+    /// A cut: rows whose number is below `below` on one side, and `size` of them next to the other side.
+    struct Cut {
+        const std::vector<Index>* number = nullptr;
+        Index below = 0;
+        std::size_t size = 0;
+    };
+
+    void part(Index set, Index first_child, std::vector<Index>* halves, Index* ends)
     {
         std::vector<Index>& rows = sets_[set].rows;
-        const std::vector<Index> order = levels(rows, Marks(set));
-        const auto [begin, end] = middle_level(order);
-        if (8 * (end - begin) > order.size()) return;
-        halves[1].assign(order.begin() + static_cast<std::ptrdiff_t>(end), order.end());
-        const Index beyond = Marks(first_child + 1).own;
-        for (const Index v : halves[1]) mark_[v] = beyond;
-        rows.clear();
-        for (std::size_t i = 0; i < end; ++i) {
-            const Index v = order[i];
-            const bool needed =
-                i >= begin && std::any_of(graph_.begin(v), graph_.end(v), [&](Index w) { return mark_[w] == beyond; });
-            (needed ? rows : halves[0]).push_back(v);
-        }
+        measure(rows, sets_[set].end, Marks(set));
+        const Index searched = Marks(set).third;
+        Cut cut = least_cut(rows, distance_, searched);
+        if (const Cut other = least_cut(rows, between_, searched); other.size < cut.size) cut = other;
+        if (8 * cut.size > rows.size()) return;
+        const std::vector<Index>& number = *cut.number;
+        std::vector<Index> separator;
+        for (const Index v : rows)
+            (number[v] >= cut.below                                           ? halves[1]
+             : highest_neighbour(v, number, searched, cut.below) >= cut.below ? separator
+                                                                              : halves[0])
+                .push_back(v);
+        rows = std::move(separator);
         for (const Index v : rows) mark_[v] = in_separator;
-        for (const Index v : halves[0]) mark_[v] = Marks(first_child).own;
-        rows.shrink_to_fit();
-        for (const int side : {0, 1}) std::sort(halves[side].begin(), halves[side].end());
+        for (const int side : {0, 1}) {
+            for (const Index v : halves[side]) mark_[v] = Marks(first_child + side).own;
+            const auto [low, high] = std::ranges::minmax_element(halves[side], {}, [&](Index v) { return number[v]; });
+            ends[side] = side == 0 ? *low : *high;
+        }
     }
 
-    /// Appends what can be reached of a set, by rising distance; the levels go on from what was there.
-    void search(std::vector<Index>& order, Index start, Index from, Index to)
+    /// Appends what can be reached of a set, by rising distance, and writes the distances.
+    void search(std::vector<Index>& order, Index start, Index from, Index to, std::vector<Index>& distance)
     {
         std::size_t head = order.size();
-        level_[start] = order.empty() ? 0 : level_[order.back()] + 1;
+        distance[start] = 0;
         mark_[start] = to;
         order.push_back(start);
         for (; head < order.size(); ++head)
             for (const Index* w = graph_.begin(order[head]); w != graph_.end(order[head]); ++w)
                 if (mark_[*w] == from) {
                     mark_[*w] = to;
-                    level_[*w] = level_[order[head]] + 1;
+                    distance[*w] = distance[order[head]] + 1;
                     order.push_back(*w);
                 }
     }
 
-    /// The rows by their distance from one that is far from another, component after component.
-    std::vector<Index> levels(const std::vector<Index>& rows, const Marks& marks)
+    /// Distances from one end of each component, and what they are more than those from the other end; the numbers of a
+    /// component are above those of the one before.
+    void measure(const std::vector<Index>& rows, Index known_end, const Marks& marks)
     {
         std::vector<Index> order;
         order.reserve(rows.size());
+        Index base = 0;
+        const auto measure_component = [&](Index end, Index mark) {
+            order.clear();
+            search(order, end, mark, marks.second, distance_);
+            const Index other_end = order.back(), length = distance_[other_end];
+            order.clear();
+            search(order, other_end, marks.second, marks.third, between_);
+            for (const Index w : order) {
+                between_[w] = base + distance_[w] - between_[w] + length;
+                distance_[w] += base;
+            }
+            base += 2 * length + 1;
+        };
+        if (known_end >= 0) measure_component(known_end, marks.own);
         for (const Index v : rows) {
             if (mark_[v] != marks.own) continue;
-            const std::size_t first = order.size();
-            search(order, v, marks.own, marks.there);
-            const Index far = order.back();
-            order.resize(first);
-            search(order, far, marks.there, marks.back);
+            order.clear();
+            search(order, v, marks.own, marks.first, distance_);
+            measure_component(order.back(), marks.first);
         }
-        return order;
     }
 
-    /// The least level between two and three fifths of the rows.
-    std::pair<std::size_t, std::size_t> middle_level(const std::vector<Index>& order) const
+    Index highest_neighbour(Index row, const std::vector<Index>& number, Index mark, Index enough) const
     {
-        const std::size_t from = 2 * order.size() / 5, until = 3 * order.size() / 5;
-        std::pair<std::size_t, std::size_t> best{0, order.size()};
-        for (std::size_t begin = 0; begin < until;) {
-            std::size_t end = begin;
-            while (end < order.size() && level_[order[end]] == level_[order[begin]]) ++end;
-            if (begin > 0 && end > from && end < order.size() && end - begin < best.second - best.first)
-                best = {begin, end};
-            begin = end;
+        Index highest = number[row];
+        for (const Index* w = graph_.begin(row); w != graph_.end(row) && highest < enough; ++w)
+            if (mark_[*w] == mark) highest = std::max(highest, number[*w]);
+        return highest;
+    }
+
+    /// The cut by these numbers with the fewest rows next to it, of those that leave two fifths on each side.
+    Cut least_cut(const std::vector<Index>& rows, const std::vector<Index>& number, Index mark) const
+    {
+        Index most = 0;
+        for (const Index v : rows) most = std::max(most, number[v]);
+        // Of each number, how many rows have it, and how many more are next to a cut below it than below the one
+        // before.
+        std::vector<Index> count(most + 2, 0), change(most + 2, 0);
+        for (const Index v : rows) {
+            ++count[number[v]];
+            ++change[number[v] + 1];
+            --change[highest_neighbour(v, number, mark, most) + 1];
+        }
+        Cut best{&number, 0, rows.size()};
+        std::size_t under = 0, next_to = 0;
+        for (Index below = 1; below <= most; ++below) {
+            under += count[below - 1];
+            next_to += change[below];
+            if (5 * under >= 2 * rows.size() && 5 * under <= 3 * rows.size() && next_to < best.size)
+                best = {&number, below, next_to};
         }
         return best;
     }
@@ -172,7 +212,7 @@ private:
     }
 
     const RowGraph& graph_;
-    std::vector<Index> mark_, level_;
+    std::vector<Index> mark_, distance_, between_;
     std::vector<PartedSet> sets_;
     Index most_rows_;
 };

@@ -15,7 +15,7 @@ constexpr Index front_rows = 512;   // rows of a triangular solve
 
 }  // namespace
 
-void eliminate(double* columns, Index height, Index width, MatrixXd& rest)
+void eliminate(double* columns, Index height, Index width, double* rest)
 {
     const double one = 1.0;
     const auto at = [&](Index row, Index column) {
@@ -45,7 +45,7 @@ void eliminate(double* columns, Index height, Index width, MatrixXd& rest)
         const KernelBuffer buffer;
         const Index c = static_cast<Index>(from);
         lower_product(others - c, static_cast<int>(until - from), width, -1.0, at(width + c, 0), height, 1.0,
-                      &rest(c, c), others);
+                      rest + c + static_cast<std::ptrdiff_t>(c) * others, others);
     });
 }
 

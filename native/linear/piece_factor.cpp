@@ -48,12 +48,13 @@ SparseMatrix with_interface(const SparseMatrix& matrix, const std::vector<Index>
 class PieceFactorization {
 public:
     PieceFactorization(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
-                       double* values)
+                       double* values, const LowerMatrix& rest)
         : matrix_(matrix),
           layout_(layout),
           part_(part),
           tops_(tops),
           values_(values),
+          rest_(rest),
           size_(part.end - part.begin),
           count_(part.last_supernode - part.first_supernode),
           waiting_(count_, -1),
@@ -68,11 +69,9 @@ public:
                       owner_.begin() + layout.first[part.first_supernode + s + 1] - part.begin, s);
         for (std::size_t i = 0; i < part.interface.size(); ++i)
             number_[part.interface[i] - tops] = static_cast<Index>(i);
-        const Eigen::Index others = static_cast<Eigen::Index>(part.interface.size());
-        rest_ = MatrixXd::Zero(others, others);
     }
 
-    MatrixXd run()
+    void run()
     {
         for (Index s = 0; s < count_; ++s) {
             gather(s);
@@ -87,7 +86,6 @@ public:
             wait(s);
             subtract_from_interface(s);
         }
-        return std::move(rest_);
     }
 
 private:
@@ -187,7 +185,7 @@ private:
         targets_.resize(n);
         for (int r = 0; r < n; ++r) targets_[r] = number_[all[from + r] - tops_];
         for (int c = 0; c < n; ++c) {
-            double* column = &rest_(0, targets_[c]);
+            double* column = rest_.column(targets_[c]);
             const double* taken = product + static_cast<std::ptrdiff_t>(c) * n;
             for (int r = c; r < n; ++r) column[targets_[r]] -= taken[r];
         }
@@ -198,6 +196,7 @@ private:
     const SplitPart& part_;
     Index tops_;
     double* values_;
+    const LowerMatrix& rest_;
     Index size_, count_;
     std::vector<Index> waiting_, next_;  // lists of supernodes: the first for each one, and the one after each
     std::vector<Index> done_rows_;       // of each supernode, with what it has taken off already
@@ -206,7 +205,6 @@ private:
     std::vector<Index> number_;          // of a row in the interface
     std::vector<Index> targets_;
     VectorXd work_;
-    MatrixXd rest_;
 };
 
 }  // namespace
@@ -244,10 +242,10 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
     return result;
 }
 
-MatrixXd factorize_piece(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
-                         double* values)
+void factorize_piece(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
+                     double* values, const LowerMatrix& rest)
 {
-    return PieceFactorization(matrix, layout, part, tops, values).run();
+    PieceFactorization(matrix, layout, part, tops, values, rest).run();
 }
 
 }  // namespace koebe::detail

@@ -2,6 +2,7 @@
 // folder only.
 #pragma once
 
+#include "linear/rest_pool.h"
 #include "linear/split_layout.h"
 
 #include <vector>
@@ -28,9 +29,9 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
 /// The numbers of a piece's supernodes, each from those to its left (Ng and Peyton 1993).
 /// @param tops first row of L that belongs to no piece
 /// @param values of the whole factor
-/// @return minus what the piece's columns take from the rows of its interface: lower triangle
+/// @param rest of the size of the interface: what the piece's columns take from its rows is taken off
 /// @throws SolverError if the matrix is not positive definite
-MatrixXd factorize_piece(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
-                         double* values);
+void factorize_piece(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
+                     double* values, const LowerMatrix& rest);
 
 }  // namespace koebe::detail

@@ -14,6 +14,12 @@ namespace koebe {
 
 using namespace detail;
 
+namespace {
+
+constexpr Index pieces_of_large = 10;  // at least: more of them take longer to find than they save
+
+}  // namespace
+
 struct SparseCholesky::Impl {
     SupernodalFactor l;
     std::vector<Index> last;
@@ -41,7 +47,8 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, co
     SupernodalFactor& l = impl_->l;
     impl_->last = last;
     if (ordering == Ordering::amd && matrix.rows() > split_rows) {
-        l.split = SplitFactor::analyze(impl_->full(matrix), last, split_rows);
+        l.split = SplitFactor::analyze(impl_->full(matrix), last,
+                                       std::max(split_rows, static_cast<Index>(matrix.rows() / pieces_of_large)));
         if (l.split) {
             require_memory(l.split->memory(), "the factorization");
             l.number();

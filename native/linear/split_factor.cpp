@@ -168,23 +168,26 @@ double SplitFactor::memory() const
 void SplitFactor::factorize(const SparseMatrix& matrix)
 {
     if (!values_.data()) values_ = LargeArray(static_cast<std::size_t>(layout_.value_begin.back()));
-    std::vector<MatrixXd> rests(parts_.size());
+    RestPool pool;
+    std::vector<LowerMatrix> rests(parts_.size());
     each_beside(piece_count_, [&](std::size_t p) {
         const KernelBuffer buffer;
-        rests[p] = factorize_piece(matrix, layout_, parts_[p], tops_, values_.data());
+        rests[p] = pool.take(static_cast<Index>(parts_[p].interface.size()));
+        factorize_piece(matrix, layout_, parts_[p], tops_, values_.data(), rests[p]);
     });
     constexpr std::size_t few = 2;  // are taken one after the other, on all threads each
     for (const std::vector<std::size_t>& round : rounds_)
         if (round.size() > few)
             each_beside(round.size(), [&](std::size_t i) {
                 const KernelBuffer buffer;
-                factorize_separator(matrix, parts_[round[i]], rests);
+                factorize_separator(matrix, parts_[round[i]], rests, pool);
             });
         else
-            for (const std::size_t p : round) factorize_separator(matrix, parts_[p], rests);
+            for (const std::size_t p : round) factorize_separator(matrix, parts_[p], rests, pool);
 }
 
-void SplitFactor::factorize_separator(const SparseMatrix& matrix, const SplitPart& part, std::vector<MatrixXd>& rests)
+void SplitFactor::factorize_separator(const SparseMatrix& matrix, const SplitPart& part,
+                                      std::vector<LowerMatrix>& rests, RestPool& pool)
 {
     const Index width = part.end - part.begin, others = static_cast<Index>(part.interface.size());
     const Index height = width + others;
@@ -192,23 +195,27 @@ void SplitFactor::factorize_separator(const SparseMatrix& matrix, const SplitPar
     for (Index r = 0; r < width; ++r) place[part.begin + r - tops_] = r;
     for (Index r = 0; r < others; ++r) place[part.interface[r] - tops_] = width + r;
     double* block = width > 0 ? values_.data() + layout_.value_begin[part.first_supernode] : nullptr;
-    MatrixXd rest = MatrixXd::Zero(others, others);
+    LowerMatrix rest = pool.take(others);
     std::fill(block, block + static_cast<std::ptrdiff_t>(width) * height, 0.0);
     for (Index c = 0; c < width; ++c)
         for (SparseMatrix::InnerIterator it(matrix, layout_.order[part.begin + c]); it; ++it)
             if (const Index r = layout_.rank[it.row()]; r >= part.begin + c)
                 block[place[r - tops_] + static_cast<std::ptrdiff_t>(c) * height] = it.value();
     for (const std::size_t child : part.children) {
-        const MatrixXd from = std::exchange(rests[child], {});
+        LowerMatrix from = std::exchange(rests[child], {});
         const std::vector<Index>& rows = parts_[child].interface;
-        for (std::size_t c = 0; c < rows.size(); ++c) {
-            const Index column = place[rows[c] - tops_];
-            double* to = column < width ? block + static_cast<std::ptrdiff_t>(column) * height
-                                        : &rest(0, column - width) - width;
-            for (std::size_t r = c; r < rows.size(); ++r) to[place[rows[r] - tops_]] += from(r, c);
-        }
+        in_pieces(rows.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) {
+                const Index column = place[rows[c] - tops_];
+                double* to = column < width ? block + static_cast<std::ptrdiff_t>(column) * height
+                                            : rest.column(column - width) - width;
+                const double* numbers = from.column(static_cast<Index>(c));
+                for (std::size_t r = c; r < rows.size(); ++r) to[place[rows[r] - tops_]] += numbers[r];
+            }
+        });
+        pool.give_back(std::move(from));
     }
-    eliminate(block, height, width, rest);
+    eliminate(block, height, width, rest.numbers.data());
     rests[&part - parts_.data()] = std::move(rest);
 }
 

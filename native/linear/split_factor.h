@@ -38,7 +38,8 @@ private:
     void analyze_pieces(const SparseMatrix& matrix, const std::vector<const std::vector<Index>*>& rows);
     void analyze_separator(const SparseMatrix& matrix, SplitPart& part);
     void lay_out(const std::vector<PieceSupernodes>& pieces);
-    void factorize_separator(const SparseMatrix& matrix, const SplitPart& part, std::vector<MatrixXd>& rests);
+    void factorize_separator(const SparseMatrix& matrix, const SplitPart& part, std::vector<LowerMatrix>& rests,
+                             RestPool& pool);
     void solve_lower(const SplitPart& part, MatrixXd& x, MatrixXd& interface) const;
     void solve_upper(const SplitPart& part, MatrixXd& x) const;
 

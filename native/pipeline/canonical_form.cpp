@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/length.h"
+#include "core/thread_share.h"
 
 #include <Eigen/Geometry>
 
@@ -81,19 +82,30 @@ CanonicalPosition position_of(const Triangles& triangles, Vertices points)
     frame << first, second, first.cross(second);
     points = (points * frame / extent).eval();
 
-    double shortest = std::numeric_limits<double>::infinity();
-    double thinnest = shortest;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const auto edge = [&](int k) -> Eigen::RowVector3d {
-            return points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k));
-        };
-        const Eigen::RowVector3d first = edge(0), last = edge(2);
-        double longest = 0.0;
-        for (const double length : {first.norm(), edge(1).norm(), last.norm()}) {
-            if (length > 0.0) shortest = std::min(shortest, length);
-            longest = std::max(longest, length);
+    constexpr std::size_t at_a_time = 32768;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const std::size_t faces = static_cast<std::size_t>(triangles.rows());
+    std::vector<std::pair<double, double>> least((faces + at_a_time - 1) / at_a_time);  // edge and height
+    in_pieces(faces, at_a_time, [&](std::size_t begin, std::size_t end) {
+        double shortest = none, thinnest = none;
+        for (Eigen::Index f = static_cast<Eigen::Index>(begin); f < static_cast<Eigen::Index>(end); ++f) {
+            const auto edge = [&](int k) -> Eigen::RowVector3d {
+                return points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k));
+            };
+            const Eigen::RowVector3d first = edge(0), last = edge(2);
+            double longest = 0.0;
+            for (const double length : {first.norm(), edge(1).norm(), last.norm()}) {
+                if (length > 0.0) shortest = std::min(shortest, length);
+                longest = std::max(longest, length);
+            }
+            thinnest = std::min(thinnest, longest > 0.0 ? first.cross(last).norm() / longest : 0.0);
         }
-        thinnest = std::min(thinnest, longest > 0.0 ? first.cross(last).norm() / longest : 0.0);
+        least[begin / at_a_time] = {shortest, thinnest};
+    });
+    double shortest = none, thinnest = none;
+    for (const auto& [edge, height] : least) {
+        shortest = std::min(shortest, edge);
+        thinnest = std::min(thinnest, height);
     }
     const double grid = std::exp2(std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
     thinnest /= grid;

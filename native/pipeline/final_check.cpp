@@ -1,6 +1,7 @@
 #include "pipeline/final_check.h"
 
 #include "circles/crowded_circles.h"
+#include "core/thread_share.h"
 #include "planar/boundary_crossings.h"
 #include "quality/stored_uv.h"
 
@@ -49,16 +50,15 @@ MapFaults find_faults(const Triangles& triangles, const std::vector<VertexLoop>&
                       const std::vector<Circle>& circles)
 {
     MapFaults faults;
-    for (Index v = 0; v < static_cast<Index>(uv.rows()); ++v) {
-        const double radius = std::hypot(uv(v, 0), uv(v, 1));
-        if (!std::isfinite(radius))
-            faults.not_finite.push_back(v);
-        else if (radius > 1.0 + disk_tolerance)
-            faults.outside.push_back(v);
-    }
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (const StoredFace face(triangles, uv, f); face.doubtful() && !face.below_resolution())
-            faults.flipped.push_back(static_cast<Index>(f));
+    const std::vector<Index> wrong = found_in_pieces(static_cast<Index>(uv.rows()), [&](Index v) {
+        return !(std::hypot(uv(v, 0), uv(v, 1)) <= 1.0 + disk_tolerance);
+    });
+    for (const Index v : wrong)
+        (std::isfinite(std::hypot(uv(v, 0), uv(v, 1))) ? faults.outside : faults.not_finite).push_back(v);
+    faults.flipped = found_in_pieces(static_cast<Index>(triangles.rows()), [&](Index f) {
+        const StoredFace face(triangles, uv, f);
+        return face.doubtful() && !face.below_resolution();
+    });
     for (std::size_t k = 1; k < circles.size(); ++k)
         if (!is_apart(circles, k)) faults.bad_circles.push_back(static_cast<int>(k));
     if (!faults.not_finite.empty()) return faults;

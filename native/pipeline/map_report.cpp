@@ -1,6 +1,7 @@
 #include "pipeline/map_report.h"
 
 #include "circles/circle_fit.h"
+#include "core/thread_share.h"
 #include "core/tolerances.h"
 #include "quality/stored_uv.h"
 
@@ -15,9 +16,11 @@ void report_flips(const Domain& whole, const PlanarPoints& uv, Distortion& disto
 {
     distortion.flipped.clear();
     distortion.below_resolution.clear();
-    for (Eigen::Index f = 0; f < whole.surface.triangles.rows(); ++f) {
-        const StoredFace face(whole.surface.triangles, uv, f, whole.first_corners[f]);
-        if (!face.flipped()) continue;
+    const Triangles& triangles = whole.surface.triangles;
+    for (const Index f : found_in_pieces(static_cast<Index>(triangles.rows()), [&](Index i) {
+             return StoredFace(triangles, uv, i, whole.first_corners[i]).flipped();
+         })) {
+        const StoredFace face(triangles, uv, f, whole.first_corners[f]);
         distortion.flipped.push_back(whole.original_faces[f]);
         if (face.below_resolution()) distortion.below_resolution.push_back(whole.original_faces[f]);
     }

@@ -1,6 +1,7 @@
 #include "quality/distortion.h"
 
 #include "core/length.h"
+#include "core/thread_share.h"
 #include "quality/stored_uv.h"
 #include "surface/laplacian.h"
 
@@ -41,14 +42,124 @@ double angle_change(double ax, double ay, double bx, double by, double cx, doubl
     return std::atan2(sin2 * cos1 - cos2 * sin1, cos1 * cos2 + sin1 * sin2);
 }
 
+/// What some faces add to the measures.
+struct FaceSums {
+    double angle_sum = 0.0, angle_squares = 0.0, angle_max = 0.0, corners = 0.0;
+    double mu_sum = 0.0, mu_max = 0.0, surface_area = 0.0, log_sum = 0.0, log_squares = 0.0;
+    double dirichlet = 0.0, image_area = 0.0;
+    double log_min = std::numeric_limits<double>::infinity(), log_max = -log_min;
+
+    void add(const FaceSums& more)
+    {
+        angle_sum += more.angle_sum;
+        angle_squares += more.angle_squares;
+        angle_max = std::max(angle_max, more.angle_max);
+        corners += more.corners;
+        mu_sum += more.mu_sum;
+        mu_max = std::max(mu_max, more.mu_max);
+        surface_area += more.surface_area;
+        log_sum += more.log_sum;
+        log_squares += more.log_squares;
+        dirichlet += more.dirichlet;
+        image_area += more.image_area;
+        log_min = std::min(log_min, more.log_min);
+        log_max = std::max(log_max, more.log_max);
+    }
+};
+
+/// A face on the surface and in the plane, its first corner in 0.
+struct FacePair {
+    FacePair(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index f)
+        : flat(lay_flat(vertices, triangles, f)),
+          ax(uv(triangles(f, 1), 0) - uv(triangles(f, 0), 0)),
+          ay(uv(triangles(f, 1), 1) - uv(triangles(f, 0), 1)),
+          bx(uv(triangles(f, 2), 0) - uv(triangles(f, 0), 0)),
+          by(uv(triangles(f, 2), 1) - uv(triangles(f, 0), 1)),
+          uv_area(0.5 * (ax * by - ay * bx)),
+          area(0.5 * flat.p1x * flat.p2y)
+    {
+    }
+
+    /// Whether it has angles to speak of.
+    bool counts() const
+    {
+        const double height_squared = flat.p2y * flat.p2y, rest = flat.p2x - flat.p1x;
+        const double longest_squared =
+            std::max({flat.p1x * flat.p1x, flat.p2x * flat.p2x + height_squared, rest * rest + height_squared});
+        return 2.0 * area > thin * longest_squared;
+    }
+
+    double log_area_ratio() const { return std::log(std::max(std::abs(uv_area), log_area_floor) / area); }
+
+    FlatTriangle flat;
+    double ax, ay, bx, by, uv_area, area;
+};
+
+/// @param log_origin that the variance of the logarithms is taken about, free of cancellation
+void add_face(const FacePair& face, double log_origin, FaceSums& sums)
+{
+    const FlatTriangle& flat = face.flat;
+    const double ax = face.ax, ay = face.ay, bx = face.bx, by = face.by, area = face.area;
+    sums.image_area += face.uv_area;
+    if (!face.counts()) return;
+
+    // Corners 0 and 1 of the triangles 0, p1, p2 and 0, a, b; the third takes up what they change.
+    const double first = angle_change(flat.p1x, 0.0, flat.p2x, flat.p2y, ax, ay, bx, by);
+    const double second = angle_change(-flat.p1x, 0.0, flat.p2x - flat.p1x, flat.p2y, -ax, -ay, bx - ax, by - ay);
+    for (const double change : {first, second, first + second}) {
+        const double error = degrees * std::abs(change);
+        sums.angle_sum += error;
+        sums.angle_squares += error * error;
+        sums.angle_max = std::max(sums.angle_max, error);
+        sums.corners += 1.0;
+    }
+
+    // Jacobian columns d/dx and d/dy; f_z and f_zbar from them.
+    const double fx_x = ax / flat.p1x, fx_y = ay / flat.p1x;
+    const double fy_x = (bx - fx_x * flat.p2x) / flat.p2y, fy_y = (by - fx_y * flat.p2x) / flat.p2y;
+    const Complex fz(0.5 * (fx_x + fy_y), 0.5 * (fx_y - fy_x)), fzbar(0.5 * (fx_x - fy_y), 0.5 * (fx_y + fy_x));
+    sums.dirichlet += 0.5 * area * (fx_x * fx_x + fx_y * fx_y + fy_x * fy_x + fy_y * fy_y);
+    const double fz_squared = std::norm(fz);
+    const double mu = fz_squared > 0.0 ? std::sqrt(std::norm(fzbar) / fz_squared) : 1.0;
+    sums.mu_sum += area * mu;
+    sums.mu_max = std::max(sums.mu_max, mu);
+
+    const double log_ratio = face.log_area_ratio() - log_origin;
+    sums.surface_area += area;
+    sums.log_sum += area * log_ratio;
+    sums.log_squares += area * log_ratio * log_ratio;
+    sums.log_min = std::min(sums.log_min, log_ratio);
+    sums.log_max = std::max(sums.log_max, log_ratio);
+}
+
+FaceSums sums_over_faces(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv)
+{
+    constexpr std::size_t at_a_time = 65536;  // up to which the sums are those of one pass
+    const std::size_t faces = static_cast<std::size_t>(triangles.rows());
+    double log_origin = 0.0;  // the first ratio
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (const FacePair face(vertices, triangles, uv, f); face.counts()) {
+            log_origin = face.log_area_ratio();
+            break;
+        }
+    std::vector<FaceSums> parts((faces + at_a_time - 1) / at_a_time);
+    in_pieces(faces, at_a_time, [&](std::size_t begin, std::size_t end) {
+        FaceSums sums;
+        for (std::size_t f = begin; f < end; ++f)
+            add_face(FacePair(vertices, triangles, uv, static_cast<Eigen::Index>(f)), log_origin, sums);
+        parts[begin / at_a_time] = sums;
+    });
+    FaceSums result;
+    for (const FaceSums& part : parts) result.add(part);
+    return result;
+}
+
 }  // namespace
 
 std::vector<Index> flipped_faces(const Triangles& triangles, const PlanarPoints& uv)
 {
-    std::vector<Index> flipped;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (StoredFace(triangles, uv, f).flipped()) flipped.push_back(static_cast<Index>(f));
-    return flipped;
+    return found_in_pieces(static_cast<Index>(triangles.rows()),
+                           [&](Index f) { return StoredFace(triangles, uv, f).flipped(); });
 }
 
 Distortion measure_distortion(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv)
@@ -58,68 +169,23 @@ Distortion measure_distortion(const Vertices& vertices, const Triangles& triangl
     for (const Index f : result.flipped)
         if (StoredFace(triangles, uv, f).below_resolution()) result.below_resolution.push_back(f);
 
-    double angle_sum = 0.0, angle_squares = 0.0, corners = 0.0;
-    double mu_sum = 0.0, surface_area = 0.0, log_sum = 0.0, log_squares = 0.0;
-    double dirichlet = 0.0, image_area = 0.0;
-    double log_min = std::numeric_limits<double>::infinity(), log_max = -log_min;
-    double log_origin = 0.0;  // the first ratio: the variance is taken about it, free of cancellation
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const FlatTriangle flat = lay_flat(vertices, triangles, f);
-        const double ax = uv(triangles(f, 1), 0) - uv(triangles(f, 0), 0);
-        const double ay = uv(triangles(f, 1), 1) - uv(triangles(f, 0), 1);
-        const double bx = uv(triangles(f, 2), 0) - uv(triangles(f, 0), 0);
-        const double by = uv(triangles(f, 2), 1) - uv(triangles(f, 0), 1);
-        const double uv_area = 0.5 * (ax * by - ay * bx);
-        image_area += uv_area;
-        const double area = 0.5 * flat.p1x * flat.p2y;
-        const double height_squared = flat.p2y * flat.p2y, rest = flat.p2x - flat.p1x;
-        const double longest_squared =
-            std::max({flat.p1x * flat.p1x, flat.p2x * flat.p2x + height_squared, rest * rest + height_squared});
-        if (!(2.0 * area > thin * longest_squared)) continue;
-
-        // Corners 0 and 1 of the triangles 0, p1, p2 and 0, a, b; the third takes up what they change.
-        const double first = angle_change(flat.p1x, 0.0, flat.p2x, flat.p2y, ax, ay, bx, by);
-        const double second = angle_change(-flat.p1x, 0.0, rest, flat.p2y, -ax, -ay, bx - ax, by - ay);
-        for (const double change : {first, second, first + second}) {
-            const double error = degrees * std::abs(change);
-            angle_sum += error;
-            angle_squares += error * error;
-            result.angle_error_deg.max = std::max(result.angle_error_deg.max, error);
-            corners += 1.0;
-        }
-
-        // Jacobian columns d/dx and d/dy; f_z and f_zbar from them.
-        const double fx_x = ax / flat.p1x, fx_y = ay / flat.p1x;
-        const double fy_x = (bx - fx_x * flat.p2x) / flat.p2y, fy_y = (by - fx_y * flat.p2x) / flat.p2y;
-        const Complex fz(0.5 * (fx_x + fy_y), 0.5 * (fx_y - fy_x)), fzbar(0.5 * (fx_x - fy_y), 0.5 * (fx_y + fy_x));
-        dirichlet += 0.5 * area * (fx_x * fx_x + fx_y * fx_y + fy_x * fy_x + fy_y * fy_y);
-        const double fz_squared = std::norm(fz);
-        const double mu = fz_squared > 0.0 ? std::sqrt(std::norm(fzbar) / fz_squared) : 1.0;
-        mu_sum += area * mu;
-        result.beltrami.max = std::max(result.beltrami.max, mu);
-
-        const double log_area_ratio = std::log(std::max(std::abs(uv_area), log_area_floor) / area);
-        if (surface_area == 0.0) log_origin = log_area_ratio;
-        const double log_ratio = log_area_ratio - log_origin;
-        surface_area += area;
-        log_sum += area * log_ratio;
-        log_squares += area * log_ratio * log_ratio;
-        log_min = std::min(log_min, log_ratio);
-        log_max = std::max(log_max, log_ratio);
-    }
-    if (corners > 0.0) {
-        result.angle_error_deg.mean = angle_sum / corners;
-        const double variance = angle_squares / corners - result.angle_error_deg.mean * result.angle_error_deg.mean;
+    const FaceSums sums = sums_over_faces(vertices, triangles, uv);
+    result.angle_error_deg.max = sums.angle_max;
+    result.beltrami.max = sums.mu_max;
+    if (sums.corners > 0.0) {
+        result.angle_error_deg.mean = sums.angle_sum / sums.corners;
+        const double variance =
+            sums.angle_squares / sums.corners - result.angle_error_deg.mean * result.angle_error_deg.mean;
         result.angle_error_deg.sd = std::sqrt(std::max(variance, 0.0));
     }
-    if (surface_area > 0.0) {
-        const double log_mean = log_sum / surface_area;
-        result.beltrami.mean = mu_sum / surface_area;
-        result.area.log_sd = std::sqrt(std::max(log_squares / surface_area - log_mean * log_mean, 0.0));
-        result.area.log_min = log_min - log_mean;
-        result.area.log_max = log_max - log_mean;
+    if (sums.surface_area > 0.0) {
+        const double log_mean = sums.log_sum / sums.surface_area;
+        result.beltrami.mean = sums.mu_sum / sums.surface_area;
+        result.area.log_sd = std::sqrt(std::max(sums.log_squares / sums.surface_area - log_mean * log_mean, 0.0));
+        result.area.log_min = sums.log_min - log_mean;
+        result.area.log_max = sums.log_max - log_mean;
     }
-    result.conformal_energy = dirichlet - image_area;
+    result.conformal_energy = sums.dirichlet - sums.image_area;
     return result;
 }
 

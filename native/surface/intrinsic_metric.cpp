@@ -1,6 +1,7 @@
 #include "surface/intrinsic_metric.h"
 
 #include "core/connectivity.h"
+#include "core/thread_share.h"
 #include "surface/edge_flip.h"
 
 #include <algorithm>
@@ -13,12 +14,19 @@ namespace {
 double mollify(EdgeLengths& lengths, double margin)
 {
     const double least = margin * lengths.mean();
-    double added = 0.0;
-    for (Eigen::Index f = 0; f < lengths.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const double excess = lengths(f, (k + 1) % 3) + lengths(f, (k + 2) % 3) - lengths(f, k);
-            added = std::max(added, least - excess);
-        }
+    constexpr std::size_t at_a_time = 32768;
+    const std::size_t faces = static_cast<std::size_t>(lengths.rows());
+    std::vector<double> most((faces + at_a_time - 1) / at_a_time, 0.0);
+    in_pieces(faces, at_a_time, [&](std::size_t begin, std::size_t end) {
+        double added = 0.0;
+        for (Eigen::Index f = static_cast<Eigen::Index>(begin); f < static_cast<Eigen::Index>(end); ++f)
+            for (int k = 0; k < 3; ++k) {
+                const double excess = lengths(f, (k + 1) % 3) + lengths(f, (k + 2) % 3) - lengths(f, k);
+                added = std::max(added, least - excess);
+            }
+        most[begin / at_a_time] = added;
+    });
+    const double added = most.empty() ? 0.0 : *std::max_element(most.begin(), most.end());
     if (added > 0.0) lengths.array() += added;
     return added;
 }

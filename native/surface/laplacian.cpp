@@ -1,6 +1,7 @@
 #include "surface/laplacian.h"
 
 #include "core/length.h"
+#include "core/thread_share.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,33 +10,17 @@
 namespace koebe {
 namespace {
 
-/// One end of a half-edge as the row of the other end has it.
-struct Entry {
-    Index row;
-    double weight;
-};
-
-/// By row, equal ones in their order. Rows are short: a few entries for each neighbour.
-void sort_row(std::vector<Entry>::iterator first, std::vector<Entry>::iterator last)
-{
-    constexpr std::ptrdiff_t few = 40;
-    const auto by_row = [](const Entry& a, const Entry& b) { return a.row < b.row; };
-    if (last - first > few) return std::stable_sort(first, last, by_row);
-    for (auto next = first; next != last; ++next) {
-        const Entry entry = *next;
-        auto place = next;
-        for (; place != first && by_row(entry, *(place - 1)); --place) *place = *(place - 1);
-        *place = entry;
-    }
-}
+constexpr std::size_t at_a_time = 32768;  // faces, or vertices, of a thread
 
 template <class Positions>
 EdgeLengths lengths_of(const Positions& positions, const Triangles& triangles)
 {
     EdgeLengths lengths(triangles.rows(), 3);
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            lengths(f, k) = length_of(positions.row(triangles(f, (k + 1) % 3)) - positions.row(triangles(f, k)));
+    in_pieces(static_cast<std::size_t>(triangles.rows()), at_a_time, [&](std::size_t begin, std::size_t end) {
+        for (Eigen::Index f = static_cast<Eigen::Index>(begin); f < static_cast<Eigen::Index>(end); ++f)
+            for (int k = 0; k < 3; ++k)
+                lengths(f, k) = length_of(positions.row(triangles(f, (k + 1) % 3)) - positions.row(triangles(f, k)));
+    });
     return lengths;
 }
 
@@ -63,18 +48,41 @@ double triangle_area(double a, double b, double c)
 EdgeLengths half_cotangents(const EdgeLengths& lengths)
 {
     EdgeLengths result(lengths.rows(), 3);
-    for (Eigen::Index f = 0; f < lengths.rows(); ++f) {
-        const double l0 = lengths(f, 0), l1 = lengths(f, 1), l2 = lengths(f, 2);
-        const double longest = std::max({l0, l1, l2});
-        // A face thinner than 1e-12 of its length acts as one of that thickness: weights stay below about 1e12.
-        const double area = std::max(triangle_area(l0, l1, l2), 1e-12 * longest * longest);
-        const double scale = area > 0.0 ? 1.0 / (8.0 * area) : 0.0;
-        result(f, 0) = scale * (l1 * l1 + l2 * l2 - l0 * l0);
-        result(f, 1) = scale * (l2 * l2 + l0 * l0 - l1 * l1);
-        result(f, 2) = scale * (l0 * l0 + l1 * l1 - l2 * l2);
-    }
+    in_pieces(static_cast<std::size_t>(lengths.rows()), at_a_time, [&](std::size_t begin, std::size_t end) {
+        for (Eigen::Index f = static_cast<Eigen::Index>(begin); f < static_cast<Eigen::Index>(end); ++f) {
+            const double l0 = lengths(f, 0), l1 = lengths(f, 1), l2 = lengths(f, 2);
+            const double longest = std::max({l0, l1, l2});
+            // A face thinner than 1e-12 of its length acts as one of that thickness: weights stay below about 1e12.
+            const double area = std::max(triangle_area(l0, l1, l2), 1e-12 * longest * longest);
+            const double scale = area > 0.0 ? 1.0 / (8.0 * area) : 0.0;
+            result(f, 0) = scale * (l1 * l1 + l2 * l2 - l0 * l0);
+            result(f, 1) = scale * (l2 * l2 + l0 * l0 - l1 * l1);
+            result(f, 2) = scale * (l0 * l0 + l1 * l1 - l2 * l2);
+        }
+    });
     return result;
 }
+
+namespace {
+
+/// What half-edges add to a row of the Laplacian.
+struct RowEntry {
+    Index row;
+    double weight;
+};
+
+/// Sorts by row, what is equal in its order: a row has some ten entries.
+void sort_short(RowEntry* first, RowEntry* last)
+{
+    for (RowEntry* e = first; e < last; ++e) {
+        const RowEntry entry = *e;
+        RowEntry* to = e;
+        for (; to > first && (to - 1)->row > entry.row; --to) *to = *(to - 1);
+        *to = entry;
+    }
+}
+
+}  // namespace
 
 SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half_cotangents, Index vertex_count)
 {
@@ -85,7 +93,7 @@ SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half
     std::vector<Index> begin(vertex_count + 1, 0);
     for (Eigen::Index i = 0; i < triangles.size(); ++i) begin[triangles.data()[i] + 1] += 2;
     for (Index v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
-    std::vector<Entry> entries(begin[vertex_count]);
+    std::vector<RowEntry> entries(begin[vertex_count]);
     std::vector<Index> cursor(begin.begin(), begin.end() - 1);
     for (Eigen::Index f = 0; f < face_count; ++f)
         for (int k = 0; k < 3; ++k) {
@@ -95,27 +103,42 @@ SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half
         }
 
     SparseMatrix laplacian(vertex_count, vertex_count);
-    laplacian.reserve(entries.size() / 2 + 2 * vertex_count);
-    for (Index v = 0; v < vertex_count; ++v) {
-        laplacian.startVec(v);
-        const auto first = entries.begin() + begin[v], last = entries.begin() + begin[v + 1];
-        sort_row(first, last);
-        double diagonal = 0.0;
-        for (auto e = first; e != last; ++e) diagonal += e->weight;
-        bool diagonal_written = first == last;
-        for (auto e = first; e != last;) {
-            double weight = 0.0;
-            const Index row = e->row;
-            for (; e != last && e->row == row; ++e) weight += e->weight;
-            if (!diagonal_written && row > v) {
-                laplacian.insertBack(v, v) = diagonal;
-                diagonal_written = true;
+    Index* const place = laplacian.outerIndexPtr();
+    std::vector<double> diagonals(vertex_count, 0.0);
+    in_pieces(static_cast<std::size_t>(vertex_count), at_a_time, [&](std::size_t from, std::size_t until) {
+        for (std::size_t v = from; v < until; ++v) {
+            RowEntry* const first = entries.data() + begin[v];
+            RowEntry* const last = entries.data() + begin[v + 1];
+            sort_short(first, last);
+            for (const RowEntry* e = first; e != last; ++e) diagonals[v] += e->weight;
+            RowEntry* merged = first;
+            for (const RowEntry* e = first; e != last; ++merged) {
+                RowEntry sum{e->row, 0.0};
+                for (; e != last && e->row == sum.row; ++e) sum.weight += e->weight;
+                *merged = sum;
             }
-            laplacian.insertBack(row, v) = -weight;
+            place[v + 1] = merged == first ? 0 : static_cast<Index>(merged - first) + 1;
         }
-        if (!diagonal_written) laplacian.insertBack(v, v) = diagonal;
-    }
-    laplacian.finalize();
+    });
+    for (Index v = 0; v < vertex_count; ++v) place[v + 1] += place[v];
+    laplacian.resizeNonZeros(place[vertex_count]);
+    in_pieces(static_cast<std::size_t>(vertex_count), at_a_time, [&](std::size_t from, std::size_t until) {
+        for (std::size_t v = from; v < until; ++v) {
+            Index* row = laplacian.innerIndexPtr() + place[v];
+            double* value = laplacian.valuePtr() + place[v];
+            const Index* const end = laplacian.innerIndexPtr() + place[v + 1];
+            bool diagonal_written = row == end;
+            for (const RowEntry* e = entries.data() + begin[v]; row != end;) {
+                const bool other = diagonal_written || (row + 1 != end && e->row < static_cast<Index>(v));
+                *row++ = other ? e->row : static_cast<Index>(v);
+                *value++ = other ? -e->weight : diagonals[v];
+                if (other)
+                    ++e;
+                else
+                    diagonal_written = true;
+            }
+        }
+    });
     return laplacian;
 }
 

@@ -212,3 +212,22 @@ TEST(Threads, faired_holes_are_the_same_each_time)
     const Vertices surface = lift(holes.points, Lift::enneper);
     expect_alike("fill_and_fair_holes", [&] { return fill_and_fair_holes(surface, holes.triangles).vertices; });
 }
+
+TEST(Threads, a_large_surface_has_the_same_map_on_any_number_of_threads)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 110000);  // is factored in pieces
+    const Vertices vertices = lift(domain.points, Lift::enneper);
+    UniformizeOptions options;
+    options.threads = 1;
+    const UniformizeResult one = uniformize(vertices, domain.triangles, options);
+    EXPECT_TRUE(one.converged);
+    for (const int threads : {2, 3}) {
+        options.threads = threads;
+        const UniformizeResult several = uniformize(vertices, domain.triangles, options);
+        EXPECT_EQ(one.uv, several.uv);
+        EXPECT_EQ(one.distortion.angle_error_deg.mean, several.distortion.angle_error_deg.mean);
+        EXPECT_EQ(one.distortion.area.log_sd, several.distortion.area.log_sd);
+        for (std::size_t k = 0; k < one.loops.size(); ++k)
+            EXPECT_EQ(one.loops[k].circle.center, several.loops[k].circle.center);
+    }
+}
