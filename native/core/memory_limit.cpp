@@ -9,6 +9,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <limits>
@@ -76,10 +77,17 @@ void require_memory(double bytes, const char* purpose)
     throw OutOfMemory(text);
 }
 
+double memory_for_faces(std::ptrdiff_t faces)
+{
+    // The factor grows by the same for each face whenever the surface is cut in two once more. Measured: 771 bytes a
+    // face at 0.66 million, 837 at 2.6 million, 896 at 10.5 million.
+    const double count = static_cast<double>(faces);
+    return faces < 2 ? 0.0 : count * (200.0 + 31.2 * std::log2(0.5 * count));
+}
+
 void require_memory_for_faces(std::ptrdiff_t faces)
 {
-    constexpr double bytes_per_face = 900.0;  // measured on 0.1 to 2.6 million faces
-    require_memory(bytes_per_face * static_cast<double>(faces), "a mesh of so many faces");
+    require_memory(memory_for_faces(faces), "a mesh of so many faces");
 }
 
 }  // namespace koebe

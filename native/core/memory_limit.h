@@ -13,7 +13,11 @@ double available_memory();
 /// @throws OutOfMemory with both figures if they are not there
 void require_memory(double bytes, const char* purpose);
 
-/// The same before a map of so many faces is begun: 900 bytes for each, of everything but the factor.
+/// Bytes at the peak of the map of a smooth surface of so many faces with few boundary vertices, its factor included.
+double memory_for_faces(std::ptrdiff_t faces);
+
+/// The same before a map of so many faces is begun. What a long boundary takes, or an uneven surface in its factor, is
+/// asked for when it is known.
 void require_memory_for_faces(std::ptrdiff_t faces);
 
 }  // namespace koebe

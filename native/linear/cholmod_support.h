@@ -57,6 +57,8 @@ public:
     {
         if (success && common_.status == CHOLMOD_OK) return;
         if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+        if (common_.status == CHOLMOD_TOO_LARGE)
+            throw OutOfMemory(std::string("sparse factorization: ") + step + ": more numbers than 32 bits can count");
         throw SolverError(std::string("sparse factorization: ") + step + " failed, status " +
                           std::to_string(common_.status));
     }

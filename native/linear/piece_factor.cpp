@@ -6,6 +6,7 @@
 #include "linear/elimination_order.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
 namespace koebe::detail {
@@ -140,8 +141,8 @@ private:
     /// A B' as lower_product does; what is small is not worth its calls.
     static void multiply(int m, int n, int k, const double* a, int stride, double* product)
     {
-        constexpr int small = 1024;  // products
-        if (m * n * k > small) {
+        constexpr std::int64_t small = 1024;  // products
+        if (std::int64_t{m} * n * k > small) {
             lower_product(m, n, k, 1.0, a, stride, 0.0, product, m);
             return;
         }

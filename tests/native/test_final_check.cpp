@@ -148,6 +148,14 @@ TEST(Uniformize, a_ring_without_inner_vertices_is_mapped_to_a_round_annulus)
     EXPECT_NEAR(result.loops[1].circle.radius, 0.5, 0.05);
 }
 
+TEST(MemoryLimit, of_maps_is_about_what_was_measured)
+{
+    EXPECT_NEAR(memory_for_faces(656608) / 507e6, 1.0, 0.01);
+    EXPECT_NEAR(memory_for_faces(2626432) / 2199e6, 1.0, 0.01);
+    EXPECT_NEAR(memory_for_faces(10505728) / 9413e6, 1.0, 0.01);
+    EXPECT_EQ(memory_for_faces(1), 0.0);
+}
+
 TEST(MemoryLimit, what_cannot_fit_is_refused_with_the_figure)
 {
     EXPECT_GT(available_memory(), 0.0);
