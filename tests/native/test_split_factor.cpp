@@ -2,6 +2,7 @@
 // threads. The thread sanitizer looks on in `make test-tsan`.
 #include "core/errors.h"
 #include "core/thread_share.h"
+#include "linear/dense_spd.h"
 #include "linear/dissection.h"
 #include "linear/sparse_cholesky.h"
 #include "linear/split_factor.h"
@@ -142,6 +143,7 @@ TEST(Dissection, pieces_have_no_entry_between_them_and_every_row_is_somewhere_on
 
 TEST(SplitFactor, gives_what_the_whole_factor_gives)
 {
+    const SerialDenseKernels serial;
     for (const Case& c : cases()) {
         const Index size = static_cast<Index>(c.matrix.rows());
         const std::vector<MatrixXd> whole =
@@ -158,6 +160,7 @@ TEST(SplitFactor, gives_what_the_whole_factor_gives)
 
 TEST(SplitFactor, is_the_same_on_any_number_of_threads)
 {
+    const SerialDenseKernels serial;
     for (const Case& c : cases()) {
         const Index size = static_cast<Index>(c.matrix.rows());
         const auto on = [&](int threads) {
@@ -174,6 +177,7 @@ TEST(SplitFactor, is_the_same_on_any_number_of_threads)
 
 TEST(SplitFactor, takes_other_numbers_in_the_same_pattern)
 {
+    const SerialDenseKernels serial;
     for (const Case& c : cases()) {
         const ThreadShare share(2);
         SparseCholesky factor(c.matrix, Ordering::amd, c.last, piece_rows);
@@ -187,6 +191,7 @@ TEST(SplitFactor, takes_other_numbers_in_the_same_pattern)
 
 TEST(SplitFactor, a_matrix_that_does_not_come_apart_is_factored_whole)
 {
+    const SerialDenseKernels serial;
     SparseMatrix dense = (MatrixXd::Constant(200, 200, -1e-3) + MatrixXd::Identity(200, 200)).sparseView();
     EXPECT_EQ(SplitFactor::analyze(dense, {}, 50), nullptr);
     const VectorXd f = some_numbers(200);
@@ -195,6 +200,7 @@ TEST(SplitFactor, a_matrix_that_does_not_come_apart_is_factored_whole)
 
 TEST(SplitFactor, a_matrix_that_is_not_positive_definite_is_an_error)
 {
+    const SerialDenseKernels serial;
     for (const Index bad : {0, columns * rows / 2, columns * rows - 1}) {
         SparseMatrix matrix = grid_laplacian();
         matrix.coeffRef(bad, bad) = -1.0;
