@@ -18,6 +18,7 @@
 #include "domains/sphere_map.h"
 #include "domains/tile_map.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -162,6 +163,11 @@ std::vector<std::string> map_command(const Request& request, const std::string& 
     std::vector<std::string> words{own_program, request.domain == disk_domain ? "uniformize" : request.domain,
                                    "--quiet", end_with_input_flag, "--json=" + batch::utf8(scratch.report)};
     for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
+    // A worker has a core; a map alone would take all of them.
+    const bool says_threads = std::ranges::any_of(request.forwarded, [](const CLI::Option* option) {
+        return option->count() > 0 && option->check_name("--threads");
+    });
+    if (request.domain == disk_domain && request.workers != 1 && !says_threads) words.emplace_back("--threads=1");
     words.insert(words.end(), {batch::utf8(file.source), batch::utf8(scratch.output)});
     return words;
 }

@@ -70,7 +70,10 @@ class Surface:
         progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
         source = self._source if vertices is None else self._moved(vertices)
         native = self._native.uniformize(source.vertices, progress, cancel)
-        report = with_origin(native.report(), source, self._options)
+        report = native.report()
+        # Other positions might choose another outer loop: with this one uniformize makes the map again.
+        options = {**self._options, "outer": int(report["loops"][0]["vertices"][0])}
+        report = with_origin(report, source, options)
         return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
     def _moved(self, vertices: Any) -> Source:
