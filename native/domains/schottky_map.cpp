@@ -25,7 +25,6 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_condensed = 12000;  // boundary vertices
 constexpr Index balanced_faces = 20000;        // that are looked at for it
 constexpr double least_circle = 1e-12;         // of a circle whose points 64-bit coordinates tell apart
 constexpr double large_misfit = 0.5;
@@ -196,7 +195,7 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
     const SparseMatrix laplacian =
         cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), map.cut.surface.vertex_count);
     seconds.metric += stage.lap();
-    const CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut), Ordering::amd, 0, most_condensed);
+    const CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut), Ordering::amd);
     seconds.factor += stage.lap();
     context.begin_stage("iterate", from + 0.6 * (until - from), until);
     GluedState state(surface, map.cut.loops);

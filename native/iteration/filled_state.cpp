@@ -38,6 +38,12 @@ void FilledState::take_angles(const OpenedLoops& open, const VectorXd& flux, int
     }
 }
 
+void FilledState::take_arc_length(int k)
+{
+    angles_[k] = centered_angles(arc_length_angles(edges_[k]), weights_[k]);
+    set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
+}
+
 Index FilledState::total(const std::vector<int>& loops) const
 {
     Index result = 0;

@@ -51,6 +51,9 @@ protected:
     /// New angles for open loops from the flux through them: the conjugate of the harmonic function.
     void take_angles(const OpenedLoops& open, const VectorXd& flux, int& raised);
 
+    /// Angles by arc length for an inner loop.
+    void take_arc_length(int k);
+
     /// Whether loop k is ever filled.
     virtual bool fills(int) const { return true; }
 
@@ -73,7 +76,7 @@ private:
 class GroundedState : public FilledState {
 public:
     bool opens_at_once() const final { return true; }
-    void start(int& raised) final
+    void start(int& raised) override
     {
         if (!begun()) take_angles({0}, outer_flux(), raised);
     }

@@ -22,6 +22,16 @@ constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and 
 /// With more loops one factor for all of them costs less than an elimination for each step; one or two leave no choice.
 bool opened_at_once(const std::vector<VertexLoop>& loops) { return loops.size() <= 2 || loops.size() > 8; }
 
+/// Up to how many boundary vertices a Sigma is cheaper than the sparse matrix. A separator of the surface has some
+/// sqrt(V) vertices; a Sigma of 5 times as many costs as much as what the disks reach of the sparse factor. To open
+/// loops one after the other, which the sparse matrix does not, up to 3,000 are kept: 72 MB for a matrix.
+std::size_t most_kept(const std::vector<VertexLoop>& loops, Index vertex_count)
+{
+    constexpr double longest = 3000.0, separators = 5.0;
+    const bool either = opened_at_once(loops);
+    return static_cast<std::size_t>(either ? std::min(longest, separators * std::sqrt(vertex_count)) : longest);
+}
+
 /// The flux at the boundary from a source of 1 in the vertex deepest inside S.
 VectorXd flux_of_deepest_source(const CondensedLaplacian& surface, const VectorXd& areas)
 {
@@ -68,11 +78,16 @@ private:
 
 }  // namespace
 
-Index best_grounded(const std::vector<VertexLoop>& loops)
+CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                            std::optional<std::size_t> most_condensed)
 {
-    std::size_t boundary = 0;
-    for (const VertexLoop& loop : loops) boundary += loop.size();
-    return opened_at_once(loops) && 3 * loops[0].size() >= boundary ? static_cast<Index>(loops[0].size()) : 0;
+    std::vector<Index> boundary;
+    for (const VertexLoop& loop : loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    const bool grounds = opened_at_once(loops) && 3 * loops[0].size() >= boundary.size();
+    const Index grounded = grounds ? static_cast<Index>(loops[0].size()) : 0;
+    const std::size_t most = most_condensed.value_or(most_kept(loops, static_cast<Index>(laplacian.rows())));
+    if (loops.size() > 1 && boundary.size() - grounded > most) return CondensedLaplacian(laplacian, loops);
+    return CondensedLaplacian(laplacian, boundary, Ordering::amd, grounded);
 }
 
 KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,

@@ -5,14 +5,18 @@
 #include "iteration/koebe_outcome.h"
 #include "linear/condensed_laplacian.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
 
-/// How many boundary vertices, the outer loop's or none, the Laplacian is best condensed without (`grounded` in
-/// CondensedLaplacian): where all loops are opened at once and the outer one has a third of all boundary vertices or
-/// more. Fewer cost less in Sigma than a substitution in each sweep.
-Index best_grounded(const std::vector<VertexLoop>& loops);
+/// The Laplacian of a surface with these loops, condensed as the iteration takes it best. Where all loops are opened at
+/// once and the outer one has a third of all boundary vertices or more it is grounded: fewer cost less in Sigma than a
+/// substitution in each sweep. Where more than `most_condensed` boundary vertices would be kept there is no Sigma.
+/// @param most_condensed without it 3,000, and where all loops are opened at once no more than 5 sqrt(V)
+/// @throws SolverError
+CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                            std::optional<std::size_t> most_condensed = {});
 
 /// Runs the iteration (paper, section 4.4) on the state of one angle per boundary vertex.
 ///
@@ -29,10 +33,11 @@ Index best_grounded(const std::vector<VertexLoop>& loops);
 /// filled, and takes its angles from the flux of the pair (0, 1) in the new state. All methods are then the same, but
 /// for how many loops a step counts. With one loop one step from a source is exact, with two loops one GK step.
 ///
-/// Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected inversion.
+/// Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected inversion. Then
+/// all loops are opened at once, whatever their number.
 ///
 /// @param laplacian of the surface
-/// @param surface the same condensed, its boundary the concatenation of the loops, best_grounded(loops) of it grounded
+/// @param surface the same by condense()
 /// @param loops the outer loop first
 /// @param edges per loop: length on the surface of the edge from each vertex to the next, all positive
 /// @param areas (V) area around each vertex: for the choice of the source, the vertex deepest inside

@@ -2,7 +2,6 @@
 
 #include "linear/dense_spd.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace koebe {
@@ -10,71 +9,65 @@ namespace koebe {
 SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
                          const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                          std::vector<VectorXd> first_angles)
-    : GroundedState(loops, edges, std::move(first_angles)), loops_(loops), laplacian_(laplacian)
+    : GroundedState(loops, edges, std::move(first_angles)),
+      vertex_count_(static_cast<Index>(laplacian.rows())),
+      surface_(surface),
+      inner_loops_(loops.begin() + 1, loops.end()),
+      disks_(loops.size() - 1)
 {
-    std::vector<char> outer(laplacian.rows(), 0);
-    for (const Index v : loops[0]) outer[v] = 1;
-    std::vector<Eigen::Triplet<double, Index>> entries;
-    for (Index v = 0; v < static_cast<Index>(laplacian.cols()); ++v) {
-        if (outer[v]) {
-            entries.emplace_back(v, v, 1.0);
-            continue;
-        }
-        for (SparseMatrix::InnerIterator it(laplacian, v); it; ++it)
-            if (it.row() >= v && !outer[it.row()]) entries.emplace_back(static_cast<Index>(it.row()), v, it.value());
-    }
-    for (int k = 1; k < loop_count(); ++k)
-        for (const Index v : loops[k])
-            for (const Index w : loops[k])
-                if (w >= v) entries.emplace_back(w, v, 0.0);
-    empty_.resize(laplacian.rows(), laplacian.cols());
-    empty_.setFromTriplets(entries.begin(), entries.end());
-    filled_ = empty_;
-
+    for (const VertexLoop& loop : inner_loops_) inner_.insert(inner_.end(), loop.begin(), loop.end());
+    couple(laplacian, loops[0]);
     fill();
-    if (begun()) return;
-    int raised = 0;
-    for (int k = 1; k < loop_count(); ++k) take_angles({k}, surface.flux_of_part(loops[k]), raised);
+    for (int k = 1; k < loop_count() && !begun(); ++k) take_arc_length(k);
+}
+
+/// K between the outer loop and the vertices beside it.
+void SparseState::couple(const SparseMatrix& laplacian, const VertexLoop& outer)
+{
+    std::vector<Index> row(laplacian.rows(), -1);
+    for (const Index v : outer) row[v] = -2;
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    for (std::size_t c = 0; c < outer.size(); ++c)
+        for (SparseMatrix::InnerIterator it(laplacian, outer[c]); it; ++it) {
+            Index& place = row[it.row()];
+            if (place == -2) continue;
+            if (place == -1) {
+                place = static_cast<Index>(beside_outer_.size());
+                beside_outer_.push_back(static_cast<Index>(it.row()));
+            }
+            entries.emplace_back(place, static_cast<Index>(c), it.value());
+        }
+    coupling_.resize(beside_outer_.size(), outer.size());
+    coupling_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void SparseState::set_disk(int k, const MatrixXd& disk)
 {
-    stale_ = true;
-    const VertexLoop& loop = loops_[k];
-    for (Index c = 0; c < size_[k]; ++c) {
-        const Index* rows = filled_.innerIndexPtr() + filled_.outerIndexPtr()[loop[c]];
-        const Index* end = filled_.innerIndexPtr() + filled_.outerIndexPtr()[loop[c] + 1];
-        for (Index r = 0; r < size_[k]; ++r) {
-            if (loop[r] < loop[c]) continue;
-            const std::ptrdiff_t at = std::lower_bound(rows, end, loop[r]) - filled_.innerIndexPtr();
-            filled_.valuePtr()[at] = empty_.valuePtr()[at] + disk(r, c);
-        }
-    }
+    disks_[k - 1] = disk;
+    factor_ = nullptr;
 }
 
 const SparseCholesky& SparseState::factor()
 {
-    if (std::exchange(stale_, false)) {
-        if (factor_)
-            factor_->refactorize(filled_);
-        else
-            factor_ = std::make_unique<SparseCholesky>(filled_, Ordering::amd, loops_[1]);
-    }
+    if (factor_ == nullptr) factor_ = &surface_.fill(disks_);
     return *factor_;
 }
 
+/// A z = -K z_0, z_0 the outer loop alone, wanted on the inner loops.
 std::vector<VectorXcd> SparseState::images()
 {
     const VectorXcd outer = rim();
-    MatrixXd z = MatrixXd::Zero(laplacian_.rows(), 2);
-    for (Index b = 0; b < size_[0]; ++b) z.row(loops_[0][b]) << outer[b].real(), outer[b].imag();
-    MatrixXd load = -(laplacian_ * z);
-    load(loops_[0], Eigen::all) = z(loops_[0], Eigen::all);
-    z = factor().solve(load);
+    MatrixXd parts(size_[0], 2);
+    parts << outer.real(), outer.imag();
+    MatrixXd load = MatrixXd::Zero(vertex_count_, 2);
+    load(beside_outer_, Eigen::all) = -(coupling_ * parts);
+    const MatrixXd z = factor().solve_for(inner_, load);
     std::vector<VectorXcd> result{outer};
+    Index row = 0;
     for (int k = 1; k < loop_count(); ++k) {
-        const MatrixXd image = z(loops_[k], Eigen::all);
-        result.push_back(image.col(0) + Complex(0.0, 1.0) * image.col(1));
+        const auto rows = z.middleRows(row, size_[k]);
+        result.emplace_back(rows.col(0) + Complex(0.0, 1.0) * rows.col(1));
+        row += size_[k];
     }
     return result;
 }
@@ -82,7 +75,7 @@ std::vector<VectorXcd> SparseState::images()
 std::vector<VectorXd> SparseState::fluxes_against_outer()
 {
     std::vector<VectorXd> result;
-    for (MatrixXd& block : factor().inverse_blocks({loops_.begin() + 1, loops_.end()})) {
+    for (MatrixXd& block : factor().inverse_blocks(inner_loops_)) {
         const VectorXd ones = VectorXd::Ones(block.rows());
         result.push_back(spd_solve(std::move(block), ones));
     }
@@ -91,7 +84,7 @@ std::vector<VectorXd> SparseState::fluxes_against_outer()
 
 VectorXd SparseState::outer_flux()
 {
-    return -VectorXd(laplacian_ * factor().extend(VectorXd::Ones(size_[1])))(loops_[0]);
+    return -(coupling_.transpose() * factor().extend_to(beside_outer_, VectorXd::Ones(size_[1])));
 }
 
 }  // namespace koebe

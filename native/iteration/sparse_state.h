@@ -5,22 +5,26 @@
 #include "linear/condensed_laplacian.h"
 #include "linear/sparse_cholesky.h"
 
-#include <memory>
 #include <vector>
 
 namespace koebe {
 
-/// A = K + sum T_k over all vertices but those of the outer loop, the disks as small dense blocks: one symbolic
-/// analysis for all sweeps, a numeric factorization for each, and from it the images and the blocks N_kk of N = A^-1.
+/// A = K + sum T_k over all vertices but those of the outer loop, the disks as small dense blocks. Of its factor only
+/// what the disks reach is computed anew in a sweep, and from it come the images and the blocks N_kk of N = A^-1.
 class SparseState final : public GroundedState {
 public:
-    /// The first angles are those of the flux through each loop with all others open and at one voltage.
-    /// @param surface of the same Laplacian
-    /// @param laplacian (V, V) both triangles stored; must outlive this
+    /// The first angles are those that one sweep makes of the arc length.
+    /// @param first_angles these instead, if there are any
+    /// @param surface of the same Laplacian, without a Sigma, its loops these; must outlive this
+    /// @param laplacian (V, V) both triangles stored
     SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
                 const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles = {});
 
     std::vector<VectorXcd> images() override;
+    void start(int& raised) override
+    {
+        if (!begun()) take_steps({}, raised);
+    }
 
 private:
     std::vector<VectorXd> fluxes_against_outer() override;
@@ -28,11 +32,16 @@ private:
     void set_disk(int k, const MatrixXd& disk) override;
     const SparseCholesky& factor();
 
-    const std::vector<VertexLoop>& loops_;
-    const SparseMatrix& laplacian_;
-    SparseMatrix empty_, filled_;  // K and A, lower triangles of one pattern, 1 for the vertices of the outer loop
-    std::unique_ptr<SparseCholesky> factor_;
-    bool stale_ = true;  // the factor is of other disks
+    void couple(const SparseMatrix& laplacian, const VertexLoop& outer);
+
+    Index vertex_count_;
+    const CondensedLaplacian& surface_;
+    std::vector<VertexLoop> inner_loops_;
+    std::vector<Index> inner_;                // all their vertices
+    std::vector<Index> beside_outer_;         // the outer loop's neighbours
+    SparseMatrix coupling_;                   // K, (neighbours, outer loop)
+    std::vector<MatrixXd> disks_;             // T_k of the inner loops
+    const SparseCholesky* factor_ = nullptr;  // of A, nullptr after a change of the disks
 };
 
 }  // namespace koebe

@@ -1,10 +1,16 @@
 #include "linear/condensed_laplacian.h"
 
+#include "core/errors.h"
+
+#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace koebe {
 
 namespace {
+
+constexpr double stiffness = 1e20;  // over the largest diagonal entry: 1 over it is nothing beside rounding
 
 /// K on the interior, the unit matrix where something is cut off, nothing between them; 1 more on the diagonal of what
 /// is kept to the end. The pattern does not depend on the values.
@@ -29,24 +35,62 @@ SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<ch
     return result;
 }
 
+/// The lower triangle of K cut off at the first loop, with an entry between any two vertices of each other loop.
+SparseMatrix with_room_for_disks(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
+{
+    std::vector<char> grounded(laplacian.rows(), 0);
+    for (const Index v : loops[0]) grounded[v] = 1;
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    entries.reserve(laplacian.nonZeros());
+    for (Index v = 0; v < static_cast<Index>(laplacian.cols()); ++v) {
+        if (grounded[v]) {
+            entries.emplace_back(v, v, 1.0);
+            continue;
+        }
+        for (SparseMatrix::InnerIterator it(laplacian, v); it; ++it)
+            if (it.row() >= v && !grounded[it.row()]) entries.emplace_back(static_cast<Index>(it.row()), v, it.value());
+    }
+    for (std::size_t k = 1; k < loops.size(); ++k)
+        for (const Index v : loops[k])
+            for (const Index w : loops[k])
+                if (w >= v) entries.emplace_back(w, v, 0.0);
+    SparseMatrix result(laplacian.rows(), laplacian.cols());
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
 }  // namespace
 
 struct CondensedLaplacian::Impl {
     SparseMatrix laplacian;  // K, where something is cut off
     Index vertex_count = 0;
     std::vector<Index> ground, kept;           // the two parts of the boundary, in the factor's order
-    std::vector<char> is_cut;                  // the grounded vertices, or without Sigma all boundary vertices
+    std::vector<std::vector<Index>> loops;     // without Sigma
     std::unique_ptr<SparseCholesky> cholesky;  // of K + diag(0, 1 where kept), 1 in the place of what is cut off
-    bool has_sigma = true;
-    std::vector<Index> row;  // of each kept vertex in the factor's order, where that is another
+    std::vector<MatrixXd> stiff;               // without Sigma: in place of the disks they hold the loops at 0
+    bool is_filled = false;                    // the factor is of disks
+    std::vector<Index> row;                    // of each kept vertex in the factor's order, where that is another
 
-    /// What is factored of a Laplacian: 1 added to the diagonal where kept, the grounded part cut off.
+    /// What is factored of a Laplacian, where there is a Sigma.
     SparseMatrix shifted(const SparseMatrix& matrix) const
     {
-        if (!is_cut.empty()) return shifted_and_cut(matrix, is_cut, kept);
+        if (!ground.empty()) {
+            std::vector<char> is_cut(vertex_count, 0);
+            for (const Index v : ground) is_cut[v] = 1;
+            return shifted_and_cut(matrix, is_cut, kept);
+        }
         SparseMatrix result = matrix;
         for (const Index v : kept) result.coeffRef(v, v) += 1.0;
         return result;
+    }
+
+    void take_stiffness()
+    {
+        const double value = stiffness * laplacian.diagonal().maxCoeff();
+        stiff.clear();
+        for (std::size_t k = 1; k < loops.size(); ++k)
+            stiff.push_back(value * MatrixXd::Identity(loops[k].size(), loops[k].size()));
+        is_filled = true;
     }
 
     /// Rows in the factor's order as the boundary is given now.
@@ -73,29 +117,57 @@ struct CondensedLaplacian::Impl {
         result(ground, Eigen::all) = ground_values;
         return result;
     }
+
+    bool has_sigma() const { return stiff.empty(); }
+
+    /// Solves K_II u_I = f_I; what comes on the boundary is not to be read. NaN if K_II is not positive definite.
+    /// Without Sigma.
+    MatrixXd solve_inside(MatrixXd f)
+    {
+        f(ground, Eigen::all).setZero();
+        try {
+            if (is_filled) cholesky->refactorize(stiff);
+        } catch (const OutOfMemory&) {
+            throw;
+        } catch (const SolverError&) {
+            return MatrixXd::Constant(f.rows(), f.cols(), std::numeric_limits<double>::quiet_NaN());
+        }
+        is_filled = false;
+        std::vector<Index> all(vertex_count);
+        std::iota(all.begin(), all.end(), 0);
+        return cholesky->solve_for(all, f);
+    }
 };
 
 CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary,
-                                       Ordering ordering, Index grounded, std::size_t most_condensed)
+                                       Ordering ordering, Index grounded)
     : impl_(std::make_unique<Impl>())
 {
     impl_->vertex_count = static_cast<Index>(laplacian.rows());
-    impl_->has_sigma = boundary.size() - grounded <= most_condensed;
-    if (!impl_->has_sigma) grounded = static_cast<Index>(boundary.size());
     impl_->ground.assign(boundary.begin(), boundary.begin() + grounded);
     impl_->kept.assign(boundary.begin() + grounded, boundary.end());
-    if (grounded > 0) {
-        impl_->laplacian = laplacian;
-        impl_->is_cut.assign(laplacian.rows(), 0);
-        for (const Index v : impl_->ground) impl_->is_cut[v] = 1;
-    }
+    if (grounded > 0) impl_->laplacian = laplacian;
     impl_->cholesky = std::make_unique<SparseCholesky>(impl_->shifted(laplacian), ordering, impl_->kept);
+}
+
+CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
+    : impl_(std::make_unique<Impl>())
+{
+    impl_->vertex_count = static_cast<Index>(laplacian.rows());
+    impl_->laplacian = laplacian;
+    impl_->loops = loops;
+    for (const std::vector<Index>& loop : loops) impl_->ground.insert(impl_->ground.end(), loop.begin(), loop.end());
+    impl_->cholesky = std::make_unique<SparseCholesky>(with_room_for_disks(laplacian, loops), Ordering::amd, loops[1],
+                                                       std::vector(loops.begin() + 1, loops.end()));
+    impl_->take_stiffness();
 }
 
 void CondensedLaplacian::renew(const SparseMatrix& laplacian)
 {
-    if (!impl_->is_cut.empty()) impl_->laplacian = laplacian;
-    impl_->cholesky->refactorize(impl_->shifted(laplacian));
+    if (!impl_->ground.empty()) impl_->laplacian = laplacian;
+    if (has_sigma()) return impl_->cholesky->refactorize(impl_->shifted(laplacian));
+    impl_->cholesky->refactorize(with_room_for_disks(laplacian, impl_->loops));
+    impl_->take_stiffness();
 }
 
 CondensedLaplacian::~CondensedLaplacian() = default;
@@ -109,11 +181,7 @@ Index CondensedLaplacian::boundary_size() const
 
 bool CondensedLaplacian::reorder_boundary(const std::vector<Index>& boundary)
 {
-    if (!impl_->has_sigma) {
-        impl_->ground = boundary;
-        return true;
-    }
-    if (grounded()) return false;
+    if (!impl_->ground.empty()) return false;
     std::vector<Index> place(impl_->vertex_count, -1);
     for (std::size_t i = 0; i < impl_->kept.size(); ++i) place[impl_->kept[i]] = static_cast<Index>(i);
     impl_->row.clear();
@@ -121,9 +189,9 @@ bool CondensedLaplacian::reorder_boundary(const std::vector<Index>& boundary)
     return true;
 }
 
-bool CondensedLaplacian::has_sigma() const { return impl_->has_sigma; }
+bool CondensedLaplacian::has_sigma() const { return impl_->has_sigma(); }
 
-bool CondensedLaplacian::grounded() const { return impl_->has_sigma && !impl_->ground.empty(); }
+bool CondensedLaplacian::grounded() const { return impl_->has_sigma() && !impl_->ground.empty(); }
 
 MatrixXd CondensedLaplacian::sigma() const
 {
@@ -144,35 +212,33 @@ VectorXd CondensedLaplacian::flux_to_grounded(const VectorXd& values) const
     return -VectorXd(impl_->laplacian * u)(impl_->ground);
 }
 
-/// K_PP 1 - K_PI K_II^-1 K_IP 1.
-VectorXd CondensedLaplacian::flux_of_part(const std::vector<Index>& part) const
+const SparseCholesky& CondensedLaplacian::fill(const std::vector<MatrixXd>& disks) const
 {
-    const SparseMatrix& laplacian = impl_->laplacian;
-    VectorXd indicator = VectorXd::Zero(laplacian.rows());
-    for (const Index v : part) indicator[v] = 1.0;
-    SparseMatrix coupling(laplacian.rows(), part.size());  // K_IP
-    VectorXd flux = VectorXd::Zero(part.size());
-    for (std::size_t c = 0; c < part.size(); ++c) {
-        coupling.startVec(c);
-        for (SparseMatrix::InnerIterator it(laplacian, part[c]); it; ++it) {
-            flux[c] += it.value() * indicator[it.row()];
-            if (!impl_->is_cut[it.row()]) coupling.insertBack(it.row(), c) = it.value();
-        }
-    }
-    coupling.finalize();
-    return flux - impl_->cholesky->inverse_form_sum(coupling);
+    impl_->is_filled = true;
+    impl_->cholesky->refactorize(disks);
+    return *impl_->cholesky;
 }
 
 MatrixXd CondensedLaplacian::extend(const MatrixXd& boundary_values) const
 {
     const Eigen::Index grounded = static_cast<Eigen::Index>(impl_->ground.size());
     if (grounded == 0) return impl_->cholesky->extend(impl_->as_factored(boundary_values));
+    if (!has_sigma()) {
+        MatrixXd result = impl_->solve_inside(impl_->load(boundary_values));
+        result(impl_->ground, Eigen::all) = boundary_values;
+        return result;
+    }
     return impl_->cholesky->extend(boundary_values.bottomRows(boundary_values.rows() - grounded),
                                    impl_->load(boundary_values.topRows(grounded)));
 }
 
 InteriorSolution CondensedLaplacian::solve_interior(const VectorXd& load) const
 {
+    if (!has_sigma()) {
+        VectorXd values = impl_->solve_inside(load);
+        values(impl_->ground).setZero();
+        return {values, -VectorXd(impl_->laplacian * values)(impl_->ground)};
+    }
     VectorXd inner = load;
     inner(impl_->ground).setZero();
     auto [values, flux] = impl_->cholesky->solve_inner(inner);

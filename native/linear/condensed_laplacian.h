@@ -20,7 +20,11 @@ struct InteriorSolution {
 /// (docs/method.md, "The condensed engine").
 ///
 /// A part of the boundary can be grounded: it counts with the interior, but is held at 0, so that Sigma is of the rest
-/// alone. Of long boundaries nothing dense is kept: then there is no Sigma, and K_II is factored alone.
+/// alone.
+///
+/// Of long boundaries nothing dense is kept. Then there is no Sigma, and the factor is that of K with disks in the
+/// loops, the first one grounded, the others where AMD puts them: fill() takes other disks, and only what they reach is
+/// computed anew. For K_II a large number takes the place of the disks.
 class CondensedLaplacian {
 public:
     /// @param laplacian (V, V) cotan Laplacian, both triangles stored
@@ -28,10 +32,14 @@ public:
     /// of
     ///        the matrix
     /// @param grounded so many of them, from the first on, are grounded; sigma() has the others, in their order
-    /// @param most_condensed others up to which there is a Sigma: at 3,000 a dense matrix has 72 MB
     /// @throws SolverError if K_II is not positive definite
     CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering,
-                       Index grounded = 0, std::size_t most_condensed = 3000);
+                       Index grounded = 0);
+
+    /// Without a Sigma, to be filled. @param loops the whole boundary, two loops or more
+    /// @throws SolverError if K is not positive definite where no disk reaches; if K_II is not elsewhere, extend() and
+    /// solve_interior() give NaN
+    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops);
     ~CondensedLaplacian();
     CondensedLaplacian(CondensedLaplacian&&) noexcept;
     CondensedLaplacian& operator=(CondensedLaplacian&&) noexcept;
@@ -42,7 +50,7 @@ public:
 
     /// Takes the boundary in another order from now on: what is given and returned goes by it.
     /// @param boundary the same vertices
-    /// @return false, and nothing has changed, if a part of it is grounded while there is a Sigma
+    /// @return false, and nothing has changed, if a part of it is grounded
     bool reorder_boundary(const std::vector<Index>& boundary);
 
     /// Whether there is a sigma().
@@ -61,9 +69,11 @@ public:
     /// The flux into the grounded part from values on the others: -Sigma_GR u. @param values (m - g)
     VectorXd flux_to_grounded(const VectorXd& values) const;
 
-    /// The flux through each of some boundary vertices, Sigma_PP 1, when they have potential 1 and all others 0;
-    /// where there is no sigma(). @param part the vertices
-    VectorXd flux_of_part(const std::vector<Index>& part) const;
+    /// The factor of K with these symmetric blocks on all loops but the first, that one grounded and each entry of a
+    /// block where its loop's vertices stand in the constructor's order; 1 in the place of what is grounded. Its last
+    /// rows are the second loop's. Where there is no sigma(); good until the next call of any other function.
+    /// @throws SolverError if that is not positive definite
+    const SparseCholesky& fill(const std::vector<MatrixXd>& disks) const;
 
     Index boundary_size() const;
 

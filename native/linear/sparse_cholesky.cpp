@@ -3,7 +3,8 @@
 #include "core/memory_limit.h"
 #include "linear/dense_spd.h"
 #include "linear/elimination_order.h"
-#include "linear/path_solution.h"
+#include "linear/multifrontal_factor.h"
+#include "linear/part_substitution.h"
 #include "linear/selected_inverse.h"
 #include "linear/supernodal_factor.h"
 
@@ -23,8 +24,9 @@ constexpr Index pieces_of_large = 10;  // at least: more of them take longer to 
 struct SparseCholesky::Impl {
     SupernodalFactor l;
     std::vector<Index> last;
-    MatrixXd trailing;  // L_BB in the factor's own order
-    SparseMatrix both;  // triangles of the matrix, where one was given
+    MatrixXd trailing;                           // L_BB in the factor's own order
+    SparseMatrix both;                           // triangles of the matrix, where one was given
+    std::unique_ptr<MultifrontalFactor> fronts;  // of a matrix that changes in a few rows
 
     const SparseMatrix& full(const SparseMatrix& matrix)
     {
@@ -34,19 +36,22 @@ struct SparseCholesky::Impl {
         return both;
     }
 
+    void analyze(const SparseMatrix& matrix, Ordering ordering);
+    void take_trailing() { trailing = l.trailing_block(static_cast<Index>(last.size())); }
     Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
     Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
     MatrixXd half_solve(const MatrixXd& f);
     MatrixXd last_in_given_order(const MatrixXd& trailing_rows) const;
+    MatrixXd in_factors_order(const MatrixXd& last_values) const;
+    MatrixXd back_substitution_to(const std::vector<Index>& wanted, MatrixXd y) const;
 };
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
                                Index split_rows)
     : impl_(std::make_unique<Impl>())
 {
-    SupernodalFactor& l = impl_->l;
     impl_->last = last;
-    if (ordering == Ordering::amd && matrix.rows() > split_rows) {
+    if (SupernodalFactor& l = impl_->l; ordering == Ordering::amd && matrix.rows() > split_rows) {
         l.split = SplitFactor::analyze(impl_->full(matrix), last,
                                        std::max(split_rows, static_cast<Index>(matrix.rows() / pieces_of_large)));
         if (l.split) {
@@ -56,6 +61,21 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, co
             return;
         }
     }
+    impl_->analyze(matrix, ordering);
+    refactorize(matrix);
+}
+
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
+                               const std::vector<std::vector<Index>>& changing)
+    : impl_(std::make_unique<Impl>())
+{
+    impl_->last = last;
+    impl_->analyze(matrix, ordering);
+    impl_->fronts = std::make_unique<MultifrontalFactor>(impl_->l, matrix, changing);
+}
+
+void SparseCholesky::Impl::analyze(const SparseMatrix& matrix, Ordering ordering)
+{
     cholmod_sparse lower = view(matrix, -1);
     // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
     // postorder A_II by itself and forbid any further change.
@@ -73,25 +93,30 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, co
         require_memory(8.0 * (static_cast<double>(l.factor->xsize) + 2.0 * std::pow(last.size(), 2)),
                        "the factorization");
         l.number();
-        if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= impl_->inner_count(); })) break;
+        if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= inner_count(); })) break;
     }
-    refactorize(matrix);
 }
 
 void SparseCholesky::refactorize(const SparseMatrix& matrix)
 {
     SupernodalFactor& l = impl_->l;
+    if (impl_->fronts) return impl_->fronts->take(matrix);
     if (l.split) {
         l.split->factorize(impl_->full(matrix));
         impl_->both = {};
-        impl_->trailing = l.trailing_block(static_cast<Index>(impl_->last.size()));
-        return;
+        return impl_->take_trailing();
     }
     cholmod_sparse lower = view(matrix, -1);
     const SerialRegions serial;
     const int done = cholmod_factorize(&lower, l.factor.get(), l.common.get());
     l.common.require(done != 0, "numeric factorization (matrix not positive definite)");
-    impl_->trailing = l.trailing_block(static_cast<Index>(impl_->last.size()));
+    impl_->take_trailing();
+}
+
+void SparseCholesky::refactorize(const std::vector<MatrixXd>& blocks)
+{
+    impl_->fronts->refactorize(blocks);
+    impl_->take_trailing();
 }
 
 SparseCholesky::~SparseCholesky() = default;
@@ -126,12 +151,40 @@ MatrixXd SparseCholesky::Impl::last_in_given_order(const MatrixXd& trailing_rows
     return result;
 }
 
+MatrixXd SparseCholesky::Impl::in_factors_order(const MatrixXd& last_values) const
+{
+    MatrixXd values(last_values.rows(), last_values.cols());
+    for (std::size_t b = 0; b < last.size(); ++b) values.row(place_in_trailing(b)) = last_values.row(b);
+    return values;
+}
+
+/// @param y (C, n), in the factor's order
+MatrixXd SparseCholesky::Impl::back_substitution_to(const std::vector<Index>& wanted, MatrixXd y) const
+{
+    PartSubstitution(l).backward(y, wanted);
+    MatrixXd result(wanted.size(), y.rows());
+    for (std::size_t i = 0; i < wanted.size(); ++i) result.row(i) = y.col(l.rank[wanted[i]]).transpose();
+    return result;
+}
+
+MatrixXd SparseCholesky::solve_for(const std::vector<Index>& wanted, const MatrixXd& f) const
+{
+    return impl_->back_substitution_to(wanted, PartSubstitution(impl_->l).forward(f));
+}
+
+MatrixXd SparseCholesky::extend_to(const std::vector<Index>& wanted, const MatrixXd& last_values) const
+{
+    MatrixXd y = MatrixXd::Zero(last_values.cols(), impl_->l.size());
+    y.rightCols(last_values.rows()) =
+        (impl_->trailing.triangularView<Eigen::Lower>().transpose() * impl_->in_factors_order(last_values)).transpose();
+    return impl_->back_substitution_to(wanted, std::move(y));
+}
+
 /// L' x = (y_I, L_BB' x_B) has x_I = L_II^-T (y_I - L_BI' x_B).
 MatrixXd SparseCholesky::extend(const MatrixXd& last_values, const MatrixXd& f) const
 {
     const Index count = static_cast<Index>(impl_->last.size());
-    MatrixXd values(count, last_values.cols());
-    for (Index b = 0; b < count; ++b) values.row(impl_->place_in_trailing(b)) = last_values.row(b);
+    const MatrixXd values = impl_->in_factors_order(last_values);
     MatrixXd load = f.size() > 0 ? impl_->half_solve(f) : MatrixXd(MatrixXd::Zero(impl_->l.size(), last_values.cols()));
     load.bottomRows(count) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * values;
     const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, load);
@@ -164,25 +217,6 @@ std::pair<VectorXd, VectorXd> SparseCholesky::solve_inner(const VectorXd& f) con
 std::vector<MatrixXd> SparseCholesky::inverse_blocks(const std::vector<std::vector<Index>>& sets) const
 {
     return selected_inverse(impl_->l, sets);
-}
-
-VectorXd SparseCholesky::inverse_form_sum(const SparseMatrix& b) const
-{
-    const SupernodalFactor& l = impl_->l;
-    // Of all B's rows, also of those whose entries cancel.
-    std::vector<Eigen::Triplet<double, Index>> entries;
-    for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
-        for (SparseMatrix::InnerIterator it(b, c); it; ++it)
-            entries.emplace_back(static_cast<Index>(it.row()), 0, it.value());
-    SparseMatrix sum(b.rows(), 1);
-    sum.setFromTriplets(entries.begin(), entries.end());
-    const PathSolution solution = path_solution(l, sum);
-    const MatrixXd x = back_substitution(l, solution);
-    VectorXd result = VectorXd::Zero(b.cols());
-    for (Index c = 0; c < static_cast<Index>(b.cols()); ++c)
-        for (SparseMatrix::InnerIterator it(b, c); it; ++it)
-            result[c] += it.value() * x(0, solution.column(l, l.rank[it.row()]));
-    return result;
 }
 
 DirichletSolver::DirichletSolver(const SparseMatrix& laplacian, const std::vector<char>& fixed)

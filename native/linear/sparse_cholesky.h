@@ -23,12 +23,21 @@ public:
     /// @throws SolverError if the matrix is not positive definite
     explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd,
                             const std::vector<Index>& last = {}, Index split_rows = 50000);
+
+    /// Prepares the factors of A + blocks on some sets of rows, A = matrix; there is none before refactorize(blocks).
+    /// @param changing the sets; A has an entry, if only an explicit 0, between any two rows of one
+    SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
+                   const std::vector<std::vector<Index>>& changing);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-    /// Factor of another matrix with the same pattern.
+    /// Factor of another matrix with the same pattern; of A + blocks there is none then before refactorize(blocks).
     void refactorize(const SparseMatrix& matrix);
+
+    /// Factor of A + symmetric blocks, one on each set that changes: only what they reach is computed anew.
+    /// @throws SolverError if that is not positive definite
+    void refactorize(const std::vector<MatrixXd>& blocks);
 
     /// Solves for each column of the right-hand side.
     MatrixXd solve(const MatrixXd& right_hand_side) const;
@@ -39,6 +48,12 @@ public:
     /// x with the given values on B, (b, C), and (A x)_I = f_I: (n, C). @param f (n, C), not read on B; empty: 0
     MatrixXd extend(const MatrixXd& last_values, const MatrixXd& f = {}) const;
 
+    /// The rows of A^-1 f that are wanted, (wanted, C): the fewer those and the fewer f is not 0 on, the cheaper.
+    MatrixXd solve_for(const std::vector<Index>& wanted, const MatrixXd& f) const;
+
+    /// The rows of extend(last_values) that are wanted.
+    MatrixXd extend_to(const std::vector<Index>& wanted, const MatrixXd& last_values) const;
+
     /// -A_BI A_II^-1 f_I, in the order of B: (b, C). @param f (n, C), not read on B
     MatrixXd flux_to_last(const MatrixXd& f) const;
 
@@ -48,10 +63,6 @@ public:
     /// The blocks of A^-1 of sets of rows between any two of which A has an entry, if only an explicit 0: by selected
     /// inversion, at about twice the cost of the factorization.
     std::vector<MatrixXd> inverse_blocks(const std::vector<std::vector<Index>>& sets) const;
-
-    /// The sum of the columns of B' A^-1 B for a sparse B: along the paths of its rows in the elimination tree, a small
-    /// part of the factor (Gilbert 1994).
-    VectorXd inverse_form_sum(const SparseMatrix& b) const;
 
 private:
     struct Impl;

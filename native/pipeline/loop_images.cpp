@@ -86,7 +86,7 @@ void AssembledDomain::factorize(const Domain& domain)
         if (condensed)
             condensed->renew(laplacian);
         else
-            condensed.emplace(laplacian, boundary_of(domain), Ordering::amd, best_grounded(domain.loops));
+            condensed.emplace(condense(laplacian, domain.loops));
         factored = true;
     } catch (...) {
         condensed.reset();

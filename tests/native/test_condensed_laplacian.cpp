@@ -75,6 +75,62 @@ TEST_P(CondensedLaplacianTest, what_a_source_gives_arrives_at_the_boundary)
 
 INSTANTIATE_TEST_SUITE_P(Orderings, CondensedLaplacianTest, testing::Values(Ordering::amd, Ordering::metis));
 
+TEST(FilledLaplacian, has_the_disks_and_without_them_what_every_other_has)
+{
+    const Sample sample;
+    const CondensedLaplacian with_sigma(sample.laplacian, sample.boundary, Ordering::amd);
+    const CondensedLaplacian filled(sample.laplacian, sample.domain.loops);
+    EXPECT_FALSE(filled.has_sigma());
+    EXPECT_EQ(filled.boundary_size(), with_sigma.boundary_size());
+    const MatrixXd values = MatrixXd::Random(filled.boundary_size(), 2);
+    const VectorXd load = VectorXd::Random(sample.plane.rows());
+    for (const double scale : {1.0, 30.0}) {
+        SparseMatrix with_disks = sample.laplacian;
+        std::vector<MatrixXd> disks;
+        for (std::size_t k = 1; k < sample.domain.loops.size(); ++k) {
+            const VertexLoop& loop = sample.domain.loops[k];
+            const VectorXd x = VectorXd::Random(static_cast<Eigen::Index>(loop.size()));
+            disks.push_back(scale * x * x.transpose());
+            for (std::size_t i = 0; i < loop.size(); ++i)
+                for (std::size_t j = 0; j < loop.size(); ++j)
+                    with_disks.coeffRef(loop[i], loop[j]) += disks.back()(i, j);
+        }
+        VectorXd grounded = load;
+        for (const Index v : sample.domain.loops[0]) grounded[v] = 0.0;
+        VectorXd residual = with_disks * filled.fill(disks).solve(grounded) - load;
+        for (const Index v : sample.domain.loops[0]) residual[v] = 0.0;
+        EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-10);
+
+        EXPECT_LT((filled.extend(values) - with_sigma.extend(values)).cwiseAbs().maxCoeff(), 1e-12);
+        const InteriorSolution one = filled.solve_interior(load), other = with_sigma.solve_interior(load);
+        EXPECT_LT((one.values - other.values).cwiseAbs().maxCoeff(), 1e-12);
+        EXPECT_LT((one.boundary_flux - other.boundary_flux).cwiseAbs().maxCoeff(), 1e-11);
+    }
+}
+
+TEST(FilledLaplacian, an_interior_that_is_not_positive_definite_gives_no_number)
+{
+    // The loops are 0, 1 and 7; 2 to 6 are inside, 2 beside all loops. 7, with one neighbour, is eliminated before 2.
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    const auto edge = [&](Index v, Index w) {
+        entries.emplace_back(v, w, -1.0);
+        entries.emplace_back(w, v, -1.0);
+        entries.emplace_back(v, v, 1.0);
+        entries.emplace_back(w, w, 1.0);
+    };
+    for (const Index loop : {0, 1, 7}) edge(2, loop);
+    for (Index v = 2; v < 7; ++v)
+        for (Index w = v + 1; w < 7; ++w) edge(v, w);
+    for (const double added : {0.0, -20.0}) {
+        entries.emplace_back(2, 2, added);
+        SparseMatrix laplacian(8, 8);
+        laplacian.setFromTriplets(entries.begin(), entries.end());
+        const CondensedLaplacian filled(laplacian, {{0}, {1}, {7}});
+        const VectorXd values = filled.extend(VectorXd::Ones(3));
+        EXPECT_EQ(values.allFinite(), added == 0.0);
+    }
+}
+
 TEST(CondensedLaplacianOrder, an_interior_in_two_parts_keeps_the_boundary_last)
 {
     // Two rows of cells side by side, all vertices of the shared column on the boundary: K_II falls apart.

@@ -1,5 +1,7 @@
 #include "linear/sparse_cholesky.h"
 
+#include "core/errors.h"
+
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
@@ -52,19 +54,6 @@ TEST(SparseCholesky, selected_blocks_are_those_of_the_inverse)
     }
 }
 
-TEST(SparseCholesky, sum_of_the_columns_of_a_form_of_the_inverse)
-{
-    const SparseMatrix matrix = grid_with_cliques(cliques);
-    SparseMatrix b(matrix.rows(), 3);
-    b.insert(400, 0) = 2.0;
-    b.insert(10, 0) = -1.0;
-    b.insert(10, 1) = 1.0;  // cancels in the sum
-    b.insert(77, 2) = 3.0;
-    b.makeCompressed();
-    const MatrixXd form = MatrixXd(b).transpose() * MatrixXd(matrix).inverse() * MatrixXd(b);
-    EXPECT_LT((SparseCholesky(matrix).inverse_form_sum(b) - form.rowwise().sum()).cwiseAbs().maxCoeff(), 1e-12);
-}
-
 TEST(SparseCholesky, rows_kept_last_give_their_schur_complement_and_extension)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
@@ -80,4 +69,71 @@ TEST(SparseCholesky, rows_kept_last_give_their_schur_complement_and_extension)
     EXPECT_LT((VectorXd(residual(last)) - schur * values).cwiseAbs().maxCoeff(), 1e-11);
     residual(last).setZero();
     EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-12);
+}
+
+namespace {
+
+/// Symmetric blocks on the cliques that keep the grid's matrix positive definite.
+std::vector<MatrixXd> blocks_on_cliques(double scale)
+{
+    std::vector<MatrixXd> result;
+    for (const std::vector<Index>& clique : cliques) {
+        const VectorXd x = VectorXd::LinSpaced(static_cast<Eigen::Index>(clique.size()), 0.3, 1.7);
+        result.push_back(scale * (x * x.transpose() + MatrixXd::Identity(x.size(), x.size())));
+    }
+    return result;
+}
+
+MatrixXd with_blocks(const SparseMatrix& matrix, const std::vector<MatrixXd>& blocks)
+{
+    MatrixXd result(matrix);
+    for (std::size_t k = 0; k < cliques.size(); ++k)
+        for (std::size_t i = 0; i < cliques[k].size(); ++i)
+            for (std::size_t j = 0; j < cliques[k].size(); ++j) result(cliques[k][i], cliques[k][j]) += blocks[k](i, j);
+    return result;
+}
+
+}  // namespace
+
+TEST(SparseCholesky, blocks_that_change_leave_nothing_of_the_ones_before)
+{
+    const SparseMatrix matrix = grid_with_cliques(cliques);
+    SparseCholesky cholesky(matrix, Ordering::amd, cliques[0], cliques);
+    const MatrixXd f = MatrixXd::Random(matrix.rows(), 2);
+    for (const double scale : {0.5, 100.0, 0.0}) {
+        const std::vector<MatrixXd> blocks = blocks_on_cliques(scale);
+        cholesky.refactorize(blocks);
+        const MatrixXd inverse = with_blocks(matrix, blocks).inverse();
+        EXPECT_LT((cholesky.solve(f) - inverse * f).cwiseAbs().maxCoeff(), 1e-11) << scale;
+        const std::vector<MatrixXd> selected = cholesky.inverse_blocks(cliques);
+        for (std::size_t k = 0; k < cliques.size(); ++k)
+            EXPECT_LT((selected[k] - MatrixXd(inverse(cliques[k], cliques[k]))).cwiseAbs().maxCoeff(), 1e-12) << scale;
+    }
+}
+
+TEST(SparseCholesky, a_change_that_is_not_positive_definite_is_told_and_forgotten)
+{
+    const SparseMatrix matrix = grid_with_cliques(cliques);
+    SparseCholesky cholesky(matrix, Ordering::amd, {}, cliques);
+    EXPECT_THROW(cholesky.refactorize(blocks_on_cliques(-100.0)), SolverError);
+    const std::vector<MatrixXd> blocks = blocks_on_cliques(1.0);
+    cholesky.refactorize(blocks);
+    const MatrixXd f = MatrixXd::Random(matrix.rows(), 1);
+    EXPECT_LT((with_blocks(matrix, blocks) * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+TEST(SparseCholesky, rows_that_are_wanted_are_those_of_the_whole_solution)
+{
+    const SparseMatrix matrix = grid_with_cliques(cliques);
+    const std::vector<Index> wanted{528, 0, 77, 300};
+    const SparseCholesky cholesky(matrix, Ordering::amd, cliques[0]);
+    for (const Index columns : {1, 2, 3}) {
+        MatrixXd f = MatrixXd::Zero(matrix.rows(), columns);
+        f.row(10).setLinSpaced(1.0, 2.0);
+        f.row(251).setConstant(-1.0);
+        EXPECT_LT((cholesky.solve_for(wanted, f) - cholesky.solve(f)(wanted, Eigen::all)).cwiseAbs().maxCoeff(), 1e-13);
+        const MatrixXd values = MatrixXd::Random(static_cast<Eigen::Index>(cliques[0].size()), columns);
+        const MatrixXd whole = cholesky.extend(values);
+        EXPECT_LT((cholesky.extend_to(wanted, values) - whole(wanted, Eigen::all)).cwiseAbs().maxCoeff(), 1e-13);
+    }
 }
