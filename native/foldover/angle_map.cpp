@@ -11,7 +11,7 @@
 namespace koebe {
 namespace {
 
-constexpr double thin = 1e-10;     // twice the area over the squared longest edge, as in quality/distortion.cpp
+constexpr double thin = 1e-10;             // twice the area over the squared longest edge, as in quality/distortion.cpp
 constexpr double lost_by_rounding = 3e-7;  // twice the area that a face can lose, over its longest edge, disk units
 
 /// exp(i angle) at the three corners of a triangle of the surface; zeros where it has no area.

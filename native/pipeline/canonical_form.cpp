@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -153,25 +154,66 @@ private:
                                  [&](Index a, Index b) { return key(a) < key(b); });
     }
 
-    /// A number for each vertex that tells its neighbourhood from others, until all candidates are told apart.
+    /// The half-edges of all faces that a walk of so many edges from the ends of others comes to.
+    std::vector<Index> halfedges_around(const std::vector<Index>& starts, int edges) const
+    {
+        const Triangles& triangles = surface_.triangles;
+        std::vector<Index> begin(surface_.vertex_count + 1, 0), corner(triangles.size());
+        for (Eigen::Index i = 0; i < triangles.size(); ++i) ++begin[triangles.data()[i] + 1];
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        std::vector<Index> end(begin.begin(), begin.end() - 1);
+        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) corner[end[triangles.data()[h]]++] = h;
+
+        std::vector<char> is_near(surface_.vertex_count, 0), is_found(triangles.rows(), 0);
+        std::vector<Index> ring, next, result;
+        const auto add = [&](Index v) {
+            if (!std::exchange(is_near[v], 1)) next.push_back(v);
+        };
+        for (const Index h : starts) {
+            add(origin(triangles, h));
+            add(target(triangles, h));
+        }
+        for (int step = 0; step <= edges && !next.empty(); ++step) {
+            ring.swap(next);
+            next.clear();
+            for (const Index v : ring)
+                for (Index i = begin[v]; i < end[v]; ++i) {
+                    const Index f = face_of(corner[i]);
+                    if (std::exchange(is_found[f], 1)) continue;
+                    for (int k = 0; k < 3; ++k) {
+                        result.push_back(3 * f + k);
+                        add(triangles(f, k));
+                    }
+                }
+        }
+        return result;
+    }
+
+    /// A number for each vertex that tells its neighbourhood from others, until all candidates are told apart; of use
+    /// at the candidates.
     std::vector<std::uint64_t> neighbourhoods(const std::vector<Index>& candidates, double unit) const
     {
         const Triangles& triangles = surface_.triangles;
-        std::vector<std::uint64_t> edge(surface_.twin.size());
-        for (Index h = 0; h < static_cast<Index>(edge.size()); ++h) {
-            const double units = unit > 0.0 ? length(h) / (hash_unit * unit) : 0.0;
-            edge[h] = mixed(units < 0x1p62 ? static_cast<std::uint64_t>(std::llround(units)) : 0u) +
-                      (surface_.twin[h] == no_twin ? 1u : 0u);
+        const std::vector<Index> around = halfedges_around(candidates, hash_rounds);
+        std::vector<std::uint64_t> edge(around.size());
+        for (std::size_t i = 0; i < around.size(); ++i) {
+            const double units = unit > 0.0 ? length(around[i]) / (hash_unit * unit) : 0.0;
+            edge[i] = mixed(units < 0x1p62 ? static_cast<std::uint64_t>(std::llround(units)) : 0u) +
+                      (surface_.twin[around[i]] == no_twin ? 1u : 0u);
         }
-        std::vector<std::uint64_t> hash(surface_.vertex_count, 1), next;
+        std::vector<Index> vertices;
+        std::vector<char> is_listed(surface_.vertex_count, 0);
+        for (const Index h : around)
+            if (const Index v = origin(triangles, h); !std::exchange(is_listed[v], 1)) vertices.push_back(v);
+        std::vector<std::uint64_t> hash(surface_.vertex_count, 1), next(surface_.vertex_count, 0);
         for (int round = 0; round < hash_rounds; ++round) {
-            next = hash;
-            for (Index h = 0; h < static_cast<Index>(edge.size()); ++h) {
-                const Index a = origin(triangles, h), b = target(triangles, h);
-                next[a] += mixed(hash[b] ^ mixed(edge[h]));
-                if (surface_.twin[h] == no_twin) next[b] += mixed(hash[a] ^ mixed(edge[h] + 1));
+            for (const Index v : vertices) next[v] = hash[v];
+            for (std::size_t i = 0; i < around.size(); ++i) {
+                const Index h = around[i], a = origin(triangles, h), b = target(triangles, h);
+                next[a] += mixed(hash[b] ^ mixed(edge[i]));
+                if (surface_.twin[h] == no_twin) next[b] += mixed(hash[a] ^ mixed(edge[i] + 1));
             }
-            for (std::uint64_t& value : next) value = mixed(value);
+            for (const Index v : vertices) next[v] = mixed(next[v]);
             hash.swap(next);
             std::vector<std::uint64_t> keys;
             for (const Index h : candidates)

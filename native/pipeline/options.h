@@ -28,8 +28,8 @@ struct UniformizeOptions : IterationOptions {
     bool repair = true;  ///< false: as the iteration leaves it, faces may be turned over; for maps that are only judged
     /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
-    int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh go
-                      ///< side by side; the result is the same for any number
+    int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh
+                      ///< go side by side; the result is the same for any number
 };
 
 }  // namespace koebe
