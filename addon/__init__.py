@@ -28,6 +28,7 @@ def _parts() -> tuple[ModuleType, ...]:
         option_presets,
         parts,
         select_from_report,
+        sequence,
         symmetrize,
         uniformize,
     )
@@ -45,8 +46,8 @@ def _parts() -> tuple[ModuleType, ...]:
 
     return (
         option_properties, run_report, moved_circles, shape_report,
-        uniformize, parts, domains, checker, select_from_report, distortion, fill_holes, compare_shapes, carry_texture,
-        option_presets, moebius, symmetrize, flat_copy,
+        uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes, compare_shapes,
+        carry_texture, option_presets, moebius, symmetrize, flat_copy,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

@@ -79,7 +79,7 @@ def left_if_faster(run: Transaction, context: bpy.types.Context) -> Iterator[Non
 def leave(run: Transaction, context: bpy.types.Context) -> Callable[[], None] | None:
     """Leave Edit Mode, where Blender is sure to find back: the way back, or None where nothing was done."""
     layer = context.view_layer
-    if context.mode != "EDIT_MESH" or not _all_come_back(context):
+    if context.mode != "EDIT_MESH" or not can_leave(context):
         return None
     back = functools.partial(_restore, layer, *_state(layer))
     run.before_write(back)
@@ -87,8 +87,8 @@ def leave(run: Transaction, context: bpy.types.Context) -> Callable[[], None] | 
     return back
 
 
-def _all_come_back(context: bpy.types.Context) -> bool:
-    """Whether every object that is in Edit Mode is a mesh, seen and selected: Blender enters it with no others."""
+def can_leave(context: bpy.types.Context) -> bool:
+    """Whether Blender finds back: it enters Edit Mode with meshes alone that are seen and selected."""
     edited = [obj for obj in bpy.data.objects if obj.mode == "EDIT"]
     return all(
         obj.type == "MESH" and obj.name in context.view_layer.objects and obj.select_get() and _visible(context, obj)

@@ -55,3 +55,13 @@ def write(run: Transaction, made: Plan) -> None:
     uv_layers.write_uv(run, made.obj, made.layer, made.uv, made.surface, made.faces)
     if made.kind is not None and made.colors is not None:
         distortion_attribute.put_on(run, made.obj, made.kind, made.colors)
+
+
+def write_several(run: Transaction, plans: list[Plan]) -> None:
+    """Do several plans for one object. The layer of the first becomes the active one."""
+    for made in plans:
+        uv_layers.write_uv(run, made.obj, made.layer, made.uv, made.surface, made.faces)
+    first = plans[0]
+    first.obj.data.uv_layers.active = first.obj.data.uv_layers[first.layer]
+    if first.kind is not None and first.colors is not None:
+        distortion_attribute.put_on(run, first.obj, first.kind, first.colors)

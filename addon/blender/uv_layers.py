@@ -34,6 +34,19 @@ def check_layer(obj: MeshObject, layer_name: str) -> None:
         )
 
 
+def check_layers(obj: MeshObject, names: list[str]) -> None:
+    """Raise TransferError unless the mesh has all these UV layers, or could get them."""
+    layers = obj.data.uv_layers
+    new, left = [name for name in names if name not in layers], MAX_UV_LAYERS - len(layers)
+    if len(new) > left:
+        raise TransferError(
+            f"{obj.name}: {len(new)} new UV layers are asked for, and there is room for {left}, as Blender allows "
+            f"{MAX_UV_LAYERS}: choose Target: Attributes, which have no limit"
+        )
+    for name in names:
+        check_layer(obj, name)
+
+
 def planned_uv(obj: MeshObject, layer_name: str, count: int, corners: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """The UVs (count, 2) of all corners once those of some of them are `uv` (m, 2): in a new layer the others are zero.
 

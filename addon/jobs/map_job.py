@@ -84,7 +84,7 @@ class Job:
         surface = self._surface(obj, selected_only)
         if not surface.selected.any():
             return
-        uv_layers.check_layer(obj, self.options.layer)
+        self._check_room(obj)
         outer = self.options.outer
         if outer == "active":
             vertex = mesh_reading.active_vertex(obj)
@@ -99,6 +99,10 @@ class Job:
 
     def _surface(self, obj: MeshObject, selected_only: bool) -> Surface:
         return mesh_reading.read_surface(obj, selected_only)
+
+    def _check_room(self, obj: MeshObject) -> None:
+        """Raise TransferError unless what is to be written has a place."""
+        uv_layers.check_layer(obj, self.options.layer)
 
     def _even_importance(self) -> None:
         """Count from the least importance there is, an object without the group having none. Raises TransferError."""

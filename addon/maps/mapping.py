@@ -55,7 +55,7 @@ def map_surfaces(
     if options.symmetry == "auto":
         for outcome in outcomes:
             for one in outcome.mapped:
-                with _failing_alone(koebe, [one]):
+                with failing_alone(koebe, [one]):
                     make_symmetric(koebe, one)
     return outcomes
 
@@ -216,7 +216,7 @@ def _map_island(
 ) -> IslandOutcome:
     arguments = options.solver_arguments()
     one = IslandOutcome(island, places=vertices)
-    with _failing_alone(koebe, [one]):
+    with failing_alone(koebe, [one]):
         check_area(island)
         if options.tube == "unroll" and _is_tube(koebe, island):
             # A concentric annulus keeps its digits however small the hole; moved off the centre it loses them.
@@ -262,7 +262,7 @@ def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
 
 
 @contextlib.contextmanager
-def _failing_alone(koebe: ModuleType, ones: Iterable[IslandOutcome]) -> Iterator[None]:
+def failing_alone(koebe: ModuleType, ones: Iterable[IslandOutcome]) -> Iterator[None]:
     """Whatever goes wrong inside is the error of these islands, and what comes after goes on."""
     try:
         yield
@@ -304,7 +304,7 @@ def _is_unrolled(one: IslandOutcome, options: Options) -> bool:
 def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> None:
     """Give the mapped tubes of a surface their shapes, if they are to be rectangles."""
     tubes = [one for one in outcome.mapped if _is_unrolled(one, options)]
-    with _failing_alone(koebe, tubes):
+    with failing_alone(koebe, tubes):
         cases = [(one.island, one.result.uv, one.result.loops, one.opening is not None) for one in tubes]
         for one, unrolled in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
             if unrolled is None:
@@ -316,7 +316,7 @@ def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> Non
                 continue
             one.sheet, one.shape = unrolled
             one.distortion = koebe.distortion(one.sheet.vertices, one.sheet.triangles, one.shape)
-            with _failing_alone(koebe, [one]):
+            with failing_alone(koebe, [one]):
                 _turn(one, options)
 
 
@@ -339,7 +339,7 @@ def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Opt
             if not (options.placement == "keep" and _keep_places(outcome))
         ]
     for group in groups:
-        with _failing_alone(koebe, [one for _, one in group]):
+        with failing_alone(koebe, [one for _, one in group]):
             _pack(group, options.margin)
 
 

@@ -21,6 +21,8 @@ HOLES = ("circles", "concentric", "radial")
 RIMS = ("auto", "selected")
 FITS = ("inside", "period", "square")
 NORMALIZATIONS = ("area", "circles")
+SEQUENCE_SOURCES = ("FRAMES", "SHAPE_KEYS")
+SEQUENCE_TARGETS = ("ATTRIBUTE", "LAYERS")
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
 MAX_LAYER_NAME_BYTES = 63
@@ -194,6 +196,38 @@ class SchottkyChoice:
     def domain(self) -> str:
         """As of a `TileChoice`."""
         return SCHOTTKY
+
+
+@dataclasses.dataclass(frozen=True)
+class SequenceChoice:
+    """Which shapes of a mesh are mapped one after the other, and what holds their UVs.
+
+    frames  of the source "FRAMES"
+    target  "ATTRIBUTE" (a vector attribute for each shape) or "LAYERS" (a UV layer for each)
+    """
+
+    source: str = "FRAMES"
+    frames: range = range(1, 2)
+    target: str = "ATTRIBUTE"
+
+    def __post_init__(self) -> None:
+        _one_of("source", self.source, SEQUENCE_SOURCES)
+        _one_of("target", self.target, SEQUENCE_TARGETS)
+        if self.source == "FRAMES" and not self.frames:
+            raise OptionError("frames: the last frame is before the first one")
+
+    def name(self, layer: str, shape: str | int) -> str:
+        """The name of what holds the UVs of one shape, which is a frame or the name of a key. Raises OptionError."""
+        number = f"{shape:04d}" if isinstance(shape, int) else shape
+        name = f"{layer}{' ' if self.target == 'LAYERS' else '_'}{number}"
+        if len(name.encode("utf-8")) > MAX_LAYER_NAME_BYTES:
+            raise OptionError(f"layer: {name!r} is longer than {MAX_LAYER_NAME_BYTES} bytes: choose a shorter name")
+        return name
+
+
+def label_of(shape: str | int) -> str:
+    """What a shape is called in messages."""
+    return f"frame {shape}" if isinstance(shape, int) else f"key {shape!r}"
 
 
 OtherDomain = TileChoice | SphereChoice | SchottkyChoice  # of maps that are to no disk

@@ -2,10 +2,12 @@
 """How an operator computes without a frozen window: on a thread, with progress, Esc and polling."""
 
 import time
+from collections.abc import Generator
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ..maps.errors import KnownError
 from ..solver.worker import Worker
 
 # What the status line calls the stages of a computation.
@@ -21,6 +23,7 @@ STAGES = {
     "pack": "packing the parts",
 }
 POLL_SECONDS = 0.05  # how often a running computation is looked at: Esc acts within this and one checkpoint
+READ_SECONDS = 0.1  # how long Blender's data is read between two looks at the keys, if one step takes no longer
 SHOW_SECONDS = 0.25  # how often its progress is shown: each time Blender puts the whole window together again
 # While a computation runs the view may be moved; everything else could change what is being mapped.
 NAVIGATION = {
@@ -50,6 +53,13 @@ class ModalRun(OperatorBase):
         """The job, or None where there is nothing to do and the user was told why."""
         raise NotImplementedError
 
+    def _reading(self, context: bpy.types.Context, job: Any) -> Generator[float, None, None] | None:
+        """What has to be read step by step, before the job computes: the share that is read, after each. Or None.
+
+        When it ends, or is closed, everything is as it was. Raises KnownError.
+        """
+        return None
+
     def _finish(self, context: bpy.types.Context, job: Any) -> set[str]:
         """Write what the job has computed."""
         raise NotImplementedError
@@ -61,6 +71,11 @@ class ModalRun(OperatorBase):
         manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
+            try:
+                for fraction in self._reading(context, job) or ():
+                    manager.progress_update(int(100 * fraction))
+            except KnownError as error:
+                return self._refuse(error)
             job.compute(lambda fraction, stage: manager.progress_update(int(100 * fraction)))
         finally:
             manager.progress_end()
@@ -73,7 +88,9 @@ class ModalRun(OperatorBase):
         if job is None:
             return {"CANCELLED"}
         self._running = job
-        self._worker = Worker(job.compute)
+        self._to_read = self._reading(context, job)
+        self._worker = None if self._to_read else Worker(job.compute)
+        self._read: float | None = None
         self._shown_at, self._shown = time.monotonic(), ""
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
@@ -86,17 +103,37 @@ class ModalRun(OperatorBase):
             self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
             return {"CANCELLED"}
         if event.type == "TIMER":
+            try:
+                self._read_some()
+            except KnownError as error:
+                self._stop_polling(context)
+                return self._refuse(error)
             self._show_progress(context)
-            if not self._worker.running:
+            if self._worker is not None and not self._worker.running:
                 return self._end(context)
         return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Give up: by Esc, or when Blender ends the operator, as when it quits."""
         self._running.cancel_token.cancel()
+        if self._to_read is not None:
+            self._to_read.close()
         self._stop_polling(context)
 
+    def _read_some(self) -> None:
+        """Read for as long as nobody minds, and compute once all is read."""
+        until = time.monotonic() + READ_SECONDS
+        while self._to_read is not None and time.monotonic() < until:
+            self._read = next(self._to_read, None)
+            if self._read is None:
+                self._to_read, self._worker = None, Worker(self._running.compute)
+
+    def _refuse(self, error: KnownError) -> set[str]:
+        self.report({"ERROR"}, f"Koebe UV: {error}")
+        return {"CANCELLED"}
+
     def _end(self, context: bpy.types.Context) -> set[str]:
+        assert self._worker is not None
         self._stop_polling(context)
         self._worker.result()
         return self._finish(context, self._running)
@@ -106,8 +143,12 @@ class ModalRun(OperatorBase):
         context.workspace.status_text_set(None)
 
     def _show_progress(self, context: bpy.types.Context) -> None:
-        stage = STAGES.get(self._worker.stage, self._worker.stage)
-        text = f"Koebe UV: {100 * self._worker.fraction:.0f} % done, {stage}      Esc: Cancel"
+        if self._worker is None:
+            done = f"{100 * (self._read or 0.0):.0f} % read"
+        else:
+            stage = STAGES.get(self._worker.stage, self._worker.stage)
+            done = f"{100 * self._worker.fraction:.0f} % done, {stage}"
+        text = f"Koebe UV: {done}      Esc: Cancel"
         now = time.monotonic()
         if text != self._shown and now >= self._shown_at + SHOW_SECONDS:
             context.workspace.status_text_set(text)

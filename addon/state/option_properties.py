@@ -8,6 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..maps.options import CHOICES, Options, OtherDomain, SchottkyChoice, SphereChoice, TileChoice
+from . import sequence_properties
 
 DEFAULTS = Options()
 DEFAULT_TILE = TileChoice()
@@ -343,6 +344,31 @@ class RingProperties(TorusProperties):
     rims: RIMS
 
 
+class SequenceProperties:
+    """What the artist can choose of a sequence."""
+
+    source: sequence_properties.SOURCE
+    frame_start: sequence_properties.FRAME_START
+    frame_end: sequence_properties.FRAME_END
+    frame_step: sequence_properties.FRAME_STEP
+    target: sequence_properties.TARGET
+    layer: option("layer")
+    cut: option("cut")
+    outer: option("outer")
+    center: option("center")
+    point: option("point")
+    balance: option("balance")
+    importance: option("importance")
+    upright: option("upright")
+    polish: option("polish")
+    margin: option("margin")
+    method: option("method")
+    tolerance: option("tolerance")
+    max_sweeps: option("max_sweeps")
+
+
+SEQUENCE_OPTION_NAMES = tuple(SequenceProperties.__annotations__)
+SEQUENCE_MAP_NAMES = tuple(name for name in SEQUENCE_OPTION_NAMES if name in OPTION_NAMES)
 TORUS_OPTION_NAMES = (*TorusProperties.__annotations__, *DomainProperties.__annotations__)
 RING_OPTION_NAMES = (*RingProperties.__annotations__, *TORUS_OPTION_NAMES)
 SPHERE_OPTION_NAMES = (*SphereProperties.__annotations__, *DomainProperties.__annotations__)
@@ -370,13 +396,23 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     layout: LAYOUT
     add_sphere: ADD_SPHERE
     normalization: NORMALIZATION
+    source: sequence_properties.SOURCE
+    scene_range: sequence_properties.SCENE_RANGE
+    frame_start: sequence_properties.FRAME_START
+    frame_end: sequence_properties.FRAME_END
+    frame_step: sequence_properties.FRAME_STEP
+    target: sequence_properties.TARGET
 
 
+SEQUENCE_SETTINGS = ("source", "scene_range", "frame_start", "frame_end", "frame_step", "target")
 SETTING_NAMES = tuple(
     dict.fromkeys(
-        (*OPTION_NAMES, *PART_OPTION_NAMES, *RING_OPTION_NAMES, *SPHERE_OPTION_NAMES, *SCHOTTKY_OPTION_NAMES)
+        (
+            *OPTION_NAMES, *PART_OPTION_NAMES, *RING_OPTION_NAMES, *SPHERE_OPTION_NAMES, *SCHOTTKY_OPTION_NAMES,
+            *SEQUENCE_SETTINGS,
+        )
     )
-)
+)  # fmt: skip
 
 
 def settings_of(context: bpy.types.Context) -> KoebeSettings:
@@ -400,6 +436,19 @@ def copy_domain_options(source: Any, target: Any, domain: str) -> None:
     """Set the options of the operator of a domain from the settings."""
     for name in domain_option_names(domain):
         setattr(target, name, getattr(source, name))
+
+
+def copy_sequence_options(source: Any, target: Any) -> None:
+    """Set the options of the operator that maps a sequence from the settings."""
+    for name in SEQUENCE_OPTION_NAMES:
+        if name not in sequence_properties.RANGE_NAMES or not source.scene_range:
+            setattr(target, name, getattr(source, name))
+
+
+def sequence_options_of(properties: Any) -> Options:
+    """The `Options` of the operator that maps a sequence. Raises OptionError."""
+    values = {name: getattr(properties, name) for name in SEQUENCE_MAP_NAMES}
+    return Options(**values, placement="pack", checker=False)
 
 
 def domain_choice_of(domain: str, properties: Any) -> OtherDomain:

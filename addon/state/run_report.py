@@ -27,10 +27,11 @@ from ..maps.handles import SchottkyIsland, SchottkyOutcome
 from ..maps.offending_elements import offending_elements
 from ..maps.outcomes import IslandOutcome, SurfaceOutcome
 from ..maps.parts import PartsOutcome
+from ..maps.sequence import SequenceOutcome
 from ..maps.spheres import SphereIsland, SphereOutcome
 from ..maps.surface import Island
 from ..maps.tiles import TileIsland, TileOutcome, modulus_text, periods_text
-from ..maps.wording import cut_line, explain, notes, too_uneven, warnings
+from ..maps.wording import cut_line, explain, failure_line, notes, too_uneven, warnings
 
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
@@ -47,6 +48,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     """An island of the last run."""
 
     object_name: StringProperty(description="Name of the object whose island this is")
+    shape: StringProperty(description="Of a sequence: the frame or the shape key, else empty")
     island: IntProperty(description="Number of the island among those of its object")
     mapped: BoolProperty(description="Whether the island has UVs now")
     converged: BoolProperty(description="Whether the tolerance was reached")
@@ -153,6 +155,27 @@ def _new_report(
         _record_failure(report, name, text)
     # What has to be looked at comes first.
     report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
+
+
+def record_sequences(
+    run: Transaction, context: bpy.types.Context, sequences: list[tuple[SequenceOutcome, list[str]]]
+) -> None:
+    """Replace the report by the sequences of objects, each with the UV layers of its shapes, empty where they are none.
+
+    There is an entry for each shape and island.
+    """
+    with _new_report(run, context, []) as report:
+        for outcome, layers in sequences:
+            if not outcome.mapped:
+                _record_failure(report, outcome.task.name, failure_line(outcome))
+                continue
+            said = outcome.figures()
+            for label, layer, made in zip(outcome.labels, layers, outcome.maps, strict=True):
+                start = len(report.islands)
+                _record_maps(report, [made], layer)
+                for entry in report.islands[start:]:
+                    entry.object_name, entry.shape = outcome.task.name, label
+                    entry.note = "; ".join(filter(None, [said, entry.note]))
 
 
 def record_parts(

@@ -7,9 +7,16 @@ from ..operators.domains import OPERATORS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.parts import UV_OT_koebe_parts
+from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import copy_domain_options, copy_options, copy_part_options, settings_of
+from ..state.option_properties import (
+    copy_domain_options,
+    copy_options,
+    copy_part_options,
+    copy_sequence_options,
+    settings_of,
+)
 
 
 def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -21,6 +28,7 @@ def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     copy_part_options(settings_of(context), layout.operator(UV_OT_koebe_parts.bl_idname))
     for domain, operator in OPERATORS.items():
         copy_domain_options(settings_of(context), layout.operator(operator.bl_idname), domain)
+    copy_sequence_options(settings_of(context), layout.operator(UV_OT_koebe_sequence.bl_idname))
     layout.operator(UV_OT_koebe_symmetrize.bl_idname)
 
 

@@ -9,8 +9,10 @@ from ..blender.targets import target_objects
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.run_operator import draw_option, is_used
+from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
-from ..state.option_properties import ACCURACY_NAMES, KoebeSettings, settings_of
+from ..state.option_properties import ACCURACY_NAMES, KoebeSettings, copy_sequence_options, settings_of
+from ..state.sequence_properties import RANGE_NAMES
 from .panel_parts import KoebePanel, draw_domain_button
 
 
@@ -81,6 +83,24 @@ class DomainsPanel(ClosedPanel):
             draw_option(column, settings, name, context)
         draw_domain_button(column, settings, "schottky")
         draw_option(column, settings, "normalization", context)
+
+
+class SequencePanel(ClosedPanel):
+    """Maps of an animation or of shape keys, and which they are."""
+
+    bl_label = "Sequence"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = self.aligned_layout().column(), settings_of(context)
+        draw_option(column, settings, "source", context)
+        if settings.source == "FRAMES":
+            column.prop(settings, "scene_range")
+        if settings.source == "FRAMES" and not settings.scene_range:
+            for name in RANGE_NAMES:
+                column.prop(settings, name)
+        draw_option(column, settings, "target", context)
+        button = column.operator(UV_OT_koebe_sequence.bl_idname, text="Unwrap Sequence", icon="RENDER_ANIMATION")
+        copy_sequence_options(settings, button)
 
 
 class LayerPanel(ClosedPanel):

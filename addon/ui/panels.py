@@ -12,7 +12,7 @@ from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import KoebeSettings, copy_options, settings_of
 from ..state.run_report import report_of
 from .circle_tool import CIRCLES_TOOL
-from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, ToolsPanel
+from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
 from .panel_parts import KoebePanel, draw_parts_button
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import KOEBE_UL_islands, ReportPanel
@@ -94,6 +94,7 @@ CHILDREN = {
     "disk": DiskPanel,
     "parts": PartsPanel,
     "domains": DomainsPanel,
+    "sequence": SequencePanel,
     "layer": LayerPanel,
     "accuracy": AccuracyPanel,
     "tools": ToolsPanel,

@@ -40,7 +40,7 @@ class KOEBE_UL_islands(bpy.types.UIList):
     ) -> None:
         """The name has most of the room, as that tells the islands apart; the icon tells what was not mapped."""
         split = layout.split(factor=0.66 if item.mapped else 1.0)
-        split.label(text=f"{item.object_name} {item.island + 1}", icon=island_icon(item))
+        split.label(text=f"{item.shape or item.object_name} {item.island + 1}", icon=island_icon(item))
         if item.mapped:
             split.label(text=f"{item.flipped} flips" if item.flipped else f"{item.angle_error:.2f}°")
 
@@ -68,6 +68,7 @@ class ReportPanel(KoebePanel):
         if entry is None:
             return
         which = "" if entry.parts else f", island {entry.island + 1}"
+        which = f", {entry.shape}{which}" if entry.shape else which
         layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
         if entry.uneven:
             draw_message(layout, UNEVEN)
@@ -152,7 +153,7 @@ def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: Ko
 
 def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """The offer to unroll a long tube."""
-    if entry.domain or len(entry.loops) != 2:
+    if entry.domain or entry.shape or len(entry.loops) != 2:
         return
     if entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
         button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")

@@ -220,6 +220,12 @@ class RandomRun:
             }[name]  # fmt: skip
             return {"layer": layer, "checker": one([True, False]), "checker_even": one([True, False]),
                     "checker_size": one([8.0, 32.0]), "max_sweeps": one([1, 50]), **own}  # fmt: skip
+        if name == "uv.koebe_sequence":
+            start = int(self._random.integers(5))
+            return {"layer": layer, "source": one(["FRAMES", "SHAPE_KEYS"]), "target": one(["LAYERS", "ATTRIBUTE"]),
+                    "frame_start": start, "frame_end": start + int(self._random.integers(4)), "frame_step": 1,
+                    "max_sweeps": one([1, 50]), "cut": one([True, True, False]), "upright": one([True, False]),
+                    "balance": one(["none", "area"]), "outer": one(["auto", "auto", "longest", "active"])}  # fmt: skip
         if name == "uv.koebe_checker":
             return {"layer": layer, "checker_even": one([True, False])}
         if name == "uv.koebe_distortion":
@@ -239,6 +245,7 @@ class RandomRun:
         name = self._one([
             "uv.koebe_uniformize", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_checker",
             "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_sphere", "uv.koebe_schottky",
+            "uv.koebe_sequence", "uv.koebe_sequence",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",

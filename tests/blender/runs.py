@@ -152,6 +152,26 @@ def symmetric_in_edit_mode():
     bpy.ops.object.mode_set(mode="EDIT")
 
 
+def moving():
+    """Keys, of which one moves, and a wave, in a file that is in another frame than those to be mapped."""
+    states.new_file()
+    obj = states.keyed()
+    block = obj.data.shape_keys.key_blocks["Up"]
+    for frame, value in ((1, 0.0), (5, 1.0)):
+        block.value = value
+        block.keyframe_insert("value", frame=frame)
+    obj.modifiers.new("Wave", "WAVE").height = 0.1
+    bpy.context.scene.frame_set(7)
+    states.consistent([obj])
+    scenes.select(obj)
+
+
+def moving_in_edit_mode():
+    """The same in Edit Mode, with some faces selected."""
+    moving()
+    scenes.select_faces(bpy.context.object, range(60))
+
+
 RUNS = {
     "uniformize": (states.many, "uv.koebe_uniformize", {}),
     "uniformize what is worn": (states.worn, "uv.koebe_uniformize", {"checker_size": 5.0, "checker_even": False}),
@@ -178,6 +198,10 @@ RUNS = {
     "handles": (tori, "uv.koebe_schottky", {}),
     "handles of what is worn": (mapped_tori, "uv.koebe_schottky", {"normalization": "circles", "checker_size": 16.0}),
     "handles in Edit Mode": (tori_in_edit_mode, "uv.koebe_schottky", {"checker": False}),
+    "sequence of frames": (moving, "uv.koebe_sequence", {"frame_end": 3}),
+    "sequence of frames in Edit Mode": (moving_in_edit_mode, "uv.koebe_sequence", {"frame_end": 3, "target": "LAYERS"}),
+    "sequence of keys": (moving, "uv.koebe_sequence", {"source": "SHAPE_KEYS", "target": "LAYERS"}),
+    "sequence of keys in Edit Mode": (moving_in_edit_mode, "uv.koebe_sequence", {"source": "SHAPE_KEYS"}),
     "checker on tiles": (bare_tori, "uv.koebe_checker", {}),
     "checker off tiles": (mapped_tori, "uv.koebe_checker", {}),
     "checker on": (states.many, "uv.koebe_checker", {}),

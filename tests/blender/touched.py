@@ -26,7 +26,7 @@ class Touched:
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
         selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky")
-        if self._name not in (*selecting, "uv.koebe_parts"):
+        if self._name not in (*selecting, "uv.koebe_parts", "uv.koebe_sequence"):
             return False
         return key == "file: report" or (self._name in selecting and self._selects(owner, what))
 
@@ -80,6 +80,11 @@ class Touched:
     def _parts(self, owner, what):
         seams = owner in self._meshes and self._options.get("write_seams") and what in SEAMS
         return seams or (self._uniformize(owner, what) and not self._selects(owner, what))
+
+    def _sequence(self, owner, what):
+        """A layer or an attribute for each shape."""
+        report = (owner, what) == ("file", "report") or self._selects(owner, what)
+        return report or (owner in self._meshes and (what == "uv layers" or self._layer in what))
 
     def _checker(self, owner, what):
         return self._dresses(owner, what)

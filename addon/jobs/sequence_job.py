@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One run on Blender objects that maps their shapes one after the other: read, compute, write."""
+
+import dataclasses
+from collections.abc import Generator
+from typing import Any
+
+import bpy
+
+from ..blender import edit_mode, map_writing, shapes, uv_layers, vector_attribute
+from ..blender.errors import TransferError
+from ..blender.mesh_object import MeshObject
+from ..blender.targets import Target
+from ..blender.transaction import Transaction
+from ..maps import json_report
+from ..maps.options import OptionError, Options, SequenceChoice
+from ..maps.outcomes import LATER, Progress, Task, share_of
+from ..maps.sequence import SequenceOutcome, map_sequence, point_values
+from .map_job import Job
+
+
+class SequenceJob(Job):
+    """Reads and writes as `Job` does, and has sequences for outcomes. `read_shapes` comes before `compute`."""
+
+    def __init__(
+        self,
+        objects: list[MeshObject],
+        options: Options,
+        choice: SequenceChoice,
+        selected_only: bool = False,
+        refused: list[tuple[str, str]] | None = None,
+    ) -> None:
+        """Read the objects, not yet their shapes. Raises as `Job`, and OptionError."""
+        self.choice = choice
+        self.names: dict[str, list[str]] = {}  # by object: what holds the UVs of each shape
+        self.shapes: dict[str, list[shapes.MeshShape]] = {}
+        super().__init__(objects, options, selected_only, refused)
+        self.outcomes: list[SequenceOutcome] = LATER  # type: ignore[assignment]
+
+    def _check_room(self, obj: MeshObject) -> None:
+        wanted = [*self.choice.frames] if self.choice.source == "FRAMES" else shapes.key_names(obj)
+        try:
+            names = [self.choice.name(self.options.layer, shape) for shape in wanted]
+        except OptionError as error:
+            raise TransferError(f"{obj.name}: {error}") from None
+        if self.choice.source == "FRAMES":
+            shapes.check_frames(bpy.context, obj)
+        if self._needs_object_mode() and obj.mode == "EDIT" and not edit_mode.can_leave(bpy.context):
+            raise TransferError(
+                f"{obj.name}: this is done in Object Mode, and Blender would not find back to Edit Mode with objects "
+                "that are hidden or not selected: leave Edit Mode first"
+            )
+        if self.choice.target == "LAYERS":
+            uv_layers.check_layers(obj, names)
+        for name in names if self.choice.target == "ATTRIBUTE" else ():
+            vector_attribute.check(obj, name)
+        self.names[obj.name] = names
+        if self.choice.source == "SHAPE_KEYS":
+            self.shapes[obj.name] = shapes.key_shapes(obj, shapes.key_names(obj))
+
+    def _needs_object_mode(self) -> bool:
+        return self.choice.source == "FRAMES" or self.choice.target == "ATTRIBUTE"
+
+    def read_shapes(self, context: bpy.types.Context) -> Generator[float, None, None]:
+        """Read the shapes of all objects, step by step, with the share that is read. Raises TransferError."""
+        if self.choice.source != "FRAMES":
+            return
+        steps = len(self.choice.frames) * len(self.targets)
+        for number, (target, task) in enumerate(zip(self.targets, self.tasks, strict=True)):
+            read = self.shapes[target.name] = []
+            for shape in shapes.frame_shapes(context, target.find(), task.surface, self.choice.frames):
+                read.append(shape)
+                yield (number * len(self.choice.frames) + len(read)) / steps
+
+    def compute(self, progress: Progress | None = None) -> None:
+        """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
+        outcomes, done = [], 0
+        sizes = [len(self.shapes[task.name]) * len(task.surface.triangle_face) for task in self.tasks]
+        for task, size in zip(self.tasks, sizes, strict=True):
+            part = share_of(progress, done, size, sum(sizes))
+            found = self.shapes[task.name]
+            outcomes.append(
+                map_sequence(self.koebe, _begun(task, found[0]), found, self.options, part, self.cancel_token)
+            )
+            done += size
+        self.outcomes = outcomes
+
+    def written(self, outcome: SequenceOutcome) -> list[str]:
+        """The UV layer of each shape, or nothing where it is none."""
+        names = self.names[outcome.task.name]
+        return names if self.choice.target == "LAYERS" else [""] * len(names)
+
+    def line(self, outcome: SequenceOutcome) -> str:
+        """One line on an object."""
+        return outcome.line()
+
+    def entries(self, outcome: SequenceOutcome) -> list[dict[str, Any]]:
+        """One entry of the JSON report per shape and island; `shape` and `written` tell which, and where it is."""
+        if outcome.broken is not None:
+            return [{**one, "object": outcome.task.name} for one in json_report.entries(outcome.broken)]
+        return [
+            {**one, "object": outcome.task.name, "shape": label, "written": name}
+            for label, name, made in zip(outcome.labels, self.names[outcome.task.name], outcome.maps, strict=True)
+            for one in json_report.entries(made)
+        ]
+
+    def _plan(self, target: Target, outcome: SequenceOutcome) -> Any:
+        names, maps = self.names[outcome.task.name], outcome.maps
+        uvs = [made.corner_uv() for made in maps]
+        if self.choice.target == "LAYERS":
+            uv_layers.check_layers(target.find(), names)
+            return [
+                map_writing.plan(target, name, made.task.surface, *uv)
+                for name, made, uv in zip(names, maps, uvs, strict=True)
+            ]
+        surface, obj = outcome.task.surface, target.find()
+        points = [point_values(surface, *uv) for uv in uvs]
+        cut = any(values is None for values in points)  # then all of them are of the corners
+        return obj, [
+            vector_attribute.Vectors(name, "CORNER", *uv) if cut or values is None
+            else vector_attribute.Vectors(name, "POINT", *values)
+            for name, uv, values in zip(names, uvs, points, strict=True)
+        ]  # fmt: skip
+
+    def _write_one(self, run: Transaction, outcome: Any, plan: Any, material: Any) -> None:
+        if self.choice.target == "LAYERS":
+            map_writing.write_several(run, plan)
+            return
+        obj, vectors = plan
+        if obj.mode == "EDIT":
+            raise TransferError(f"{obj.name}: Edit Mode was not left")
+        for one in vectors:
+            vector_attribute.write(run, obj, one)
+
+
+def _begun(task: Task, first: shapes.MeshShape) -> Task:
+    """The task with the triangles of the first shape."""
+    surface = dataclasses.replace(task.surface, positions=first.positions)
+    if first.triangle_corners is not None:
+        surface = dataclasses.replace(surface, triangle_corners=first.triangle_corners)
+    return dataclasses.replace(task, surface=surface)

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The maps of one surface in several shapes, each laid over the first: frames of an animation, shape keys."""
+
+import dataclasses
+from collections.abc import Sequence
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from .errors import MapError
+from .mapping import check_area, failing_alone, map_surfaces
+from .options import Options
+from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task, share_of
+from .surface import Surface
+from .wording import counted, warnings
+
+if TYPE_CHECKING:
+    import koebe
+
+NAMED = 6  # shapes in one message
+
+
+class Shape(Protocol):
+    """A shape of a surface.
+
+    positions  (V, 3), as of a `Surface`
+    """
+
+    @property
+    def label(self) -> str: ...
+    @property
+    def positions(self) -> np.ndarray: ...
+
+
+@dataclasses.dataclass
+class SequenceOutcome:
+    """What became of a surface in its shapes: a map of each, or nothing and the one that has none.
+
+    labels  of the shapes
+    maps    in the order of the shapes; the names of their tasks name the shapes
+    broken  the shape that could not be mapped
+    """
+
+    task: Task
+    labels: list[str]
+    maps: list[SurfaceOutcome]
+    broken: SurfaceOutcome | None = None
+    not_written: str | None = None
+    remarks: list[str] = dataclasses.field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """Name of the surface's object, and of the shape at fault."""
+        return self.task.name if self.broken is None else self.broken.name
+
+    @property
+    def mapped(self) -> list[SurfaceOutcome]:
+        """The maps that can be written, or were: all or none."""
+        return [] if self.broken is not None or self.not_written else self.maps
+
+    @property
+    def islands(self) -> list[IslandOutcome]:
+        """The islands of the shape at fault."""
+        return [] if self.broken is None else self.broken.islands
+
+    @property
+    def failed(self) -> list[IslandOutcome]:
+        """Those of them that have no map."""
+        return [] if self.broken is None else self.broken.failed
+
+    @property
+    def converged(self) -> bool:
+        """Whether every map reached the tolerance."""
+        return all(one.converged for one in self.mapped)
+
+    def line(self) -> str:
+        """One line on all maps."""
+        seconds = sum(one.result.seconds["total"] for made in self.maps for one in made.mapped)
+        return f"{self.task.name}: {self.figures()}, {seconds:.2f} s"
+
+    def figures(self) -> str:
+        """What came out, over all maps."""
+        results = [one.result for made in self.maps for one in made.mapped]
+        sweeps, angles = [result.sweeps for result in results], [mean_angle_error(made) for made in self.maps]
+        words = [
+            counted(len(self.maps), "shape"),
+            counted(sum(len(one.result.loops) for one in self.maps[0].mapped), "loop"),
+            f"{_from_to(min(sweeps), max(sweeps))} {'sweep' if max(sweeps) == 1 else 'sweeps'}",
+            f"angle error {min(angles):.2f}° to {max(angles):.2f}°, mean {sum(angles) / len(angles):.2f}°",
+            counted(sum(len(one.flipped) for made in self.maps for one in made.mapped), "flip"),
+        ]
+        late = [label for label, made in zip(self.labels, self.maps, strict=True) if not made.converged]
+        if late:
+            words.append(f"NOT CONVERGED: {named(late)}")
+        return ", ".join(words)
+
+    def warnings(self) -> list[str]:
+        """What to watch out for, each said once, with the shapes that it holds for unless these are all."""
+        found: dict[str, list[str]] = {}
+        for label, made in zip(self.labels, self.maps, strict=True):
+            for text in {warning["text"]: None for one in made.mapped for warning in warnings(made.task, one)}:
+                found.setdefault(text, []).append(label)
+        return [
+            text if len(labels) == len(self.labels) else f"{text} ({named(labels)})" for text, labels in found.items()
+        ]
+
+
+def mean_angle_error(made: SurfaceOutcome) -> float:
+    """Mean angle error of the islands of a shape, in degrees."""
+    sizes = [len(one.island.triangles) for one in made.mapped]
+    return sum(one.angle_error * size for one, size in zip(made.mapped, sizes, strict=True)) / sum(sizes)
+
+
+def named(labels: Sequence[str]) -> str:
+    """The first of the shapes, and how many more there are."""
+    more = [f"{len(labels) - NAMED} more"] if len(labels) > NAMED else []
+    return ", ".join([*labels[:NAMED], *more])
+
+
+def _from_to(least: int, most: int) -> str:
+    return f"{least}" if least == most else f"{least} to {most}"
+
+
+def map_sequence(
+    koebe: ModuleType, task: Task, shapes: Sequence[Shape], options: Options, progress: Progress | None, cancel: Any
+) -> SequenceOutcome:
+    """Map the task's surface, which has the first shape, as `map_surfaces` does, and then the other shapes over it.
+
+    What a map leaves open, the outer loop, the cuts, the turn and the place in the UVs, is as in the first one. It ends
+    with the first shape that has no map. Raises `koebe.Cancelled`.
+    """
+    kept = _Kept(koebe)
+    outcome = SequenceOutcome(task, [shape.label for shape in shapes], [])
+    for number, shape in enumerate(shapes):
+        of_shape = _of_shape(task, shape)
+        part = share_of(progress, number, 1, len(shapes))
+        if number == 0:
+            (made,) = map_surfaces(kept, [of_shape], options, _saying(part, shape), cancel)  # type: ignore[arg-type]
+        else:
+            made = _next_map(kept, outcome.maps[0], of_shape, _saying(part, shape), cancel)
+        if made.failed or not made.islands:
+            outcome.broken = made
+            break
+        outcome.maps.append(made)
+    return outcome
+
+
+class _Kept:
+    """The native package, except that its maps leave behind the surfaces that they are of, to be mapped again."""
+
+    def __init__(self, koebe: ModuleType) -> None:
+        self._koebe = koebe
+        self._surfaces: dict[int, tuple[Any, Any]] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._koebe, name)
+
+    def uniformize(
+        self, vertices: np.ndarray, triangles: np.ndarray, *, progress: Any, cancel: Any, engine: str, **options: Any
+    ) -> "koebe.UniformizeResult":
+        """As that of the package, of its condensed engine, which alone can map again."""
+        surface = self._koebe.Surface(vertices, triangles, **options)
+        result = surface.uniformize(progress=progress, cancel=cancel)
+        self._surfaces[id(result)] = result, surface  # the result too: no other can have its number then
+        return result
+
+    def surface_of(self, result: "koebe.UniformizeResult") -> "koebe.Surface":
+        """The surface that a result is of."""
+        return self._surfaces[id(result)][1]
+
+
+def _of_shape(task: Task, shape: Shape) -> Task:
+    surface: Surface = dataclasses.replace(task.surface, positions=shape.positions)
+    return dataclasses.replace(task, name=f"{task.name}, {shape.label}", surface=surface)
+
+
+def _saying(progress: Progress | None, shape: Shape) -> Progress | None:
+    """Progress whose stage is the shape."""
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress(fraction, f"mapping {shape.label}")
+
+
+def _next_map(kept: _Kept, first: SurfaceOutcome, task: Task, progress: Progress | None, cancel: Any) -> SurfaceOutcome:
+    """The map of another shape, laid over the first."""
+    ones, done = [], 0
+    total = sum(len(one.island.triangles) for one in first.islands)
+    for old in first.islands:
+        vertices = np.ascontiguousarray(task.surface.positions[old.island.source_vertex])
+        island = dataclasses.replace(old.island, vertices=vertices)
+        one = IslandOutcome(
+            island, sheet=island, places=old.places, opening=old.opening, turn=old.turn, placement=old.placement
+        )
+        size = len(island.triangles)
+        with failing_alone(kept, [one]):  # type: ignore[arg-type]
+            check_area(island)
+            one.result = kept.surface_of(old.result).uniformize(
+                vertices, progress=share_of(progress, done, size, total), cancel=cancel
+            )
+            one.shape = one.result.uv
+            if not np.isfinite(one.uv).all():  # worked out here, on this thread
+                raise MapError("its UVs are not finite")
+        ones.append(one)
+        done += size
+    return SurfaceOutcome(task, ones)
+
+
+def point_values(surface: Surface, corners: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Vertices (k,) and their UVs (k, 2), given those (m, 2) of corners (m,); None where corners of a vertex differ."""
+    vertex = surface.corner_vertex[corners]
+    values = np.zeros((len(surface.positions), 2), dtype=uv.dtype)
+    values[vertex] = uv
+    if not np.array_equal(values[vertex], uv):
+        return None
+    found = np.unique(vertex)
+    return found, values[found]

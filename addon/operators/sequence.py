@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that maps the shapes of a mesh: frames of its animation, or its shape keys."""
+
+from collections.abc import Generator
+
+import bpy
+
+from ..blender import edit_mode
+from ..blender.targets import target_objects
+from ..blender.transaction import transaction
+from ..jobs.sequence_job import SequenceJob
+from ..maps import wording
+from ..maps.options import SequenceChoice
+from ..state import run_report
+from ..state.option_properties import ACCURACY_NAMES, SEQUENCE_OPTION_NAMES, SequenceProperties, sequence_options_of
+from ..state.sequence_properties import RANGE_NAMES
+from .modal_run import redraw
+from .run_operator import MapOperator
+from .tooltip import tooltip
+
+
+class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
+    """Uniformize the active object in each frame of its animation, or each of its shape keys, all laid over the first,
+    so that a texture stays in its place. Modifiers may move vertices, but make no other faces"""
+
+    bl_idname = "uv.koebe_sequence"
+    bl_label = "Koebe Unwrap Sequence"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
+    options_shown = tuple(sorted(SEQUENCE_OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not super().poll(context):
+            return False
+        if context.active_object not in target_objects(context):
+            cls.poll_message_set("Select the active object: it is the one whose shapes are mapped")
+            return False
+        return True
+
+    def _new_job(self, context: bpy.types.Context, selected_only: bool) -> SequenceJob:
+        for name in RANGE_NAMES:
+            if not self.properties.is_property_set(name):
+                setattr(self, name, getattr(context.scene, name))
+        frames = range(self.frame_start, self.frame_end + 1, self.frame_step)
+        choice = SequenceChoice(self.source, frames, self.target)
+        return SequenceJob(target_objects(context)[:1], sequence_options_of(self), choice, selected_only)
+
+    def _reading(self, context: bpy.types.Context, job: SequenceJob) -> Generator[float, None, None]:
+        return job.read_shapes(context)
+
+    def _finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
+        """Write what was computed, all of it or nothing, and say what became of it."""
+        with transaction() as run:
+            in_object_mode = job.choice.target == "ATTRIBUTE"
+            back = edit_mode.leave(run, context) if in_object_mode else None
+            with edit_mode.left_if_faster(run, context):
+                job.write(run)
+            if back is not None:
+                back()
+            run_report.record_sequences(run, context, [(outcome, job.written(outcome)) for outcome in job.outcomes])
+            redraw(context)
+            edit_mode.undo_all(context)
+            return self._say(job)
+
+    def _say(self, job: SequenceJob) -> set[str]:
+        failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
+        results: list[tuple[str, bool, list[str], list[str]]] = []
+        for outcome in job.outcomes:
+            if outcome.mapped:
+                warnings = [f"{outcome.name}: {text}" for text in [*outcome.warnings(), *outcome.remarks]]
+                results.append((outcome.line(), outcome.converged, [], warnings))
+        return self._tell(job, failures, results)
+
+
+register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_sequence,))
