@@ -73,6 +73,7 @@ from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, lea
 from koebe_uv_batch.jobs import native_package  # noqa: E402
 from koebe_uv_batch.jobs.domain_job import SchottkyJob, SphereJob  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
+from koebe_uv_batch.jobs.sequence_job import SequenceJob  # noqa: E402
 from koebe_uv_batch.jobs.tile_job import TileJob  # noqa: E402
 from koebe_uv_batch.maps import wording  # noqa: E402
 from koebe_uv_batch.maps.options import SchottkyChoice, SphereChoice  # noqa: E402
@@ -212,6 +213,7 @@ def map_objects(request: Request) -> Job:
         check_vertices(job)
         if request.options.placement == "keep":
             job.read_old_uv()
+        read_shapes(job)
         compute(job)
         if exit_code(job) != UNMAPPABLE:
             try:
@@ -220,6 +222,17 @@ def map_objects(request: Request) -> Job:
                 raise Stop(UNMAPPABLE, error, "TransferError") from error
     SIGNALS.obey()
     return job
+
+
+def read_shapes(job: Job) -> None:
+    """Read the frames of a sequence."""
+    if not isinstance(job, SequenceJob):
+        return
+    try:
+        for _ in job.read_shapes(bpy.context):
+            SIGNALS.obey()
+    except TransferError as error:
+        raise Stop(UNMAPPABLE, error, "TransferError") from error
 
 
 def new_job(objects: list[MeshObject], request: Request) -> Job:
@@ -237,6 +250,8 @@ def new_job(objects: list[MeshObject], request: Request) -> Job:
 
 def job_of(objects: list[MeshObject], request: Request) -> Job:
     """A job on all the objects. Raises NativeError and TransferError."""
+    if request.sequence is not None:
+        return SequenceJob(objects, request.options, request.sequence)
     if request.domain is None:
         return Job(objects, request.options)
     if isinstance(request.domain, SphereChoice):

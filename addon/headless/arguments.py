@@ -10,10 +10,12 @@ from ..maps import options
 from .exit_and_signals import USAGE, Stop
 
 LARGEST = 2**31 - 1  # of the native module's whole numbers
+LARGEST_FRAME = 2**20 - 1  # that Blender has
 CHECKER_SIZES = (1e-3, 1e6)  # squares across the UV square that a 32-bit texture coordinate can tell apart
 DISK = "disk"
 OF_DOMAINS = ("domain", "holes", "fit", "layout", "normalization")
 OF_ALL = {"tolerance", "max_sweeps", "layer", "checker", "checker_size", "checker_even", "threads"}  # of every domain
+NOT_OF_SEQUENCES = ("domain", "engine", "tube", "symmetry", "placement", "checker_size", "checker_even")
 IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
 WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
 
@@ -30,7 +32,8 @@ class Library:
 class Request:
     """What to do: files as they were given, names of objects or None for all, and the options of the map.
 
-    domain  of a map that is to no disk, else None
+    domain    of a map that is to no disk, else None
+    sequence  of maps of frames or shape keys, else None
     """
 
     sources: list[str]
@@ -39,6 +42,7 @@ class Request:
     names: list[str] | None
     options: options.Options
     domain: options.OtherDomain | None
+    sequence: options.SequenceChoice | None
     library: Library
     ends_with_input: bool
 
@@ -80,6 +84,14 @@ def parse(arguments: list[str]) -> Request:
     parser.add_argument("--fit", choices=options.FITS, help="of --domain torus and ring")
     parser.add_argument("--layout", choices=options.LAYOUTS, help="of --domain sphere")
     parser.add_argument("--normalization", choices=options.NORMALIZATIONS, help="of --domain schottky")
+    parser.add_argument(
+        "--sequence", choices=options.SEQUENCE_SOURCES, help="a map of each frame or shape key, laid over the first"
+    )
+    parser.add_argument("--frames", metavar="A:B[:STEP]", help="of --sequence FRAMES; default: the scene's")
+    parser.add_argument(
+        "--sequence-target", choices=[target.lower() for target in options.SEQUENCE_TARGETS],
+        help="what holds the UVs of each shape; default: attribute, a vector attribute",
+    )  # fmt: skip
     parser.add_argument("--method", choices=options.METHODS, default=default.method)
     parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
     parser.add_argument(
@@ -113,6 +125,9 @@ def parse(arguments: list[str]) -> Request:
     each = _words({name: value for name, value in values.items() if value != parser.get_default(name)})
     names = values.pop("objects")
     given = {name for name, value in values.items() if value != parser.get_default(name)}
+    sequence = _sequence_choice({name: values.pop(name) for name in ("sequence", "frames", "sequence_target")}, given)
+    if sequence is not None:
+        values["checker"] = False
     domain = _domain_choice({name: values.pop(name) for name in OF_DOMAINS}, values, given)
     if values["center"] is not None and values["balance"] == "area":
         raise Stop(USAGE, "--center excludes --balance area: both choose the centre of the disk")
@@ -124,9 +139,38 @@ def parse(arguments: list[str]) -> Request:
     except (options.OptionError, UnicodeError) as error:
         raise Stop(USAGE, error) from None
     return Request(
-        **files, names=None if names is None else _split(names), options=chosen, domain=domain,
+        **files, names=None if names is None else _split(names), options=chosen, domain=domain, sequence=sequence,
         library=Library(batch, each), ends_with_input=ends_with_input,
     )  # fmt: skip
+
+
+def _sequence_choice(own: dict[str, Any], given: set[str]) -> options.SequenceChoice | None:
+    """What is asked for of a sequence, or None without one."""
+    source, frames, target = (own[name] for name in ("sequence", "frames", "sequence_target"))
+    if source is None or (source != "FRAMES" and frames is not None):
+        for name in ("frames", "sequence_target") if source is None else ("frames",):
+            if own[name] is not None:
+                raise Stop(USAGE, f"--{name.replace('_', '-')} needs --sequence{' FRAMES' if name == 'frames' else ''}")
+        return None
+    for name in NOT_OF_SEQUENCES:
+        if name in given:
+            raise Stop(USAGE, f"--{name.replace('_', '-')} is not of --sequence")
+    try:
+        found = None if frames is None else _frame_range(frames)
+        return options.SequenceChoice(source, found, (target or "attribute").upper())
+    except options.OptionError as error:
+        raise Stop(USAGE, error) from None
+
+
+def _frame_range(text: str) -> range:
+    """The frames A:B or A:B:STEP, B among them."""
+    try:
+        first, last, step = (int(word) for word in (*text.split(":"), "1")[:3])
+        if text.count(":") not in (1, 2) or step < 1 or max(abs(first), abs(last)) > LARGEST_FRAME:
+            raise ValueError
+    except ValueError:
+        raise Stop(USAGE, f"--frames {text}: not A:B or A:B:STEP, whole numbers with a step from 1 on") from None
+    return range(first, last + 1, step)
 
 
 def _domain_choice(own: dict[str, Any], values: dict[str, Any], given: set[str]) -> options.OtherDomain | None:

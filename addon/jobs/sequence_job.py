@@ -31,14 +31,16 @@ class SequenceJob(Job):
         refused: list[tuple[str, str]] | None = None,
     ) -> None:
         """Read the objects, not yet their shapes. Raises as `Job`, and OptionError."""
+        scene: Any = bpy.context.scene
         self.choice = choice
+        self.frames = choice.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
         self.names: dict[str, list[str]] = {}  # by object: what holds the UVs of each shape
         self.shapes: dict[str, list[shapes.MeshShape]] = {}
         super().__init__(objects, options, selected_only, refused)
         self.outcomes: list[SequenceOutcome] = LATER  # type: ignore[assignment]
 
     def _check_room(self, obj: MeshObject) -> None:
-        wanted = [*self.choice.frames] if self.choice.source == "FRAMES" else shapes.key_names(obj)
+        wanted = [*self.frames] if self.choice.source == "FRAMES" else shapes.key_names(obj)
         try:
             names = [self.choice.name(self.options.layer, shape) for shape in wanted]
         except OptionError as error:
@@ -65,12 +67,12 @@ class SequenceJob(Job):
         """Read the shapes of all objects, step by step, with the share that is read. Raises TransferError."""
         if self.choice.source != "FRAMES":
             return
-        steps = len(self.choice.frames) * len(self.targets)
+        steps = len(self.frames) * len(self.targets)
         for number, (target, task) in enumerate(zip(self.targets, self.tasks, strict=True)):
             read = self.shapes[target.name] = []
-            for shape in shapes.frame_shapes(context, target.find(), task.surface, self.choice.frames):
+            for shape in shapes.frame_shapes(context, target.find(), task.surface, self.frames):
                 read.append(shape)
-                yield (number * len(self.choice.frames) + len(read)) / steps
+                yield (number * len(self.frames) + len(read)) / steps
 
     def compute(self, progress: Progress | None = None) -> None:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""

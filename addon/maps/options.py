@@ -202,18 +202,18 @@ class SchottkyChoice:
 class SequenceChoice:
     """Which shapes of a mesh are mapped one after the other, and what holds their UVs.
 
-    frames  of the source "FRAMES"
+    frames  of the source "FRAMES"; None: the scene's
     target  "ATTRIBUTE" (a vector attribute for each shape) or "LAYERS" (a UV layer for each)
     """
 
     source: str = "FRAMES"
-    frames: range = range(1, 2)
+    frames: range | None = None
     target: str = "ATTRIBUTE"
 
     def __post_init__(self) -> None:
         _one_of("source", self.source, SEQUENCE_SOURCES)
         _one_of("target", self.target, SEQUENCE_TARGETS)
-        if self.source == "FRAMES" and not self.frames:
+        if self.source == "FRAMES" and self.frames is not None and not self.frames:
             raise OptionError("frames: the last frame is before the first one")
 
     def name(self, layer: str, shape: str | int) -> str:

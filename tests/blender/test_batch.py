@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import scenes
 import tori
+from test_sequence import add_waving, vectors
 from test_tube import add_tube
 
 
@@ -269,3 +270,34 @@ def test_a_file_that_is_no_blend(batch, tmp_path):
     done = batch("--output", "out.blend", source=junk)
     assert done.returncode == (1 if bpy.app.binary_path else 3)  # Blender itself ends, before it runs a script
     assert outputs(tmp_path) == []
+
+
+@pytest.mark.parametrize("target", ["attribute", "layers"])
+def test_sequences_are_those_of_the_operator(batch, tmp_path, target):
+    add_waving()
+    done = batch("--output", "out.blend", "--report", "out.json", "--sequence", "FRAMES", "--frames", "1:3:2",
+                 "--sequence-target", target)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "Panel: 2 shapes, 4 loops" in done.stdout
+    bpy.ops.uv.koebe_sequence(frame_start=1, frame_end=3, frame_step=2, target=target.upper())
+    names = ["Koebe 0001", "Koebe 0003"] if target == "layers" else ["Koebe_0001", "Koebe_0003"]
+    read_one = scenes.corner_uv if target == "layers" else lambda mesh, name: vectors(bpy.context.object, name)
+    expected = [read_one(bpy.context.object.data, name).copy() for name in names]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert bpy.context.scene.frame_current == 7
+    for name, uv in zip(names, expected):
+        assert np.array_equal(read_one(bpy.context.object.data, name), uv)
+    content = json.loads((tmp_path / "out.json").read_text())
+    assert [(one["object"], one["shape"], one["written"], one["flipped"]) for one in content["objects"]] == [
+        ("Panel", "frame 1", names[0], 0), ("Panel", "frame 3", names[1], 0),
+    ]  # fmt: skip
+
+
+def test_a_sequence_that_is_refused_writes_nothing(batch, tmp_path):
+    obj = add_waving()
+    obj.modifiers.new("Finer", "SUBSURF")
+    done = batch("--output", "out.blend", "--report", "out.json", "--sequence", "FRAMES")
+    assert done.returncode == 3 and "in frame 1 its modifiers" in done.stderr
+    assert not (tmp_path / "out.blend").exists()
+    done = batch("--output", "out.blend", "--sequence", "SHAPE_KEYS")
+    assert done.returncode == 3 and "it has no shape keys" in done.stderr

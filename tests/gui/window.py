@@ -13,7 +13,9 @@ PICTURES = ROOT / "out" / os.environ.get("PICTURES", "gui")
 WIDTH, HEIGHT = 1280, 800
 START_SECONDS = 90
 TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
-PARTS = ("disk", "parts", "domains", "layer", "accuracy", "tools", "shapes")  # of the panel, that are closed at first
+PARTS = (  # of the panel, that are closed at first
+    "disk", "parts", "domains", "sequence", "layer", "accuracy", "tools", "shapes",
+)  # fmt: skip
 FIRST_PART, PART = 279, 26  # pixels from a sidebar's top to the first title before any run, and from title to title
 SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
 

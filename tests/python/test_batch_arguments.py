@@ -47,6 +47,13 @@ WRONG = [
       (["--layout", "flat"], ["--holes", "radial"], ["--fit", "inside"], ["--tube", "unroll"], ["--max-sweeps", "0"])),
     *([*OUT, "--domain", "schottky", *words] for words in
       (["--normalization", "none"], ["--layout", "octahedral"], ["--balance", "area"], ["--tolerance", "nan"])),
+    [*OUT, "--frames", "1:3"], [*OUT, "--sequence-target", "layers"],
+    [*OUT, "--sequence", "SHAPE_KEYS", "--frames", "1:3"],
+    *([*OUT, "--sequence", *words] for words in
+      (["KEYS"], ["FRAMES", "--frames", "3:1"], ["FRAMES", "--frames", "1"], ["FRAMES", "--frames", "1:2:0"],
+       ["FRAMES", "--frames", "1:2:3:4"], ["FRAMES", "--frames", "a:b"], ["FRAMES", "--frames", "1:9999999"],
+       ["FRAMES", "--sequence-target", "uv"], ["FRAMES", "--domain", "ring"], ["FRAMES", "--tube", "unroll"],
+       ["FRAMES", "--engine", "mesh"], ["SHAPE_KEYS", "--symmetry", "auto"], ["FRAMES", "--placement", "keep"])),
     *([*OUT, "--domain", "ring", *words] for words in
       (["--holes", "square"], ["--fit", "tight"], ["--balance", "none"], ["--symmetry", "auto"], ["--margin", "0"])),
 ]  # fmt: skip
@@ -102,6 +109,19 @@ def test_the_options_of_a_library_are_words_for_each_of_its_files(batch):
     assert set(request.library.each) == expected
     again = batch("headless.arguments").parse(["a.blend", "--output", "out", *request.library.each])
     assert (again.options, again.names) == (request.options, request.names)
+
+
+def test_sequences(batch):
+    parse, options = batch("headless.arguments").parse, batch("maps.options")
+    assert parse(OUT).sequence is None
+    request = parse([*OUT, "--sequence", "FRAMES", "--layer", "Own"])
+    assert request.sequence == options.SequenceChoice("FRAMES", None, "ATTRIBUTE") and not request.options.checker
+    assert request.domain is None and request.options.layer == "Own"
+    words = ["--sequence", "FRAMES", "--frames=-2:9:3", "--sequence-target", "layers"]
+    request = parse([*OUT, *words])
+    assert request.sequence == options.SequenceChoice("FRAMES", range(-2, 10, 3), "LAYERS")
+    assert parse([*OUT, *request.library.each]).sequence == request.sequence
+    assert parse([*OUT, "--sequence", "SHAPE_KEYS"]).sequence.source == "SHAPE_KEYS"
 
 
 def test_all_that_is_in_range_is_taken(batch):
