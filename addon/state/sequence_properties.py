@@ -44,7 +44,7 @@ TARGET = EnumProperty(
 )
 
 SCENE_RANGE = BoolProperty(
-    name="Scene's Range",
+    name="Scene Range",
     default=True,
     description="Take the first and last frame and the step of the scene. Off: those below",
 )

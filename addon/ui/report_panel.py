@@ -40,7 +40,11 @@ class KOEBE_UL_islands(bpy.types.UIList):
     ) -> None:
         """The name has most of the room, as that tells the islands apart; the icon tells what was not mapped."""
         split = layout.split(factor=0.66 if item.mapped else 1.0)
-        split.label(text=f"{item.shape or item.object_name} {item.island + 1}", icon=island_icon(item))
+        name = item.object_name
+        if item.shape:
+            name = f"{item.shape}, island" if item.island else item.shape
+        number = f" {item.island + 1}" if item.island or not item.shape else ""
+        split.label(text=f"{name}{number}", icon=island_icon(item))
         if item.mapped:
             split.label(text=f"{item.flipped} flips" if item.flipped else f"{item.angle_error:.2f}°")
 
@@ -68,7 +72,8 @@ class ReportPanel(KoebePanel):
         if entry is None:
             return
         which = "" if entry.parts else f", island {entry.island + 1}"
-        which = f", {entry.shape}{which}" if entry.shape else which
+        if entry.shape:
+            which = f", {entry.shape}{which if entry.island else ''}"
         layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
         if entry.uneven:
             draw_message(layout, UNEVEN)

@@ -338,6 +338,62 @@ def test_in_edit_mode_the_selected_faces(source, target):
     assert [face.select for face in obj.data.polygons] == [index in chosen for index in range(len(written))]
 
 
+def test_nodes_read_the_attribute_of_the_frame_as_the_guide_says():
+    obj = add_waving()
+    assert unwrap() == {"FINISHED"}
+    obj.modifiers.new("Shown", "NODES").node_group = reading_nodes()
+    for frame in (2, 4):
+        bpy.context.scene.frame_set(frame)
+        mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+        shown = scenes.read(mesh.attributes["Shown"].data, "vector", np.float32, 3)
+        assert np.array_equal(shown, vectors(obj, f"Koebe_000{frame}"))
+
+
+def reading_nodes():
+    """The node group that docs/guide.md describes."""
+    tree = bpy.data.node_groups.new("Reading", "GeometryNodeTree")
+    if hasattr(tree, "interface"):
+        for direction in ("INPUT", "OUTPUT"):
+            tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    else:
+        tree.inputs.new("NodeSocketGeometry", "Geometry")
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+
+    def node(kind, **settings):
+        made = tree.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(made, name, value)
+        return made
+
+    def named(sockets, name):
+        return next(socket for socket in sockets if socket.name == name and socket.enabled)
+
+    def joined(start, end):
+        text, join = node("FunctionNodeInputString", string=start), node("GeometryNodeStringJoin")
+        tree.links.new(named(join.inputs, "Strings"), end)
+        tree.links.new(named(join.inputs, "Strings"), text.outputs[0])  # the last link comes first
+        return join.outputs[0]
+
+    value = node("FunctionNodeValueToString")
+    tree.links.new(value.inputs[0], named(node("GeometryNodeInputSceneTime").outputs, "Frame"))
+    padded, cut = joined("000", value.outputs[0]), node("FunctionNodeSliceString")
+    length, less = node("FunctionNodeStringLength"), node("ShaderNodeMath", operation="SUBTRACT")
+    less.inputs[1].default_value = 4.0
+    tree.links.new(length.inputs[0], padded)
+    tree.links.new(less.inputs[0], length.outputs[0])
+    tree.links.new(named(cut.inputs, "String"), padded)
+    tree.links.new(named(cut.inputs, "Position"), less.outputs[0])
+    named(cut.inputs, "Length").default_value = 4
+    found = node("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
+    tree.links.new(named(found.inputs, "Name"), joined("Koebe_", cut.outputs[0]))
+    store = node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="POINT")
+    named(store.inputs, "Name").default_value = "Shown"
+    tree.links.new(named(store.inputs, "Value"), named(found.outputs, "Attribute"))
+    tree.links.new(named(store.inputs, "Geometry"), node("NodeGroupInput").outputs[0])
+    tree.links.new(node("NodeGroupOutput").inputs[0], named(store.outputs, "Geometry"))
+    return tree
+
+
 # ---------------------------------------------------------------- around it
 
 
