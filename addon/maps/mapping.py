@@ -133,13 +133,15 @@ class _Run:
     ) -> list[list[IslandOutcome]]:
         """The outcomes of islands of surfaces. The work of those that do not count is to be done again."""
         units: list[Unit[IslandOutcome]] = []
+        count = sum(len(islands) for _, islands in surfaces)
+        threads = self._options.threads if count == 1 else 1  # several go side by side, each on one
         for task, islands in surfaces:
             centers, points = places.centers(islands, task.center), places.points(islands, task.point)
             for island, center, point in zip(islands, centers, points, strict=True):
                 vertices = {"outer": _outer_loop(island, task.outer), "center": center, "point": point}
                 importance = None if task.importance is None else task.importance[island.source_vertex]
                 compute = functools.partial(
-                    _map_island, self._koebe, island, vertices, importance, self._options, cancel=self._cancel
+                    _map_island, self._koebe, island, vertices, importance, self._options, threads, cancel=self._cancel
                 )
                 units.append(Unit(len(island.triangles), compute))
         share = self._share(sum(unit.size for unit in units))
@@ -211,10 +213,11 @@ def _map_island(
     vertices: dict[str, Any],
     importance: np.ndarray | None,
     options: Options,
+    threads: int,
     progress: Progress | None,
     cancel: Any,
 ) -> IslandOutcome:
-    arguments = options.solver_arguments()
+    arguments = {**options.solver_arguments(), "threads": threads}
     one = IslandOutcome(island, places=vertices)
     with failing_alone(koebe, [one]):
         check_area(island)

@@ -2,17 +2,10 @@
 
 #include "core/errors.h"
 #include "core/memory_limit.h"
+#include "linear/dense_blas.h"
 
 #include <algorithm>
 #include <cmath>
-
-extern "C" {
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
-void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
-            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
-void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
-            const int* lda, const double* beta, double* c, const int* ldc);
-}
 
 namespace koebe::detail {
 namespace {
