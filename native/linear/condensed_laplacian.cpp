@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -38,24 +39,36 @@ SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<ch
 /// The lower triangle of K cut off at the first loop, with an entry between any two vertices of each other loop.
 SparseMatrix with_room_for_disks(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
 {
-    std::vector<char> grounded(laplacian.rows(), 0);
-    for (const Index v : loops[0]) grounded[v] = 1;
-    std::vector<Eigen::Triplet<double, Index>> entries;
-    entries.reserve(laplacian.nonZeros());
+    constexpr Index none = -1, first = 0;
+    std::vector<Index> loop_of(laplacian.rows(), none);
+    std::vector<std::vector<Index>> sorted = loops;
+    std::ptrdiff_t entries = laplacian.nonZeros();
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        for (const Index v : loops[k]) loop_of[v] = static_cast<Index>(k);
+        std::sort(sorted[k].begin(), sorted[k].end());
+        entries += static_cast<std::ptrdiff_t>(loops[k].size() * loops[k].size());
+    }
+    SparseMatrix result(laplacian.rows(), laplacian.cols());
+    result.reserve(entries);
     for (Index v = 0; v < static_cast<Index>(laplacian.cols()); ++v) {
-        if (grounded[v]) {
-            entries.emplace_back(v, v, 1.0);
+        result.startVec(v);
+        if (loop_of[v] == first) {
+            result.insertBack(v, v) = 1.0;
             continue;
         }
-        for (SparseMatrix::InnerIterator it(laplacian, v); it; ++it)
-            if (it.row() >= v && !grounded[it.row()]) entries.emplace_back(static_cast<Index>(it.row()), v, it.value());
+        auto room = sorted[first].end();
+        const auto end = loop_of[v] == none ? room : sorted[loop_of[v]].end();
+        if (loop_of[v] != none) room = std::lower_bound(sorted[loop_of[v]].begin(), end, v);
+        for (SparseMatrix::InnerIterator it(laplacian, v); it; ++it) {
+            const Index row = static_cast<Index>(it.row());
+            if (row < v || loop_of[row] == first) continue;
+            for (; room != end && *room < row; ++room) result.insertBack(*room, v) = 0.0;
+            if (room != end && *room == row) ++room;
+            result.insertBack(row, v) = it.value();
+        }
+        for (; room != end; ++room) result.insertBack(*room, v) = 0.0;
     }
-    for (std::size_t k = 1; k < loops.size(); ++k)
-        for (const Index v : loops[k])
-            for (const Index w : loops[k])
-                if (w >= v) entries.emplace_back(w, v, 0.0);
-    SparseMatrix result(laplacian.rows(), laplacian.cols());
-    result.setFromTriplets(entries.begin(), entries.end());
+    result.finalize();
     return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace koebe::detail {
 namespace {
@@ -53,6 +54,54 @@ void eliminate_wide(double* columns, int width, int height, MatrixXd& left)
     dsyrk_("L", "N", &below, &width, &minus_one, columns + width, &height, &one, left.data(), &below);
 }
 
+/// The lower triangle of a matrix in the factor's order, column by column.
+class ColumnsInOrder {
+public:
+    ColumnsInOrder(const SupernodalFactor& l, const SparseMatrix& matrix)
+        : l_(l), begin_(l.size() + 1, 0), entries_(matrix.nonZeros()), place_(l.size())
+    {
+        each_entry(matrix, [&](Index column, Index, double) { ++begin_[column + 1]; });
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        std::vector<Index> end(begin_.begin(), begin_.end() - 1);
+        each_entry(matrix, [&](Index column, Index row, double value) { entries_[end[column]++] = {row, value}; });
+    }
+
+    /// The columns of a supernode, (height, width).
+    void assemble(Index s, double* columns)
+    {
+        const std::ptrdiff_t height = l_.height(s), width = l_.width(s);
+        std::fill_n(columns, height * width, 0.0);
+        for (Index r = 0; r < height; ++r) place_[l_.rows(s)[r]] = r;
+        for (std::ptrdiff_t j = 0; j < width; ++j) {
+            const Index column = l_.first_column(s) + static_cast<Index>(j);
+            for (Index e = begin_[column]; e < begin_[column + 1]; ++e)
+                columns[j * height + place_[entries_[e].row]] = entries_[e].value;
+        }
+    }
+
+private:
+    struct Entry {
+        Index row;
+        double value;
+    };
+
+    template <typename Visit>
+    void each_entry(const SparseMatrix& matrix, const Visit& visit) const
+    {
+        for (Index c = 0; c < static_cast<Index>(matrix.cols()); ++c)
+            for (SparseMatrix::InnerIterator it(matrix, c); it; ++it) {
+                if (it.row() < c) continue;
+                const auto [column, row] = std::minmax(l_.rank[it.row()], l_.rank[c]);
+                visit(column, row, it.value());
+            }
+    }
+
+    const SupernodalFactor& l_;
+    std::vector<Index> begin_;
+    std::vector<Entry> entries_;
+    std::vector<Index> place_;  // of each row among those of the supernode
+};
+
 }  // namespace
 
 MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& matrix,
@@ -96,8 +145,9 @@ MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& 
 
 void MultifrontalFactor::take(const SparseMatrix& matrix)
 {
-    assemble(matrix);
+    ColumnsInOrder in_order(l_, matrix);
     for (Index s = 0; s < static_cast<Index>(l_.factor->nsuper); ++s) {
+        in_order.assemble(s, columns(s));
         const Index below = l_.height(s) - l_.width(s);
         left_[s] = MatrixXd::Zero(below, below);
         add_children(s, false);
@@ -108,20 +158,6 @@ void MultifrontalFactor::take(const SparseMatrix& matrix)
             eliminate(s);
         }
     }
-}
-
-void MultifrontalFactor::assemble(const SparseMatrix& matrix)
-{
-    std::fill(values_, values_ + l_.factor->xsize, 0.0);
-    for (Index column = 0; column < static_cast<Index>(matrix.cols()); ++column)
-        for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {
-            if (it.row() < column) continue;
-            const auto [low, high] = std::minmax(l_.rank[it.row()], l_.rank[column]);
-            const Index s = l_.supernode[low];
-            const Index* rows = l_.rows(s);
-            const std::ptrdiff_t at = std::lower_bound(rows, rows + l_.height(s), high) - rows;
-            columns(s)[at + static_cast<std::ptrdiff_t>(low - l_.first_column(s)) * l_.height(s)] += it.value();
-        }
 }
 
 void MultifrontalFactor::find_addends(const std::vector<std::vector<Index>>& changing)

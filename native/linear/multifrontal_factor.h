@@ -36,7 +36,6 @@ private:
     };
 
     double* columns(Index s) { return values_ + px_[s]; }
-    void assemble(const SparseMatrix& matrix);
     void find_addends(const std::vector<std::vector<Index>>& changing);
     void add_children(Index s, bool changing);
     void eliminate(Index s);
