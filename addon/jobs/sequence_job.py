@@ -18,6 +18,11 @@ from ..maps.outcomes import LATER, Progress, Task, share_of
 from ..maps.sequence import SequenceOutcome, map_sequence, point_values
 from .map_job import Job
 
+STAYS_IN_EDIT_MODE = (
+    "this is done in Object Mode, and Blender would not find back to Edit Mode with objects that are hidden or not "
+    "selected: leave Edit Mode first"
+)
+
 
 class SequenceJob(Job):
     """Reads and writes as `Job` does, and has sequences for outcomes. `read_shapes` comes before `compute`."""
@@ -48,10 +53,7 @@ class SequenceJob(Job):
         if self.choice.source == "FRAMES":
             shapes.check_frames(bpy.context, obj)
         if self._needs_object_mode() and obj.mode == "EDIT" and not edit_mode.can_leave(bpy.context):
-            raise TransferError(
-                f"{obj.name}: this is done in Object Mode, and Blender would not find back to Edit Mode with objects "
-                "that are hidden or not selected: leave Edit Mode first"
-            )
+            raise TransferError(f"{obj.name}: {STAYS_IN_EDIT_MODE}")
         if self.choice.target == "LAYERS":
             uv_layers.check_layers(obj, names)
         for name in names if self.choice.target == "ATTRIBUTE" else ():
@@ -130,7 +132,7 @@ class SequenceJob(Job):
             return
         obj, vectors = plan
         if obj.mode == "EDIT":
-            raise TransferError(f"{obj.name}: Edit Mode was not left")
+            raise TransferError(f"{obj.name}: {STAYS_IN_EDIT_MODE}")
         for one in vectors:
             vector_attribute.write(run, obj, one)
 
