@@ -119,7 +119,7 @@ def other_than_the_default(prop):
         return next(item.identifier for item in prop.enum_items if item.identifier != prop.default)
     if prop.type in {"BOOLEAN", "STRING"}:
         return not prop.default if prop.type == "BOOLEAN" else f"{prop.default}2"
-    return prop.default / 2
+    return 2 * prop.default if prop.type == "INT" else prop.default / 2
 
 
 def chosen_options():
@@ -135,7 +135,7 @@ def choose_others():
     for prop in settings.bl_rna.properties:
         if prop.identifier not in {"rna_type", "name"}:
             value = other_than_the_default(prop)
-            setattr(settings, prop.identifier, int(value) if prop.type == "INT" else value)
+            setattr(settings, prop.identifier, value)
     return chosen_options()
 
 

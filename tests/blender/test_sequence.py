@@ -202,6 +202,20 @@ def test_a_modifier_that_makes_other_faces_is_told_with_its_frame(kind):
     assert unchanged(before) and bpy.context.scene.frame_current == 7
 
 
+def test_quads_are_cut_as_blender_cuts_them_in_the_first_frame():
+    """A face that is bent the other way is cut along its other diagonal."""
+    obj = scenes.add_panel()
+    obj.shape_key_add(name="Basis")
+    places = scenes.read(obj.data.vertices, "co", np.float32, 3)
+    places[1::2, 2] += 0.05
+    obj.shape_key_add(name="Rough").data.foreach_set("co", places.ravel())
+    obj.data.shape_keys.key_blocks["Rough"].value = 1.0
+    assert unwrap(frame_start=1, frame_end=2, target="LAYERS") == {"FINISHED"}
+    copy = applied(obj, 1)
+    assert not np.array_equal(scenes.triangles(copy.data)[1], scenes.triangles(obj.data)[1])
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe 0001"), uniformized(copy))
+
+
 def test_a_subframe_comes_back():
     add_waving()
     bpy.context.scene.frame_set(5, subframe=0.25)
