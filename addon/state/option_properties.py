@@ -110,7 +110,8 @@ class UniformizeProperties:
         name="Polish",
         default=DEFAULTS.polish,
         description="At the end, lower the angle error once more: points move between the circles and along them, the "
-        "circles stay. A tenth less on fine meshes, a quarter on coarse ones; takes one to three times as long as the map",
+        "circles stay. A tenth less on fine meshes, a quarter on coarse ones; takes one to three times as long as "
+        "the map",
     )
     upright: BoolProperty(
         name="Upright",

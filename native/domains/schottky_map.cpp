@@ -25,8 +25,8 @@
 namespace koebe {
 namespace {
 
-constexpr Index balanced_faces = 20000;        // that are looked at for it
-constexpr double least_circle = 1e-12;         // of a circle whose points 64-bit coordinates tell apart
+constexpr Index balanced_faces = 20000;  // that are looked at for it
+constexpr double least_circle = 1e-12;   // of a circle whose points 64-bit coordinates tell apart
 constexpr double large_misfit = 0.5;
 constexpr double equal_radii = 1e-6;  // a smaller difference, over the radius, is rounding
 constexpr double worst_spread = 1e3;  // worse than any where circles are apart

@@ -57,18 +57,20 @@ UniformizeResult SurfaceSolver::uniformize(const Vertices& vertices, ExecutionCo
     std::shared_ptr<Problem> problem = std::move(impl_->kept);
     const bool begun = problem != nullptr;
     if (!begun) problem = std::make_shared<Problem>();
-    UniformizeResult result =
-        run_detachable<UniformizeResult>(context, [problem, begun, vertices, triangles = impl_->triangles,
-                                                   options = impl_->options](ExecutionContext& own) {
-            const auto prepare = [&]() -> Problem& {
-                if (begun)
-                    move_problem(*problem, vertices);
-                else
-                    *problem = prepare_problem(vertices, *triangles, options);
-                return *problem;
-            };
-            return map_problem(prepare, options, own);
-        });
+    const auto compute = [problem, begun, vertices, triangles = impl_->triangles, options = impl_->options,
+                          places = impl_->first_places](ExecutionContext& own) {
+        const auto prepare = [&]() -> Problem& {
+            if (begun)
+                move_problem(*problem, vertices);
+            else
+                *problem = prepare_problem(vertices, *triangles, options);
+            problem->first_places = places;
+            return *problem;
+        };
+        return map_problem(prepare, options, own);
+    };
+    UniformizeResult result = run_detachable<UniformizeResult>(context, compute);
+    if (impl_->first_places.size() == 0 && result.converged) impl_->first_places = places_of_loops(*problem);
     impl_->keep(std::move(problem));
     return result;
 }

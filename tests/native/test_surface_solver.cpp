@@ -1,9 +1,11 @@
 #include "circle_domain.h"
+#include "circles/boundary_angles.h"
 #include "circles/point_alignment.h"
 #include "core/errors.h"
 #include "pipeline/surface_solver.h"
 #include "pipeline/uniformize.h"
 #include "surface/intrinsic_metric.h"
+#include "surface/loop_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -101,6 +103,28 @@ TEST(SurfaceSolver, maps_are_laid_over_the_first)
     turned.col(1) = -turned.col(1).eval();
     EXPECT_LT((surface.uniformize(turned).uv - first.uv).rowwise().norm().maxCoeff(), 1e-6);
     EXPECT_LT((surface.uniformize(sample.moved(0.02)).uv - first.uv).rowwise().norm().mean(), 0.02);
+    // No automorphism brings the loops nearer, each vertex weighed by its share of the length.
+    for (const double amount : {0.02, 0.2}) {
+        const Vertices there = sample.moved(amount);
+        const UniformizeResult moved = surface.uniformize(there);
+        std::vector<Complex> points, targets;
+        std::vector<double> weights;
+        for (const LoopReport& loop : moved.loops) {
+            const VectorXd edges = loop_edges(there, loop.vertices), share = vertex_weights(edges);
+            for (std::size_t b = 0; b < loop.vertices.size(); ++b) {
+                const Index v = loop.vertices[b];
+                points.emplace_back(moved.uv(v, 0), moved.uv(v, 1));
+                targets.emplace_back(first.uv(v, 0), first.uv(v, 1));
+                weights.push_back(share[static_cast<Eigen::Index>(b)] * edges.sum());
+            }
+        }
+        const auto count = static_cast<Eigen::Index>(points.size());
+        const Moebius rest = nearest_automorphism(Eigen::Map<const VectorXcd>(points.data(), count),
+                                                  Eigen::Map<const VectorXcd>(targets.data(), count),
+                                                  Eigen::Map<const VectorXd>(weights.data(), count));
+        EXPECT_LT(std::abs(rest.a), 1e-4) << amount;  // the images are put on circles after that
+        EXPECT_LT(std::abs(rest.turn - 1.0), 1e-4) << amount;
+    }
     // Back again, perhaps on other triangles of the same metric.
     EXPECT_LT((surface.uniformize(turned).uv - first.uv).rowwise().norm().maxCoeff(), 1e-3);
 }

@@ -107,7 +107,7 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     progress     called as progress(fraction, stage) on the calling thread; fraction never goes back
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
     threads      of the dense and sparse kernels; 0 takes all cores
-    polish       at the end, lower the angle error with the circles as they are; takes one to three times as long as the map
+    polish       at the end, lower the angle error with the circles as they are; takes up to three times the map
     center       a vertex inside the surface that goes to 0; not together with balance
     point        a vertex of a boundary loop that goes to 1; its loop is the one on the unit circle. Both together leave
                  no freedom (paper, section 4.3); center alone turns nothing, point alone only turns
