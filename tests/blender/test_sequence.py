@@ -115,7 +115,6 @@ def cross_ratios(z, picked):
     return np.where(np.isfinite(ratio) & (np.abs(ratio) < 1e3) & (np.abs(ratio) > 1e-3), ratio, 1.0)
 
 
-@pytest.mark.xfail(reason="koebe.Surface begins at the last angles, but does not yet lay its maps over the first")
 def test_a_shape_that_comes_back_lies_where_it_was():
     obj = add_keyed()
     block = obj.shape_key_add(name="Again")
@@ -133,7 +132,7 @@ def test_maps_lie_over_the_first_whichever_way_the_shape_is_turned():
         point.co = (vertex.co.y, vertex.co.z, vertex.co.x)
     unwrap(source="SHAPE_KEYS", target="LAYERS")
     uv = {name: scenes.corner_uv(obj.data, f"Koebe {name}") for name in ("Basis", "Turned", "Smile")}
-    assert np.abs(uv["Turned"] - uv["Basis"]).max() < 0.01
+    assert np.abs(uv["Turned"] - uv["Basis"]).max() < 1e-4
     assert np.abs(uv["Smile"] - uv["Basis"]).max() < 0.2
 
 
