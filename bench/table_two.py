@@ -43,23 +43,21 @@ def run_once(mesh, engine, method):
     return json.loads(done.stdout) | {"seconds": seconds}
 
 
-def steps_to(found, goal, roundness, together):
-    """Steps after which the goal is reached for good; whole sweeps if the steps of a sweep take effect together."""
+def steps_to(found, goal, roundness):
+    """Steps after which the goal is reached for good."""
     missed = [
         step["step"]
         for step in found["steps"]
         if (step["mean_roundness"] > roundness if goal == "e" else step["error"] > goal)
     ]
-    steps = max(missed, default=0) + 1
-    return -(-steps // found["steps_per_sweep"]) * found["steps_per_sweep"] if together else steps
+    return max(missed, default=0) + 1
 
 
 def compared(figure, engine):
     """Steps and seconds to each goal, by method."""
     found = {method: measure(figure, engine, method) for method in METHODS}
     roundness = SAME * max(run["steps"][-1]["mean_roundness"] for run in found.values())
-    together = ENGINES[engine] == "condensed"
-    steps = {method: [steps_to(run, goal, roundness, together) for goal in GOALS] for method, run in found.items()}
+    steps = {method: [steps_to(run, goal, roundness) for goal in GOALS] for method, run in found.items()}
     seconds = {method: [k * found[method]["seconds_per_step"] for k in steps[method]] for method in METHODS}
     return steps, seconds
 

@@ -17,7 +17,10 @@ struct Entry {
     Index other_vertex;
     Index halfedge;
 
-    auto operator<=>(const Entry&) const = default;
+    bool operator<(const Entry& other) const
+    {
+        return other_vertex != other.other_vertex ? other_vertex < other.other_vertex : halfedge < other.halfedge;
+    }
 };
 
 /// Buckets hold one fan at most, so nearly all are short.

@@ -387,7 +387,8 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
         } catch (const KoebeError&) {  // too coarse to be cut: what there is has to do
         }
     };
-    if (triangles.rows() < enough_faces) take_if_better(options, 0);
+    if (triangles.rows() < enough_faces)
+        for (int finer = most_levels; finer-- > 0;) take_if_better(options, finer);
     if (!result.converged && options.normalization == SchottkyNormalization::circles) {
         SchottkyOptions even = options;
         even.normalization = SchottkyNormalization::area;

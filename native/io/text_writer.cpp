@@ -34,7 +34,7 @@ char* write_number(char* here, double number)
     constexpr int longest = 24;
     const double size = std::abs(number);
     if (size >= least && size < most) {
-        const auto count = static_cast<std::uint64_t>(size * millionths + 0.5);
+        const auto count = static_cast<std::uint64_t>(std::llrint(size * millionths));
         if (static_cast<double>(count) / millionths == size && count % 1'000'000 != 0) {
             if (number < 0.0) *here++ = '-';
             return write_millionths(here, count);

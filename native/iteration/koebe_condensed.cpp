@@ -19,17 +19,20 @@ namespace {
 
 constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and one on the way
 
-/// With more loops one factor for all of them costs less than an elimination for each step; one or two leave no choice.
-bool opened_at_once(const std::vector<VertexLoop>& loops) { return loops.size() <= 2 || loops.size() > 8; }
+/// Steps that follow each other: at least three loops, or there is no choice.
+bool goes_in_turn(const std::vector<VertexLoop>& loops, bool in_turn) { return in_turn && loops.size() > 2; }
+
+constexpr double longest = 3000.0;  // a Sigma of 72 MB
 
 /// Up to how many boundary vertices a Sigma is cheaper than the sparse matrix. A separator of the surface has some
-/// sqrt(V) vertices; a Sigma of 5 times as many costs as much as what the disks reach of the sparse factor. To open
-/// loops one after the other, which the sparse matrix does not, up to 3,000 are kept: 72 MB for a matrix.
-std::size_t most_kept(const std::vector<VertexLoop>& loops, Index vertex_count)
+/// sqrt(V) vertices; a Sigma of 5 times as many costs as much as what the disks reach of the sparse factor.
+double most_kept(double vertex_count) { return std::min(longest, 5.0 * std::sqrt(vertex_count)); }
+
+/// A third of the boundary costs more in Sigma than a substitution in each sweep, unless Sigma costs next to nothing.
+bool grounds_outer_loop(const std::vector<VertexLoop>& loops, std::size_t boundary_size, double vertex_count)
 {
-    constexpr double longest = 3000.0, separators = 5.0;
-    const bool either = opened_at_once(loops);
-    return static_cast<std::size_t>(either ? std::min(longest, separators * std::sqrt(vertex_count)) : longest);
+    const bool cheap = loops.size() > 2 && static_cast<double>(boundary_size) < 3.5 * std::sqrt(vertex_count);
+    return 3 * loops[0].size() >= boundary_size && !cheap;
 }
 
 /// The flux at the boundary from a source of 1 in the vertex deepest inside S.
@@ -78,14 +81,16 @@ private:
 
 }  // namespace
 
-CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops, bool in_turn,
                             std::optional<std::size_t> most_condensed)
 {
     std::vector<Index> boundary;
     for (const VertexLoop& loop : loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
-    const bool grounds = opened_at_once(loops) && 3 * loops[0].size() >= boundary.size();
-    const Index grounded = grounds ? static_cast<Index>(loops[0].size()) : 0;
-    const std::size_t most = most_condensed.value_or(most_kept(loops, static_cast<Index>(laplacian.rows())));
+    const bool all = goes_in_turn(loops, in_turn);
+    const auto vertex_count = static_cast<double>(laplacian.rows());
+    const Index grounded =
+        !all && grounds_outer_loop(loops, boundary.size(), vertex_count) ? static_cast<Index>(loops[0].size()) : 0;
+    const std::size_t most = most_condensed.value_or(static_cast<std::size_t>(all ? longest : most_kept(vertex_count)));
     if (loops.size() > 1 && boundary.size() - grounded > most) return CondensedLaplacian(laplacian, loops);
     return CondensedLaplacian(laplacian, boundary, Ordering::amd, grounded);
 }
@@ -97,7 +102,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
 {
     KoebeOutcome outcome;
     const int loop_count = static_cast<int>(loops.size());
-    const bool at_once = opened_at_once(loops) || !surface.has_sigma();
+    const bool at_once = !goes_in_turn(loops, options.in_turn) || !surface.has_sigma();
     const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
     const VectorXd flux_of_source =
         sourced ? flux_of_deepest_source(surface, areas) : VectorXd::Zero(surface.boundary_size());

@@ -10,12 +10,13 @@
 
 namespace koebe {
 
-/// The Laplacian of a surface with these loops, condensed as the iteration takes it best. Where all loops are opened at
-/// once and the outer one has a third of all boundary vertices or more it is grounded: fewer cost less in Sigma than a
-/// substitution in each sweep. Where more than `most_condensed` boundary vertices would be kept there is no Sigma.
-/// @param most_condensed without it 3,000, and where all loops are opened at once no more than 5 sqrt(V)
+/// The Laplacian of a surface with these loops, condensed as the iteration takes it best. An outer loop with a third of
+/// all boundary vertices is grounded, unless they are few: then Sigma has the inner loops alone. Where more than
+/// `most_condensed` boundary vertices would be kept there is no Sigma.
+/// @param in_turn for IterationOptions::in_turn: nothing is grounded
+/// @param most_condensed without it 5 sqrt(V), and no more than 3,000; in turn 3,000
 /// @throws SolverError
-CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops, bool in_turn = false,
                             std::optional<std::size_t> most_condensed = {});
 
 /// Runs the iteration (paper, section 4.4) on the state of one angle per boundary vertex.
@@ -27,17 +28,18 @@ CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<Ver
 /// vanish on constants.) A CK step opens one loop, kept at 0, and a source inside S takes the place of the other. A
 /// step of against_outer is a GK step on the pair (0, k).
 ///
-/// From 3 to 8 loops the steps of a sweep follow each other, and R is eliminated in each. Else all loops are opened
-/// from the same state, each against the outer one, and one factor of A serves them all: with N the inverse of A on the
-/// inner loops, the flux through loop k at potential 1 is (N_kk)^-1 1. The outer loop, open in every step, is never
-/// filled, and takes its angles from the flux of the pair (0, 1) in the new state. All methods are then the same, but
-/// for how many loops a step counts. With one loop one step from a source is exact, with two loops one GK step.
+/// All loops are opened from the same state, each against the outer one, and one factor of A serves them all: with N
+/// the inverse of A on the inner loops, the flux through loop k at potential 1 is (N_kk)^-1 1. The outer loop, open in
+/// every step, is never filled, and takes its angles from the flux of the pair (0, 1) in the new state. All methods are
+/// then the same, but for how many loops a step counts. With one loop one step from a source is exact, with two loops
+/// one GK step. Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected
+/// inversion.
 ///
-/// Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected inversion. Then
-/// all loops are opened at once, whatever their number.
+/// With IterationOptions::in_turn the steps of a sweep follow each other, as the paper's theorems have them, and R is
+/// eliminated in each; but not where there is no Sigma.
 ///
 /// @param laplacian of the surface
-/// @param surface the same by condense()
+/// @param surface the same by condense(), with the same in_turn
 /// @param loops the outer loop first
 /// @param edges per loop: length on the surface of the edge from each vertex to the next, all positive
 /// @param areas (V) area around each vertex: for the choice of the source, the vertex deepest inside

@@ -43,9 +43,11 @@ PolygonMesh sample_mesh()
     constexpr Index n = 7;
     PolygonMesh mesh;
     mesh.vertices.resize(n * n, 3);
-    for (Index i = 0; i < n * n; ++i)
-        mesh.vertices.row(i) << static_cast<float>(0.1 * (i % n)), static_cast<float>(0.1 * (i / n)),
+    for (Index i = 0; i < n * n; ++i) {
+        const Index row = i / n;
+        mesh.vertices.row(i) << static_cast<float>(0.1 * (i % n)), static_cast<float>(0.1 * row),
             static_cast<float>(std::sin(0.7f * i));
+    }
     for (Index y = 0; y + 1 < n; ++y)
         for (Index x = 0; x + 1 < n; ++x) {
             const Index a = y * n + x, b = a + 1, c = a + n + 1, d = a + n;
@@ -243,9 +245,9 @@ TEST(MeshReader, OffPassesOverColorsNormalsAndTexturesHoweverManyNumbersTheyHave
     for (const char* keyword : {"OFF", "COFF", "NOFF", "STOFF", "STCNOFF"})
         for (const char* extra : {"", " 0 0 1", " 0 0 1 9 9 9 1", " 255 128"}) {
             SCOPED_TRACE(std::string(keyword) + extra);
-            const std::string x = extra;
-            const PolygonMesh mesh = parse("a.off", keyword + std::string(" # all\n3 1 0\n0 0 0") + x + "\n1 0 0" + x +
-                                                        "\n0 1 0.5" + x + "\n3 2 1 0" + x + "\n");
+            std::string text = std::string(keyword) + " # all\n3 1 0\n";
+            for (const char* line : {"0 0 0", "1 0 0", "0 1 0.5", "3 2 1 0"}) text.append(line).append(extra).append("\n");
+            const PolygonMesh mesh = parse("a.off", text);
             EXPECT_TRUE(mesh.vertices.row(2) == Eigen::RowVector3d(0.0, 1.0, 0.5));
             EXPECT_EQ(corners_of(mesh, 0), (std::vector<Index>{2, 1, 0}));
         }

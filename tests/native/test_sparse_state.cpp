@@ -16,7 +16,8 @@ struct KoebeRun {
 };
 
 /// The iteration with a Sigma for boundaries of up to so many vertices.
-KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method, std::size_t most_condensed)
+KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method, std::size_t most_condensed,
+             bool in_turn = false)
 {
     const EdgeLengths lengths = edge_lengths(surface, domain.triangles);
     const Index count = static_cast<Index>(surface.rows());
@@ -28,11 +29,12 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
             length[b] = (surface.row(loop[(b + 1) % loop.size()]) - surface.row(loop[b])).norm();
         edges.push_back(length);
     }
-    const CondensedLaplacian condensed = condense(laplacian, domain.loops, most_condensed);
+    const CondensedLaplacian condensed = condense(laplacian, domain.loops, in_turn, most_condensed);
     EXPECT_EQ(condensed.has_sigma(), domain.loops.size() == 1 || most_condensed > 0);
     IterationOptions options;
     options.method = method;
     options.tolerance = 1e-9;
+    options.in_turn = in_turn;
     ExecutionContext context;
     KoebeRun result;
     result.outcome = koebe_condensed(laplacian, condensed, domain.loops, edges,
@@ -41,7 +43,6 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
     return result;
 }
 
-/// Ten loops: with up to eight the dense state opens pairs one after the other.
 std::vector<Circle> ten_circles()
 {
     std::vector<Circle> circles{Circle{}};
@@ -85,6 +86,24 @@ TEST(SparseState, both_methods_are_one_when_all_loops_are_opened_at_once)
     EXPECT_EQ(gk.outcome.sweeps, ck.outcome.sweeps);
     EXPECT_EQ(gk.outcome.steps * 2, ck.outcome.steps);
     EXPECT_EQ(inversive_distance_error(gk.circles, ck.circles), 0.0);
+}
+
+TEST(CondensedState, steps_in_turn_find_the_same_circles_and_gk_in_half_the_steps_of_ck)
+{
+    const CircleDomain domain = make_circle_domain(ten_circles(), 4000);
+    const Vertices surface = lift(domain.points, Lift::enneper);
+    const KoebeRun at_once = run(domain, surface, Method::gk, 100000);
+    const KoebeRun gk = run(domain, surface, Method::gk, 100000, true),
+                   ck = run(domain, surface, Method::ck, 100000, true);
+    ASSERT_TRUE(at_once.outcome.converged && gk.outcome.converged && ck.outcome.converged);
+    // The limits differ by the discretization, of which the next test tells the size.
+    EXPECT_LT(inversive_distance_error(gk.circles, at_once.circles), 1e-3);
+    EXPECT_LT(inversive_distance_error(ck.circles, at_once.circles), 1e-3);
+    EXPECT_GT(inversive_distance_error(gk.circles, ck.circles), 0.0);  // they are not one iteration
+    // Each step has its own change, and the next one sees it.
+    EXPECT_NE(gk.outcome.history[0].change, gk.outcome.history[1].change);
+    EXPECT_EQ(at_once.outcome.history[0].change, at_once.outcome.history[1].change);
+    EXPECT_LT(gk.outcome.steps, 0.7 * ck.outcome.steps);
 }
 
 TEST(SparseState, one_and_two_loops_are_exact_in_no_and_one_step)
