@@ -1,11 +1,19 @@
 #include "iteration/filled_state.h"
 
 #include "circles/boundary_angles.h"
+#include "core/thread_share.h"
 #include "iteration/disk_dirichlet_to_neumann.h"
 
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace koebe {
+namespace {
+
+constexpr double worth_sharing = 10000.0;  // entries; fewer take less time than a thread to begin
+
+}  // namespace
 
 FilledState::FilledState(const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                          std::vector<VectorXd> first_angles)
@@ -21,8 +29,23 @@ FilledState::FilledState(const std::vector<VertexLoop>& loops, const std::vector
 void FilledState::fill()
 {
     if (!begun()) return;
-    for (int k = 0; k < loop_count(); ++k)
-        if (fills(k)) set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
+    OpenedLoops all(loop_count());
+    std::iota(all.begin(), all.end(), 0);
+    fill(all);
+}
+
+void FilledState::fill(OpenedLoops loops)
+{
+    std::erase_if(loops, [&](int k) { return !fills(k); });
+    std::vector<MatrixXd> disks(loops.size());
+    const auto compute = [&](std::size_t i) { disks[i] = disk_dirichlet_to_neumann(angles_[loops[i]]); };
+    double entries = 0.0;
+    for (const int k : loops) entries += std::pow(size_[k], 2);
+    if (entries < worth_sharing)
+        for (std::size_t i = 0; i < loops.size(); ++i) compute(i);
+    else
+        each_beside(loops.size(), compute);
+    for (std::size_t i = 0; i < loops.size(); ++i) set_disk(loops[i], disks[i]);
 }
 
 VectorXcd FilledState::rim() const { return unit_circle_points(angles_[0]); }
@@ -33,15 +56,15 @@ void FilledState::take_angles(const OpenedLoops& open, const VectorXd& flux, int
     for (const int k : open) {
         angles_[k] =
             centered_angles(angles_from_flux(flux.segment(row, size_[k]), edges_[k], raised), weights_[k], angles_[k]);
-        if (fills(k)) set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
         row += size_[k];
     }
+    fill(open);
 }
 
-void FilledState::take_arc_length(int k)
+void FilledState::take_arc_lengths(const OpenedLoops& loops)
 {
-    angles_[k] = centered_angles(arc_length_angles(edges_[k]), weights_[k]);
-    set_disk(k, disk_dirichlet_to_neumann(angles_[k]));
+    for (const int k : loops) angles_[k] = centered_angles(arc_length_angles(edges_[k]), weights_[k]);
+    fill(loops);
 }
 
 Index FilledState::total(const std::vector<int>& loops) const
@@ -54,7 +77,15 @@ Index FilledState::total(const std::vector<int>& loops) const
 void GroundedState::take_steps(const Sweep&, int& raised)
 {
     const std::vector<VectorXd> fluxes = fluxes_against_outer();
-    for (int k = 1; k < loop_count(); ++k) take_angles({k}, fluxes[k - 1], raised);
+    OpenedLoops inner(fluxes.size());
+    std::iota(inner.begin(), inner.end(), 1);
+    VectorXd flux(total(inner));
+    Index row = 0;
+    for (const VectorXd& one : fluxes) {
+        flux.segment(row, one.size()) = one;
+        row += static_cast<Index>(one.size());
+    }
+    take_angles(inner, flux, raised);
     take_angles({0}, outer_flux(), raised);
 }
 

@@ -51,8 +51,8 @@ protected:
     /// New angles for open loops from the flux through them: the conjugate of the harmonic function.
     void take_angles(const OpenedLoops& open, const VectorXd& flux, int& raised);
 
-    /// Angles by arc length for an inner loop.
-    void take_arc_length(int k);
+    /// Angles by arc length for inner loops.
+    void take_arc_lengths(const OpenedLoops& loops);
 
     /// Whether loop k is ever filled.
     virtual bool fills(int) const { return true; }
@@ -68,6 +68,9 @@ protected:
     std::vector<VectorXd> angles_;
 
 private:
+    /// Those of the loops that are ever filled get the disks of their angles.
+    void fill(OpenedLoops loops);
+
     bool begun_;
 };
 

@@ -1,7 +1,10 @@
 #include "iteration/sparse_state.h"
 
+#include "core/thread_share.h"
 #include "linear/dense_spd.h"
+#include "linear/kernel_buffer.h"
 
+#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -18,7 +21,10 @@ SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian
     for (const VertexLoop& loop : inner_loops_) inner_.insert(inner_.end(), loop.begin(), loop.end());
     couple(laplacian, loops[0]);
     fill();
-    for (int k = 1; k < loop_count() && !begun(); ++k) take_arc_length(k);
+    if (begun()) return;
+    OpenedLoops inner(inner_loops_.size());
+    std::iota(inner.begin(), inner.end(), 1);
+    take_arc_lengths(inner);
 }
 
 /// K between the outer loop and the vertices beside it.
@@ -74,11 +80,12 @@ std::vector<VectorXcd> SparseState::images()
 
 std::vector<VectorXd> SparseState::fluxes_against_outer()
 {
-    std::vector<VectorXd> result;
-    for (MatrixXd& block : factor().inverse_blocks(inner_loops_)) {
-        const VectorXd ones = VectorXd::Ones(block.rows());
-        result.push_back(spd_solve(std::move(block), ones));
-    }
+    std::vector<MatrixXd> blocks = factor().inverse_blocks(inner_loops_);
+    std::vector<VectorXd> result(blocks.size());
+    each_beside(blocks.size(), [&](std::size_t k) {
+        const KernelBuffer buffer;
+        result[k] = spd_solve(std::move(blocks[k]), VectorXd::Ones(static_cast<Eigen::Index>(inner_loops_[k].size())));
+    });
     return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 namespace koebe::detail {
@@ -58,7 +59,7 @@ void eliminate_wide(double* columns, int width, int height, MatrixXd& left)
 class ColumnsInOrder {
 public:
     ColumnsInOrder(const SupernodalFactor& l, const SparseMatrix& matrix)
-        : l_(l), begin_(l.size() + 1, 0), entries_(matrix.nonZeros()), place_(l.size())
+        : l_(l), begin_(l.size() + 1, 0), entries_(matrix.nonZeros())
     {
         each_entry(matrix, [&](Index column, Index, double) { ++begin_[column + 1]; });
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -66,16 +67,16 @@ public:
         each_entry(matrix, [&](Index column, Index row, double value) { entries_[end[column]++] = {row, value}; });
     }
 
-    /// The columns of a supernode, (height, width).
-    void assemble(Index s, double* columns)
+    /// The columns of a supernode, (height, width). @param place room for a number per row of the matrix
+    void assemble(Index s, double* columns, Index* place) const
     {
         const std::ptrdiff_t height = l_.height(s), width = l_.width(s);
         std::fill_n(columns, height * width, 0.0);
-        for (Index r = 0; r < height; ++r) place_[l_.rows(s)[r]] = r;
+        for (Index r = 0; r < height; ++r) place[l_.rows(s)[r]] = r;
         for (std::ptrdiff_t j = 0; j < width; ++j) {
             const Index column = l_.first_column(s) + static_cast<Index>(j);
             for (Index e = begin_[column]; e < begin_[column + 1]; ++e)
-                columns[j * height + place_[entries_[e].row]] = entries_[e].value;
+                columns[j * height + place[entries_[e].row]] = entries_[e].value;
         }
     }
 
@@ -99,7 +100,6 @@ private:
     const SupernodalFactor& l_;
     std::vector<Index> begin_;
     std::vector<Entry> entries_;
-    std::vector<Index> place_;  // of each row among those of the supernode
 };
 
 }  // namespace
@@ -117,6 +117,8 @@ MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& 
     for (const std::vector<Index>& set : changing)
         for (const Index v : set)
             for (Index s = l_.supernode[l_.rank[v]]; !changes_[s]; s = l_.parent(s)) changes_[s] = 1;
+    changing_ = Subtrees(l_, changes_);
+    all_ = Subtrees(l_, std::vector<char>(count, 1));
     double kept = 0.0;
     for (Index s = 0; s < count; ++s)
         if (changes_[s]) kept += l_.height(s) * l_.width(s) + std::pow(l_.height(s) - l_.width(s), 2);
@@ -145,19 +147,22 @@ MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& 
 
 void MultifrontalFactor::take(const SparseMatrix& matrix)
 {
-    ColumnsInOrder in_order(l_, matrix);
-    for (Index s = 0; s < static_cast<Index>(l_.factor->nsuper); ++s) {
-        in_order.assemble(s, columns(s));
-        const Index below = l_.height(s) - l_.width(s);
-        left_[s] = MatrixXd::Zero(below, below);
-        add_children(s, false);
-        if (changes_[s]) {
-            kept_columns_[s] = Eigen::Map<const MatrixXd>(columns(s), l_.height(s), l_.width(s));
-            kept_left_[s] = std::move(left_[s]);
-        } else {
-            eliminate(s);
+    const ColumnsInOrder in_order(l_, matrix);
+    all_.upward([&](const std::vector<Index>& supernodes) {
+        const auto place = std::make_unique_for_overwrite<Index[]>(l_.size());
+        for (const Index s : supernodes) {
+            in_order.assemble(s, columns(s), place.get());
+            const Index below = l_.height(s) - l_.width(s);
+            left_[s] = MatrixXd::Zero(below, below);
+            add_children(s, false);
+            if (changes_[s]) {
+                kept_columns_[s] = Eigen::Map<const MatrixXd>(columns(s), l_.height(s), l_.width(s));
+                kept_left_[s] = std::move(left_[s]);
+            } else {
+                eliminate(s);
+            }
         }
-    }
+    });
 }
 
 void MultifrontalFactor::find_addends(const std::vector<std::vector<Index>>& changing)
@@ -204,15 +209,15 @@ void MultifrontalFactor::eliminate(Index s)
 
 void MultifrontalFactor::refactorize(const std::vector<MatrixXd>& blocks)
 {
-    const Index count = static_cast<Index>(l_.factor->nsuper);
-    for (Index s = 0; s < count; ++s) {
-        if (!changes_[s]) continue;
-        std::copy_n(kept_columns_[s].data(), kept_columns_[s].size(), columns(s));
-        left_[s] = kept_left_[s];
-        for (const Addend& a : addends_[s]) columns(s)[a.place] += blocks[a.set](a.row, a.column);
-        add_children(s, true);
-        eliminate(s);
-    }
+    changing_.upward([&](const std::vector<Index>& supernodes) {
+        for (const Index s : supernodes) {
+            std::copy_n(kept_columns_[s].data(), kept_columns_[s].size(), columns(s));
+            left_[s] = kept_left_[s];
+            for (const Addend& a : addends_[s]) columns(s)[a.place] += blocks[a.set](a.row, a.column);
+            add_children(s, true);
+            eliminate(s);
+        }
+    });
 }
 
 }  // namespace koebe::detail

@@ -1,7 +1,7 @@
 // A Cholesky factor of which a part is computed anew. For the .cpp files of this folder only.
 #pragma once
 
-#include "linear/supernodal_factor.h"
+#include "linear/subtrees.h"
 
 #include <vector>
 
@@ -44,6 +44,7 @@ private:
     double* values_ = nullptr;
     const Index* px_ = nullptr;
     std::vector<char> changes_;                       // per supernode
+    Subtrees all_, changing_;                         // supernodes, and those that change
     std::vector<std::vector<Index>> children_;        // per supernode
     std::vector<std::vector<Index>> place_;           // per supernode, of its rows below among the rows of its parent
     std::vector<MatrixXd> left_;                      // per supernode what it leaves over, lower triangle

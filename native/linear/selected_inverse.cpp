@@ -1,6 +1,10 @@
 #include "linear/selected_inverse.h"
 
+#include "core/thread_share.h"
+#include "linear/subtrees.h"
+
 #include <algorithm>
+#include <ranges>
 
 extern "C" {
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
@@ -34,15 +38,16 @@ public:
         if (below == 0) return;
 
         MatrixXd corner(below, below);  // Z_RR, lower triangle
+        std::vector<Index> place(below);
         for (int c = 0; c < below;) {
             // Rows of R that are columns of one supernode stand side by side.
             const Index owner = l_.supernode[rows[c]];
             int end = c;
             while (end < below && l_.supernode[rows[end]] == owner) ++end;
-            locate(owner, rows, c, below);
+            locate(owner, rows, c, place);
             for (int column = c; column < end; ++column) {
                 const double* from = &blocks_[owner](0, rows[column] - l_.first_column(owner));
-                for (int r = column; r < below; ++r) corner(r, column) = from[place_[r]];
+                for (int r = column; r < below; ++r) corner(r, column) = from[place[r]];
             }
             c = end;
         }
@@ -74,20 +79,18 @@ private:
     }
 
     /// Where the rows from number `first` on stand among those of a supernode, both ascending.
-    void locate(Index owner, const Index* rows, int first, int count)
+    void locate(Index owner, const Index* rows, int first, std::vector<Index>& place) const
     {
-        place_.resize(count);
         const Index* among = l_.rows(owner);
         Index at = 0;
-        for (int r = first; r < count; ++r) {
+        for (std::size_t r = first; r < place.size(); ++r) {
             while (among[at] != rows[r]) ++at;
-            place_[r] = at;
+            place[r] = at;
         }
     }
 
     const SupernodalFactor& l_;
     std::vector<MatrixXd> blocks_;
-    std::vector<Index> place_;
 };
 
 }  // namespace
@@ -99,18 +102,21 @@ std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vec
         for (const Index v : set)
             for (Index s = l.supernode[l.rank[v]]; !needed[s]; s = l.parent(s)) needed[s] = 1;
     PatternInverse inverse(l);
-    for (Index s = l.supernode_count(); s-- > 0;)
-        if (needed[s]) inverse.compute(s);
+    Subtrees(l, needed).downward([&](const std::vector<Index>& supernodes) {
+        for (const Index s : std::views::reverse(supernodes)) inverse.compute(s);
+    });
 
-    std::vector<MatrixXd> result;
-    for (const std::vector<Index>& set : sets) {
-        MatrixXd& block = result.emplace_back(set.size(), set.size());
+    std::vector<MatrixXd> result(sets.size());
+    each_beside(sets.size(), [&](std::size_t k) {
+        const std::vector<Index>& set = sets[k];
+        MatrixXd& block = result[k];
+        block.resize(static_cast<Eigen::Index>(set.size()), static_cast<Eigen::Index>(set.size()));
         for (std::size_t i = 0; i < set.size(); ++i)
             for (std::size_t j = 0; j <= i; ++j) {
                 const Index p = l.rank[set[i]], q = l.rank[set[j]];
                 block(i, j) = block(j, i) = inverse.entry(std::max(p, q), std::min(p, q));
             }
-    }
+    });
     return result;
 }
 

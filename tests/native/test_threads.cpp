@@ -213,9 +213,10 @@ TEST(Threads, faired_holes_are_the_same_each_time)
     expect_alike("fill_and_fair_holes", [&] { return fill_and_fair_holes(surface, holes.triangles).vertices; });
 }
 
-TEST(Threads, a_large_surface_has_the_same_map_on_any_number_of_threads)
+namespace {
+
+void expect_same_map_on_any_number_of_threads(const CircleDomain& domain)
 {
-    const CircleDomain domain = make_circle_domain(five_circles(), 110000);  // is factored in pieces
     const Vertices vertices = lift(domain.points, Lift::enneper);
     UniformizeOptions options;
     options.threads = 1;
@@ -230,4 +231,19 @@ TEST(Threads, a_large_surface_has_the_same_map_on_any_number_of_threads)
         for (std::size_t k = 0; k < one.loops.size(); ++k)
             EXPECT_EQ(one.loops[k].circle.center, several.loops[k].circle.center);
     }
+}
+
+}  // namespace
+
+TEST(Threads, a_large_surface_has_the_same_map_on_any_number_of_threads)
+{
+    expect_same_map_on_any_number_of_threads(make_circle_domain(five_circles(), 110000));  // is factored in pieces
+}
+
+TEST(Threads, a_surface_with_long_boundaries_has_the_same_map_on_any_number_of_threads)
+{
+    std::vector<Circle> circles{Circle{}};
+    for (int k = 0; k < 14; ++k) circles.push_back({std::polar(0.75, 0.449 * k), 0.12});
+    for (int k = 0; k < 8; ++k) circles.push_back({std::polar(0.4, 0.785 * k + 0.2), 0.1});
+    expect_same_map_on_any_number_of_threads(make_circle_domain(circles, 20000));  // and so has no Sigma
 }
