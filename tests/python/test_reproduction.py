@@ -301,10 +301,9 @@ def history(errors, roundness=1.0, per_sweep=2):
 
 def test_a_goal_counts_when_it_is_kept():
     found = history([1e-2, 1e-4, 1e-2, 1e-5, 1e-8])
-    assert table_two.steps_to(found, 1e-3, 1.0, together=False) == 4
-    assert table_two.steps_to(found, 1e-6, 1.0, together=False) == 5
-    assert table_two.steps_to(found, 1e-6, 1.0, together=True) == 6  # whole sweeps
-    assert table_two.steps_to(found, "e", 1.0, together=False) == 1
+    assert table_two.steps_to(found, 1e-3, 1.0) == 4
+    assert table_two.steps_to(found, 1e-6, 1.0) == 5
+    assert table_two.steps_to(found, "e", 1.0) == 1
 
 
 def test_the_verdicts():
