@@ -27,8 +27,7 @@ SURFACES = (
     ("Fig. 12", "fig12_nefertiti_74k_9", 9, 146405),
 )
 RUNS = {
-    "GK condensed": ("uniformize", "--method", "gk"),
-    "CK condensed": ("uniformize", "--method", "ck"),
+    "condensed": ("uniformize", "--method", "gk"),
     "GK mesh": ("uniformize", "--method", "gk", "--engine", "mesh"),
     "first mesh": ("uniformize", "--method", "against-outer", "--engine", "mesh"),
     "RF": ("ricci",),
@@ -110,7 +109,7 @@ def markdown(rows):
     lines = [
         "| size of | holes | vertices | faces | method | converged | steps | mean roundness | largest | angle error | "
         "flipped "
-        "| time / GK condensed |",
+        "| time / condensed |",
         "|" + " --- |" * 12,
     ]
     size = {row["figure"]: f"{row['vertices']:,} | {row['faces']:,}" for row in rows if not row["stopped"]}

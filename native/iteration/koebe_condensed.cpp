@@ -19,8 +19,13 @@ namespace {
 
 constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and one on the way
 
-/// Steps that follow each other: at least three loops, or there is no choice.
-bool goes_in_turn(const std::vector<VertexLoop>& loops, bool in_turn) { return in_turn && loops.size() > 2; }
+constexpr std::size_t few_loops = 8;  // up to which CK and the first algorithm go step after step
+
+bool goes_in_turn(const std::vector<VertexLoop>& loops, const IterationOptions& options)
+{
+    if (loops.size() <= 2) return false;  // one or two leave no choice
+    return options.in_turn || (options.method != Method::gk && loops.size() <= few_loops);
+}
 
 constexpr double longest = 3000.0;  // a Sigma of 72 MB
 
@@ -81,12 +86,12 @@ private:
 
 }  // namespace
 
-CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops, bool in_turn,
-                            std::optional<std::size_t> most_condensed)
+CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                            const IterationOptions& options, std::optional<std::size_t> most_condensed)
 {
     std::vector<Index> boundary;
     for (const VertexLoop& loop : loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
-    const bool all = goes_in_turn(loops, in_turn);
+    const bool all = goes_in_turn(loops, options);
     const auto vertex_count = static_cast<double>(laplacian.rows());
     const Index grounded =
         !all && grounds_outer_loop(loops, boundary.size(), vertex_count) ? static_cast<Index>(loops[0].size()) : 0;
@@ -102,7 +107,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLapla
 {
     KoebeOutcome outcome;
     const int loop_count = static_cast<int>(loops.size());
-    const bool at_once = !goes_in_turn(loops, options.in_turn) || !surface.has_sigma();
+    const bool at_once = !goes_in_turn(loops, options) || !surface.has_sigma();
     const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
     const VectorXd flux_of_source =
         sourced ? flux_of_deepest_source(surface, areas) : VectorXd::Zero(surface.boundary_size());

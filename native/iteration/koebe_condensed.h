@@ -13,11 +13,11 @@ namespace koebe {
 /// The Laplacian of a surface with these loops, condensed as the iteration takes it best. An outer loop with a third of
 /// all boundary vertices is grounded, unless they are few: then Sigma has the inner loops alone. Where more than
 /// `most_condensed` boundary vertices would be kept there is no Sigma.
-/// @param in_turn for IterationOptions::in_turn: nothing is grounded
+/// @param options where they let steps follow each other nothing is grounded
 /// @param most_condensed without it 5 sqrt(V), and no more than 3,000; in turn 3,000
 /// @throws SolverError
-CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops, bool in_turn = false,
-                            std::optional<std::size_t> most_condensed = {});
+CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                            const IterationOptions& options, std::optional<std::size_t> most_condensed = {});
 
 /// Runs the iteration (paper, section 4.4) on the state of one angle per boundary vertex.
 ///
@@ -35,11 +35,11 @@ CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<Ver
 /// one GK step. Boundaries too long for a Sigma keep A as one sparse matrix, and the blocks N_kk come by selected
 /// inversion.
 ///
-/// With IterationOptions::in_turn the steps of a sweep follow each other, as the paper's theorems have them, and R is
-/// eliminated in each; but not where there is no Sigma.
+/// CK and against_outer up to 8 loops, and all methods with IterationOptions::in_turn, take the steps of a sweep one
+/// after the other, as the paper's theorems have them, and R is eliminated in each; but not where there is no Sigma.
 ///
 /// @param laplacian of the surface
-/// @param surface the same by condense(), with the same in_turn
+/// @param surface the same by condense(), with the same options
 /// @param loops the outer loop first
 /// @param edges per loop: length on the surface of the edge from each vertex to the next, all positive
 /// @param areas (V) area around each vertex: for the choice of the source, the vertex deepest inside

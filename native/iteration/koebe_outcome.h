@@ -18,11 +18,11 @@ struct IterationOptions {
     Method method = Method::gk;
     double tolerance = 1e-6;  ///< on the circles' change in a sweep, a length in the unit disk
     int max_sweeps = 50;
-    bool in_turn = false;  ///< the condensed engine's steps follow each other too, for the theorems 1.1 and 1.2 alone
+    bool in_turn = false;  ///< GK's steps of a sweep follow each other in the condensed engine, too (koebe_condensed)
 };
 
-/// One step of the Koebe iteration. The condensed engine's steps of one sweep take effect together, unless in turn: they
-/// share the sweep's change, and its roundness stands in the last of them, the one before in the others.
+/// One step of the Koebe iteration. The condensed engine's steps of one sweep take effect together, unless in turn:
+/// they share the sweep's change, and its roundness stands in the last of them, the one before in the others.
 struct KoebeStep {
     int step = 0;
     std::pair<int, int> pair{0, 0};  ///< the two loops left open; (k, k) where it is one

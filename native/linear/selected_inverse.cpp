@@ -4,7 +4,6 @@
 #include "linear/subtrees.h"
 
 #include <algorithm>
-#include <ranges>
 
 extern "C" {
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
@@ -103,7 +102,7 @@ std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vec
             for (Index s = l.supernode[l.rank[v]]; !needed[s]; s = l.parent(s)) needed[s] = 1;
     PatternInverse inverse(l);
     Subtrees(l, needed).downward([&](const std::vector<Index>& supernodes) {
-        for (const Index s : std::views::reverse(supernodes)) inverse.compute(s);
+        std::for_each(supernodes.rbegin(), supernodes.rend(), [&](Index s) { inverse.compute(s); });
     });
 
     std::vector<MatrixXd> result(sets.size());

@@ -80,13 +80,13 @@ void AssembledDomain::take_metric(const Domain& domain)
     factored = false;
 }
 
-void AssembledDomain::factorize(const Domain& domain, bool in_turn)
+void AssembledDomain::factorize(const Domain& domain, const IterationOptions& options)
 {
     try {
         if (condensed)
             condensed->renew(laplacian);
         else
-            condensed.emplace(condense(laplacian, domain.loops, in_turn));
+            condensed.emplace(condense(laplacian, domain.loops, options));
         factored = true;
     } catch (...) {
         condensed.reset();
@@ -129,7 +129,7 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
             AssembledDomain refined;
             if (condensed) {
                 refined.take_metric(fine);
-                refined.factorize(fine, options.in_turn);
+                refined.factorize(fine, options);
             }
             return run_engine(fine, refined, options, context);
         });

@@ -23,7 +23,7 @@ struct AssembledDomain {
     /// factor can be renewed.
     void take_metric(const Domain& domain);
     /// @throws SolverError
-    void factorize(const Domain& domain, bool in_turn);
+    void factorize(const Domain& domain, const IterationOptions& options);
     /// Of the same domain with its loops in another order: the factor is kept where that can be.
     void reorder(const Domain& domain);
 };

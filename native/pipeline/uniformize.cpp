@@ -64,7 +64,7 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
     if (!problem.assembled.factored) {
         context.begin_stage("factor", at(0.0), at(0.45));
         try {
-            problem.assembled.factorize(problem.domain(), options.in_turn);
+            problem.assembled.factorize(problem.domain(), options);
         } catch (const OutOfMemory&) {
             throw;
         } catch (const SolverError&) {  // the map is made without it, and says so

@@ -246,7 +246,8 @@ TEST(MeshReader, OffPassesOverColorsNormalsAndTexturesHoweverManyNumbersTheyHave
         for (const char* extra : {"", " 0 0 1", " 0 0 1 9 9 9 1", " 255 128"}) {
             SCOPED_TRACE(std::string(keyword) + extra);
             std::string text = std::string(keyword) + " # all\n3 1 0\n";
-            for (const char* line : {"0 0 0", "1 0 0", "0 1 0.5", "3 2 1 0"}) text.append(line).append(extra).append("\n");
+            for (const char* line : {"0 0 0", "1 0 0", "0 1 0.5", "3 2 1 0"})
+                text.append(line).append(extra).append("\n");
             const PolygonMesh mesh = parse("a.off", text);
             EXPECT_TRUE(mesh.vertices.row(2) == Eigen::RowVector3d(0.0, 1.0, 0.5));
             EXPECT_EQ(corners_of(mesh, 0), (std::vector<Index>{2, 1, 0}));

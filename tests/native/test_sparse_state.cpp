@@ -29,12 +29,12 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
             length[b] = (surface.row(loop[(b + 1) % loop.size()]) - surface.row(loop[b])).norm();
         edges.push_back(length);
     }
-    const CondensedLaplacian condensed = condense(laplacian, domain.loops, in_turn, most_condensed);
-    EXPECT_EQ(condensed.has_sigma(), domain.loops.size() == 1 || most_condensed > 0);
     IterationOptions options;
     options.method = method;
     options.tolerance = 1e-9;
     options.in_turn = in_turn;
+    const CondensedLaplacian condensed = condense(laplacian, domain.loops, options, most_condensed);
+    EXPECT_EQ(condensed.has_sigma(), domain.loops.size() == 1 || most_condensed > 0);
     ExecutionContext context;
     KoebeRun result;
     result.outcome = koebe_condensed(laplacian, condensed, domain.loops, edges,
