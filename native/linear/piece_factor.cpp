@@ -49,8 +49,9 @@ SparseMatrix with_interface(const SparseMatrix& matrix, const std::vector<Index>
 class PieceFactorization {
 public:
     PieceFactorization(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
-                       double* values, const LowerMatrix& rest)
+                       double* values, const LowerMatrix& rest, const MatrixPlaces* places)
         : matrix_(matrix),
+          places_(places),
           layout_(layout),
           part_(part),
           tops_(tops),
@@ -111,6 +112,11 @@ private:
         double* to = block(s);
         std::fill(to, to + static_cast<std::ptrdiff_t>(w) * h, 0.0);
         for (Index r = 0; r < h; ++r) place(rows(s)[r]) = r;
+        if (places_) {
+            for (Index e = places_->begin[s]; e < places_->begin[s + 1]; ++e)
+                to[places_->place[e]] = matrix_.valuePtr()[places_->entry[e]];
+            return;
+        }
         for (Index c = 0; c < w; ++c)
             for (SparseMatrix::InnerIterator it(matrix_, layout_.order[first(s) + c]); it; ++it)
                 if (const Index row = layout_.rank[it.row()]; row >= first(s) + c)
@@ -193,6 +199,7 @@ private:
     }
 
     const SparseMatrix& matrix_;
+    const MatrixPlaces* places_;
     const SupernodeLayout& layout_;
     const SplitPart& part_;
     Index tops_;
@@ -244,9 +251,9 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
 }
 
 void factorize_piece(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
-                     double* values, const LowerMatrix& rest)
+                     double* values, const LowerMatrix& rest, const MatrixPlaces* places)
 {
-    PieceFactorization(matrix, layout, part, tops, values, rest).run();
+    PieceFactorization(matrix, layout, part, tops, values, rest, places).run();
 }
 
 }  // namespace koebe::detail

@@ -26,12 +26,20 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
                               const std::vector<Index>& interface, const std::vector<Index>& rank,
                               const std::vector<Index>& number);
 
+/// Where the entries of a matrix stand in the blocks of its supernodes: for a matrix that changes, not its pattern.
+struct MatrixPlaces {
+    std::vector<Index> begin;  ///< of each supernode's entries, and the end
+    std::vector<Index> entry;  ///< number among the matrix' own
+    std::vector<Index> place;  ///< in the block
+};
+
 /// The numbers of a piece's supernodes, each from those to its left (Ng and Peyton 1993).
 /// @param tops first row of L that belongs to no piece
 /// @param values of the whole factor
 /// @param rest of the size of the interface: what the piece's columns take from its rows is taken off
+/// @param places of the matrix, if known; the piece is the whole then
 /// @throws SolverError if the matrix is not positive definite
 void factorize_piece(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
-                     double* values, const LowerMatrix& rest);
+                     double* values, const LowerMatrix& rest, const MatrixPlaces* places = nullptr);
 
 }  // namespace koebe::detail

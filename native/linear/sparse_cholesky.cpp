@@ -5,6 +5,7 @@
 #include "linear/elimination_order.h"
 #include "linear/multifrontal_factor.h"
 #include "linear/part_substitution.h"
+#include "linear/renewed_factor.h"
 #include "linear/selected_inverse.h"
 #include "linear/supernodal_factor.h"
 
@@ -27,6 +28,7 @@ struct SparseCholesky::Impl {
     MatrixXd trailing;                           // L_BB in the factor's own order
     SparseMatrix both;                           // triangles of the matrix, where one was given
     std::unique_ptr<MultifrontalFactor> fronts;  // of a matrix that changes in a few rows
+    std::unique_ptr<RenewedFactor> renewed;      // of a second matrix, and those after it
 
     const SparseMatrix& full(const SparseMatrix& matrix)
     {
@@ -104,6 +106,11 @@ void SparseCholesky::refactorize(const SparseMatrix& matrix)
     if (l.split) {
         l.split->factorize(impl_->full(matrix));
         impl_->both = {};
+        return impl_->take_trailing();
+    }
+    if (l.factor->xtype == CHOLMOD_REAL) {
+        if (!impl_->renewed) impl_->renewed = std::make_unique<RenewedFactor>(l);
+        impl_->renewed->take(matrix);
         return impl_->take_trailing();
     }
     cholmod_sparse lower = view(matrix, -1);

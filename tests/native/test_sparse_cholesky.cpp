@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 using namespace koebe;
 
 namespace {
@@ -94,6 +96,48 @@ MatrixXd with_blocks(const SparseMatrix& matrix, const std::vector<MatrixXd>& bl
 }
 
 }  // namespace
+
+TEST(SparseCholesky, renewed_factor_is_that_of_the_other_matrix)
+{
+    const SparseMatrix first = grid_with_cliques(cliques);
+    const MatrixXd f = MatrixXd::Random(first.rows(), 2);
+    for (const std::vector<Index>& last : {std::vector<Index>{}, cliques[0]}) {
+        SparseCholesky cholesky(first, Ordering::amd, last);
+        SparseMatrix other = first;
+        const auto expect_factor_of_other = [&] {
+            cholesky.refactorize(other);
+            EXPECT_LT((other * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
+            const SparseCholesky fresh(other, Ordering::amd, last);
+            EXPECT_LT((cholesky.last_schur() - fresh.last_schur()).norm(), 1e-12 * first.norm());
+        };
+        for (const double scale : {3.0, 0.2}) {
+            other = scale * first;
+            for (Index v = 0; v < static_cast<Index>(other.rows()); ++v) other.coeffRef(v, v) += 0.1 * (v % 7);
+            expect_factor_of_other();
+        }
+        other = SparseMatrix(other.triangularView<Eigen::Lower>());
+        cholesky.refactorize(other);
+        EXPECT_LT((other.selfadjointView<Eigen::Lower>() * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
+        // Fewer entries: those that are not there count as 0.
+        other = first;
+        other.prune([](Index row, Index column, double) { return row == column || std::abs(row - column) == side; });
+        expect_factor_of_other();
+        other = first;
+        expect_factor_of_other();
+    }
+}
+
+TEST(SparseCholesky, renewal_by_a_matrix_that_is_not_positive_definite_is_told_and_forgotten)
+{
+    const SparseMatrix matrix = grid_with_cliques(cliques);
+    SparseCholesky cholesky(matrix, Ordering::amd, cliques[0]);
+    SparseMatrix indefinite = matrix;
+    indefinite.coeffRef(77, 77) = -1.0;
+    EXPECT_THROW(cholesky.refactorize(indefinite), SolverError);
+    cholesky.refactorize(matrix);
+    const MatrixXd f = MatrixXd::Random(matrix.rows(), 1);
+    EXPECT_LT((matrix * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
+}
 
 TEST(SparseCholesky, blocks_that_change_leave_nothing_of_the_ones_before)
 {

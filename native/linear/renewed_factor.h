@@ -1,0 +1,34 @@
+// The numbers of a factor whose matrix has changed. For the .cpp files of this folder only.
+#pragma once
+
+#include "linear/piece_factor.h"
+#include "linear/supernodal_factor.h"
+
+#include <vector>
+
+namespace koebe::detail {
+
+/// What a factor of CHOLMOD's is renewed with: its supernodes, and where each entry of the matrix stands in them. The
+/// numbers are made by factorize_piece. CHOLMOD takes memory and a team of OpenMP for each supernode, which on meshes,
+/// where they are small, takes longer than the numbers do.
+class RenewedFactor {
+public:
+    /// @param l factored before, by CHOLMOD
+    explicit RenewedFactor(SupernodalFactor& l);
+
+    /// @param matrix with no entries but those that were analyzed: the lower triangle, or both
+    /// @throws SolverError if it is not positive definite; then there is no factor
+    void take(const SparseMatrix& matrix);
+
+private:
+    bool has_pattern_of(const SparseMatrix& matrix) const;
+    void find_places(const SparseMatrix& matrix);
+
+    SupernodalFactor& l_;
+    SupernodeLayout layout_;
+    SplitPart whole_;
+    std::vector<Index> outer_, inner_;  // the pattern that the places are of
+    MatrixPlaces places_;
+};
+
+}  // namespace koebe::detail
