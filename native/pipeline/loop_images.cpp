@@ -72,12 +72,20 @@ bool more_boundary_than_inside(const Domain& domain)
 
 void AssembledDomain::take_metric(const Domain& domain)
 {
-    std::optional<IntrinsicMetric> kept;
-    if (condensed) kept = metric_with_flips_of(metric, domain.vertices, domain.surface);
-    if (!kept) condensed.reset();
-    metric = kept ? *std::move(kept) : intrinsic_metric(domain.vertices, domain.surface);
-    laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), domain.surface.vertex_count);
     factored = false;
+    EdgeLengths halves;
+    std::optional<IntrinsicMetric> kept;
+    if (condensed) kept = metric_with_flips_of(metric, domain.vertices, domain.surface, &halves);
+    if (kept) {
+        metric = *std::move(kept);
+        if (!places) places.emplace(metric.triangles, laplacian);
+        places->fill(halves, laplacian);
+        return;
+    }
+    condensed.reset();
+    places.reset();
+    metric = intrinsic_metric(domain.vertices, domain.surface);
+    laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), domain.surface.vertex_count);
 }
 
 void AssembledDomain::factorize(const Domain& domain, const IterationOptions& options)

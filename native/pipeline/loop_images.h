@@ -16,6 +16,7 @@ namespace koebe {
 struct AssembledDomain {
     IntrinsicMetric metric;
     SparseMatrix laplacian;                       ///< cotan weights of the metric
+    std::optional<LaplacianPlaces> places;        ///< of its triangles, once there is a second metric on them
     std::optional<CondensedLaplacian> condensed;  ///< its factor, the loops last
     bool factored = false;                        ///< whether that is of this Laplacian
 

@@ -68,15 +68,22 @@ public:
         }
     }
 
-    /// Flips the same edges. @return whether all could be, and none is far from Delaunay
+    /// Flips the same edges. @return whether all could be
     bool repeat(const std::vector<Index>& flips)
     {
         for (const Index h : flips) {
             if (!crosses_edge(h)) return false;
             flip(h);
         }
+        return true;
+    }
+
+    /// Whether no edge is far from Delaunay that may be flipped. @param halves half_cotangents of the lengths
+    bool nearly_delaunay(const EdgeLengths& halves) const
+    {
+        const double* half = halves.data();
         for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h)
-            if (twin_[h] > h && excess(h) > most_excess && may_flip(h)) return false;
+            if (twin_[h] > h && -2.0 * (half[h] + half[twin_[h]]) > most_excess && may_flip(h)) return false;
         return true;
     }
 
@@ -178,10 +185,15 @@ IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surfac
 }
 
 std::optional<IntrinsicMetric> metric_with_flips_of(const IntrinsicMetric& last, const Vertices& vertices,
-                                                    const Surface& surface, const IntrinsicMetricOptions& options)
+                                                    const Surface& surface, EdgeLengths* halves,
+                                                    const IntrinsicMetricOptions& options)
 {
     IntrinsicMetric metric = metric_of_mesh(vertices, surface, options);
-    if (!DelaunayFlipper(metric, surface, nullptr).repeat(last.flips)) return {};
+    DelaunayFlipper flipper(metric, surface, nullptr);
+    if (!flipper.repeat(last.flips)) return {};
+    EdgeLengths own = half_cotangents(metric.lengths);
+    if (!flipper.nearly_delaunay(own)) return {};
+    if (halves != nullptr) *halves = std::move(own);
     return metric;
 }
 

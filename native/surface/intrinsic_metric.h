@@ -39,7 +39,9 @@ IntrinsicMetric intrinsic_metric(const Vertices& vertices, const Surface& surfac
 /// pattern. Nothing where a flip is impossible now, or an edge is far from Delaunay: the cotangents opposite to it of a
 /// sum below -0.2.
 /// @param last of the same surface with its vertices elsewhere, by the same options
+/// @param halves of the result's lengths: half_cotangents, which are found on the way
 std::optional<IntrinsicMetric> metric_with_flips_of(const IntrinsicMetric& last, const Vertices& vertices,
-                                                    const Surface& surface, const IntrinsicMetricOptions& options = {});
+                                                    const Surface& surface, EdgeLengths* halves = nullptr,
+                                                    const IntrinsicMetricOptions& options = {});
 
 }  // namespace koebe

@@ -142,6 +142,35 @@ SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half
     return laplacian;
 }
 
+LaplacianPlaces::LaplacianPlaces(const Triangles& triangles, const SparseMatrix& laplacian)
+{
+    const Index* const rows = laplacian.innerIndexPtr();
+    const auto place = [&](Index row, Index column) {
+        const Index* const first = rows + laplacian.outerIndexPtr()[column];
+        const Index* const last = rows + laplacian.outerIndexPtr()[column + 1];
+        return static_cast<Index>(std::lower_bound(first, last, row) - rows);
+    };
+    of_.reserve(static_cast<std::size_t>(triangles.size()));
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Index i = triangles(f, k), j = triangles(f, (k + 1) % 3);
+            of_.push_back({place(i, j), place(j, i), place(i, i), place(j, j)});
+        }
+}
+
+void LaplacianPlaces::fill(const EdgeLengths& half_cotangents, SparseMatrix& laplacian) const
+{
+    double* const values = laplacian.valuePtr();
+    std::fill_n(values, laplacian.nonZeros(), 0.0);
+    for (std::size_t h = 0; h < of_.size(); ++h) {
+        const double weight = half_cotangents.data()[h];
+        values[of_[h].there] -= weight;
+        values[of_[h].back] -= weight;
+        values[of_[h].start] += weight;
+        values[of_[h].end] += weight;
+    }
+}
+
 VectorXd vertex_areas(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count)
 {
     VectorXd areas = VectorXd::Zero(vertex_count);

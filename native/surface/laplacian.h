@@ -23,6 +23,22 @@ EdgeLengths half_cotangents(const EdgeLengths& lengths);
 /// semidefinite, K 1 = 0, both triangles stored. K_ij = -(cot alpha + cot beta) / 2. Unused vertices get an empty row.
 SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half_cotangents, Index vertex_count);
 
+/// Where the weights of each half-edge go in a Laplacian, to make that of other weights on the same triangles.
+class LaplacianPlaces {
+public:
+    /// @param laplacian of these triangles
+    LaplacianPlaces(const Triangles& triangles, const SparseMatrix& laplacian);
+
+    /// @param laplacian in: of the same triangles; out: cotan_laplacian of these weights, but for rounding
+    void fill(const EdgeLengths& half_cotangents, SparseMatrix& laplacian) const;
+
+private:
+    struct Places {
+        Index there, back, start, end;  ///< (i, j), (j, i), (i, i) and (j, j) of half-edge i-j
+    };
+    std::vector<Places> of_;
+};
+
 /// A third of the area of the faces around each vertex (V), in squared units of the positions.
 VectorXd vertex_areas(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count);
 

@@ -84,6 +84,21 @@ TEST(DirichletSolver, reproduces_linear_functions_of_a_plane)
     EXPECT_LT((solution - plane.leftCols<2>()).cwiseAbs().maxCoeff(), 1e-11);
 }
 
+TEST(Laplacian, places_filled_anew_give_that_of_other_positions)
+{
+    const Sample sample;
+    SparseMatrix k = sample.laplacian(sample.vertices);
+    const LaplacianPlaces places(sample.domain.triangles, k);
+    for (const Lift kind : {Lift::sphere, Lift::polynomial}) {
+        const Vertices there = lift(sample.domain.points, kind);
+        places.fill(half_cotangents(edge_lengths(there, sample.domain.triangles)), k);
+        const SparseMatrix expected = sample.laplacian(there);
+        ASSERT_EQ(k.nonZeros(), expected.nonZeros());
+        EXPECT_LT((k - expected).norm(), 1e-14 * expected.norm());
+        EXPECT_EQ(SparseMatrix(k.transpose()).toDense(), k.toDense());
+    }
+}
+
 TEST(SparseCholesky, refuses_an_indefinite_matrix)
 {
     SparseMatrix matrix(2, 2);

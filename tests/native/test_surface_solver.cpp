@@ -197,6 +197,9 @@ TEST(IntrinsicMetric, the_same_flips_on_other_positions_give_the_same_triangles)
     Vertices squeezed = there;
     squeezed.col(0) *= 0.05;
     EXPECT_FALSE(metric_with_flips_of(first, squeezed, topology));
+    EdgeLengths halves;
+    ASSERT_TRUE(metric_with_flips_of(first, there, topology, &halves));
+    EXPECT_TRUE(halves == half_cotangents(first.lengths));
 }
 
 TEST(PointAlignment, finds_the_automorphism_that_was_applied)
