@@ -45,7 +45,7 @@ CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<Ver
 /// @param areas (V) area around each vertex: for the choice of the source, the vertex deepest inside
 /// @param last of the same loops on a surface of nearly the same shape: the iteration begins with its angles, and ends
 /// as soon as the next sweep, changing the circles by the same share of this one's, would move them by less than a
-/// tenth of the tolerance
+/// third of the tolerance
 /// @throws SolverError, Cancelled
 KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,

@@ -18,6 +18,11 @@ FlapCut flaps_of(const Domain& whole)
     return is_polygon(whole) ? FlapCut{} : cut_flaps(whole.vertices, whole.surface, whole.loops);
 }
 
+VectorXd shape_of(const Problem& problem)
+{
+    return AngleForecast::shape_of(problem.domain().vertices, problem.domain().surface.triangles);
+}
+
 }  // namespace
 
 Problem prepare_problem(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)
@@ -47,9 +52,18 @@ void move_problem(Problem& problem, const Vertices& vertices)
     if (problem.cut.vertices != kept) {
         problem.assembled = {};
         problem.outcome = {};
+        problem.forecast = {};
     }
     problem.core.reset();
     if (!problem.cut.flaps.empty()) problem.core = core_domain(problem.whole, problem.cut);
+    if (problem.outcome.converged && !problem.outcome.angles.empty())
+        problem.outcome.angles = problem.forecast.angles_for(shape_of(problem));
+}
+
+void remember_angles(Problem& problem)
+{
+    if (problem.outcome.converged && !problem.outcome.angles.empty())
+        problem.forecast.add(shape_of(problem), problem.outcome.angles);
 }
 
 VectorXcd places_of_loops(const Problem& problem)

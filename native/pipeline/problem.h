@@ -3,6 +3,7 @@
 
 #include "core/execution.h"
 #include "flaps/flaps.h"
+#include "iteration/angle_forecast.h"
 #include "pipeline/domain.h"
 #include "pipeline/loop_images.h"
 #include "pipeline/map_from_loops.h"
@@ -20,6 +21,7 @@ struct Problem {
     std::optional<Domain> core;  ///< without the flaps, if there are flaps
     AssembledDomain assembled;   ///< of domain()
     KoebeOutcome outcome;        ///< of the last run on it: where the next one begins
+    AngleForecast forecast;      ///< of the runs on it: with which angles
     Index vertex_count = 0;      ///< of the input
     VectorXcd first_places;  ///< of the input's vertices: where lay_over_first is to bring them, NaN inside, or none
 
@@ -34,10 +36,13 @@ Problem prepare_problem(const Vertices& vertices, const Triangles& triangles, co
 bool chooses_outer_loop(const UniformizeOptions& options, const Domain& domain);
 
 /// The same surface with its vertices elsewhere. Topology, outer loop and order of elimination stay, and the angles of
-/// the last map, unless other flaps hang on it now: then the rest of it is another surface.
+/// the last maps, unless other flaps hang on it now: then the rest of it is another surface.
 /// @param vertices (V, 3) as many as before
 /// @throws InputError
 void move_problem(Problem& problem, const Vertices& vertices);
+
+/// What forecast is to know of the last run, if it converged.
+void remember_angles(Problem& problem);
 
 /// Where the last run took the vertices of the loops, as first_places.
 VectorXcd places_of_loops(const Problem& problem);

@@ -71,6 +71,7 @@ UniformizeResult SurfaceSolver::uniformize(const Vertices& vertices, ExecutionCo
     };
     UniformizeResult result = run_detachable<UniformizeResult>(context, compute);
     if (impl_->first_places.size() == 0 && result.converged) impl_->first_places = places_of_loops(*problem);
+    remember_angles(*problem);
     impl_->keep(std::move(problem));
     return result;
 }

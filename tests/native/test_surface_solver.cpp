@@ -92,6 +92,25 @@ TEST(SurfaceSolver, a_small_step_takes_one_sweep)
     EXPECT_EQ(surface.uniformize(sample.moved(2e-5)).sweeps, 1);
 }
 
+TEST(SurfaceSolver, a_motion_takes_one_sweep_a_frame_and_is_as_near_as_by_many)
+{
+    const Sample sample;
+    SurfaceSolver surface(sample.still, sample.domain.triangles);
+    UniformizeOptions exact;
+    exact.tolerance = 1e-12;
+    SurfaceSolver by_many(sample.still, sample.domain.triangles, exact);
+    std::vector<int> sweeps;
+    for (int frame = 0; frame < 8; ++frame) {
+        const Vertices there = sample.moved(0.04 * std::sin(0.3 * frame));
+        const UniformizeResult map = surface.uniformize(there), best = by_many.uniformize(there);
+        EXPECT_TRUE(map.converged);
+        EXPECT_LT(difference(map, best), 1e-6) << frame;
+        sweeps.push_back(map.sweeps);
+    }
+    for (std::size_t frame = 3; frame < sweeps.size(); ++frame) EXPECT_EQ(sweeps[frame], 1) << frame;
+    EXPECT_GT(sweeps[1], 1);  // from the last angles alone
+}
+
 TEST(SurfaceSolver, maps_are_laid_over_the_first)
 {
     const Sample sample;
