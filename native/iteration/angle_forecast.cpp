@@ -16,7 +16,7 @@ constexpr std::size_t most_known = 3;      // shapes: a parabola through them
 constexpr Eigen::Index sampled = 2000;     // faces, about
 constexpr double shortest = 1e-12;         // edge, in units of the surface
 constexpr double independent = 1e-5;       // of what shapes differ by, not to be a multiple of other differences
-constexpr double worthwhile = 0.5;         // of the distance from the last shape that may be left
+constexpr double most_left = 0.5;          // of the distance from the last shape that may be left
 constexpr double least = 0.5, most = 2.0;  // of a step along a loop, over the last one
 
 /// Angles of a loop that begin within half a turn of others.
@@ -71,7 +71,7 @@ std::vector<VectorXd> AngleForecast::angles_for(const VectorXd& shape) const
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> system;
     system.setThreshold(independent);
     const VectorXd shares = system.compute(differences).solve(way);
-    if (!((way - differences * shares).norm() <= worthwhile * way.norm())) return last.angles;
+    if (!((way - differences * shares).norm() <= most_left * way.norm())) return last.angles;
     std::vector<VectorXd> result = last.angles;
     for (std::size_t k = 0; k < result.size(); ++k) {
         for (Eigen::Index j = 0; j < others; ++j)

@@ -17,7 +17,8 @@ RenewedFactor::RenewedFactor(SupernodalFactor& l) : l_(l)
         layout_.row_begin.push_back(l.rows(s) - l.rows(0));
     }
     layout_.rows.assign(l.rows(0), l.rows(count));
-    for (Index s = 0; s < count; ++s) layout_.value_begin.push_back(l.values(s) - l.values(0));
+    const Index* const begin = static_cast<const Index*>(l.factor->px);
+    layout_.value_begin.assign(begin, begin + count + 1);
     whole_.end = l.size();
     whole_.last_supernode = count;
 }
@@ -29,12 +30,20 @@ bool RenewedFactor::has_pattern_of(const SparseMatrix& matrix) const
            std::equal(inner_.begin(), inner_.end(), inner, inner + matrix.nonZeros());
 }
 
-void RenewedFactor::find_places(const SparseMatrix& matrix)
+void RenewedFactor::take_pattern(const SparseMatrix& matrix)
 {
     outer_.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1);
     inner_.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+    places_ = {};
+    has_both_ = false;
+    for (Index c = 0; c + 1 < static_cast<Index>(outer_.size()) && !has_both_; ++c)
+        has_both_ = outer_[c] < outer_[c + 1] && inner_[outer_[c]] < c;
+}
+
+void RenewedFactor::find_places()
+{
     const auto each_entry = [&](const auto& visit) {
-        for (Index c = 0; c < static_cast<Index>(matrix.cols()); ++c)
+        for (Index c = 0; c + 1 < static_cast<Index>(outer_.size()); ++c)
             for (Index e = outer_[c]; e < outer_[c + 1]; ++e)
                 if (inner_[e] >= c) {
                     const auto [column, row] = std::minmax(l_.rank[inner_[e]], l_.rank[c]);
@@ -59,9 +68,12 @@ void RenewedFactor::find_places(const SparseMatrix& matrix)
 
 void RenewedFactor::take(const SparseMatrix& matrix)
 {
-    if (!has_pattern_of(matrix)) find_places(matrix);
+    const bool known = has_pattern_of(matrix);
+    if (!known) take_pattern(matrix);
+    if (places_.begin.empty() && (known || !has_both_)) find_places();
     const KernelBuffer buffer;
-    factorize_piece(matrix, layout_, whole_, l_.size(), static_cast<double*>(l_.factor->x), {}, &places_);
+    factorize_piece(matrix, layout_, whole_, l_.size(), static_cast<double*>(l_.factor->x), {},
+                    places_.begin.empty() ? nullptr : &places_);
 }
 
 }  // namespace koebe::detail

@@ -13,7 +13,7 @@ namespace koebe::detail {
 /// where they are small, takes longer than the numbers do.
 class RenewedFactor {
 public:
-    /// @param l factored before, by CHOLMOD
+    /// @param l analyzed by CHOLMOD, and with room for the numbers
     explicit RenewedFactor(SupernodalFactor& l);
 
     /// @param matrix with no entries but those that were analyzed: the lower triangle, or both
@@ -22,13 +22,15 @@ public:
 
 private:
     bool has_pattern_of(const SparseMatrix& matrix) const;
-    void find_places(const SparseMatrix& matrix);
+    void take_pattern(const SparseMatrix& matrix);
+    void find_places();
 
     SupernodalFactor& l_;
     SupernodeLayout layout_;
     SplitPart whole_;
-    std::vector<Index> outer_, inner_;  // the pattern that the places are of
-    MatrixPlaces places_;
+    std::vector<Index> outer_, inner_;  // the last matrix' pattern
+    bool has_both_ = false;             // triangles
+    MatrixPlaces places_;  // in it, from its second matrix on: finding them takes as long as they save twice
 };
 
 }  // namespace koebe::detail

@@ -99,6 +99,19 @@ void SparseCholesky::Impl::analyze(const SparseMatrix& matrix, Ordering ordering
     }
 }
 
+bool SparseCholesky::retake(const SparseMatrix& matrix)
+{
+    SupernodalFactor& l = impl_->l;
+    if (impl_->fronts || l.split) return false;
+    impl_->analyze(matrix, Ordering::amd);
+    l.common.require(cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, l.factor.get(), l.common.get()) != 0,
+                     "room for the factor");
+    l.number();
+    impl_->renewed = std::make_unique<RenewedFactor>(l);
+    refactorize(matrix);
+    return true;
+}
+
 void SparseCholesky::refactorize(const SparseMatrix& matrix)
 {
     SupernodalFactor& l = impl_->l;

@@ -76,25 +76,31 @@ void AssembledDomain::take_metric(const Domain& domain)
     EdgeLengths halves;
     std::optional<IntrinsicMetric> kept;
     if (condensed) kept = metric_with_flips_of(metric, domain.vertices, domain.surface, &halves);
-    if (kept) {
+    if (kept && uses > 1) {
         metric = *std::move(kept);
         if (!places) places.emplace(metric.triangles, laplacian);
         places->fill(halves, laplacian);
         return;
     }
-    condensed.reset();
-    places.reset();
-    metric = intrinsic_metric(domain.vertices, domain.surface);
-    laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), domain.surface.vertex_count);
+    uses = kept ? uses + 1 : 1;
+    if (!kept) {
+        places.reset();
+        kept = intrinsic_metric(domain.vertices, domain.surface);
+        halves = half_cotangents(kept->lengths);
+    }
+    metric = *std::move(kept);
+    laplacian = cotan_laplacian(metric.triangles, halves, domain.surface.vertex_count);
 }
 
 void AssembledDomain::factorize(const Domain& domain, const IterationOptions& options)
 {
     try {
-        if (condensed)
+        if (condensed && uses > 1) {
             condensed->renew(laplacian);
-        else
+        } else if (!condensed || !condensed->retake(laplacian)) {
+            condensed.reset();  // two of them at once may be more than the memory holds
             condensed.emplace(condense(laplacian, domain.loops, options));
+        }
         factored = true;
     } catch (...) {
         condensed.reset();

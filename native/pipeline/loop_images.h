@@ -16,12 +16,13 @@ namespace koebe {
 struct AssembledDomain {
     IntrinsicMetric metric;
     SparseMatrix laplacian;                       ///< cotan weights of the metric
-    std::optional<LaplacianPlaces> places;        ///< of its triangles, once there is a second metric on them
+    int uses = 0;                                 ///< metrics that there were on its triangles, up to two
+    std::optional<LaplacianPlaces> places;        ///< of these triangles, from the third metric on them
     std::optional<CondensedLaplacian> condensed;  ///< its factor, the loops last
     bool factored = false;                        ///< whether that is of this Laplacian
 
     /// Where there is a factor the last metric's triangulation is kept as long as it is nearly Delaunay: then the
-    /// factor can be renewed.
+    /// factor can be renewed. Else it is made anew by what renews it.
     void take_metric(const Domain& domain);
     /// @throws SolverError
     void factorize(const Domain& domain, const IterationOptions& options);

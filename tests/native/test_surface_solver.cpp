@@ -111,6 +111,42 @@ TEST(SurfaceSolver, a_motion_takes_one_sweep_a_frame_and_is_as_near_as_by_many)
     EXPECT_GT(sweeps[1], 1);  // from the last angles alone
 }
 
+TEST(SurfaceSolver, a_motion_gives_the_same_bits_again_and_on_any_number_of_threads)
+{
+    const Sample sample;
+    const auto maps = [&](int threads) {
+        UniformizeOptions options;
+        options.threads = threads;
+        SurfaceSolver surface(sample.still, sample.domain.triangles, options);
+        std::vector<PlanarPoints> uvs;
+        for (int frame = 0; frame < 6; ++frame)
+            uvs.push_back(surface.uniformize(sample.moved(0.04 * std::sin(0.3 * frame))).uv);
+        return uvs;
+    };
+    const std::vector<PlanarPoints> expected = maps(1);
+    for (const int threads : {1, 3}) EXPECT_TRUE(maps(threads) == expected) << threads;
+}
+
+TEST(SurfaceSolver, other_triangles_and_the_same_ones_again)
+{
+    const Sample sample;
+    for (const bool two_loops : {false, true}) {
+        const CircleDomain domain = two_loops ? make_circle_domain({Circle{}, {{0.2, 0.1}, 0.3}}, 2000) : sample.domain;
+        const Vertices still = lift(domain.points, Lift::sphere);
+        SurfaceSolver surface(still, domain.triangles);
+        const Index outer = surface.uniformize(still).loops[0].vertices[0];
+        for (const double squeeze : {1.0, 0.3, 0.31, 0.32, 1.0, 0.99, 0.98, 0.97}) {  // on two triangulations
+            Vertices there = still;
+            there.col(0) *= squeeze;
+            const UniformizeResult again = surface.uniformize(there);
+            const UniformizeResult fresh = uniformize(there, domain.triangles, on_loop_of(outer));
+            EXPECT_TRUE(again.converged);
+            EXPECT_LT(difference(again, fresh), 2e-3) << squeeze;
+            EXPECT_NEAR(again.distortion.angle_error_deg.mean, fresh.distortion.angle_error_deg.mean, 0.02) << squeeze;
+        }
+    }
+}
+
 TEST(SurfaceSolver, maps_are_laid_over_the_first)
 {
     const Sample sample;
