@@ -10,8 +10,8 @@
 namespace koebe {
 
 /// A surface that is mapped again and again. Its topology, the order of elimination and the outer loop are found once;
-/// the iteration begins at the angles that the last maps forecast, and ends when the next sweep, by the contraction that
-/// was seen on this surface, would move the circles by less than a third of the tolerance.
+/// the iteration begins at the angles that the last maps forecast, and ends when the next sweep, by the contraction
+/// that was seen on this surface, would move the circles by less than a third of the tolerance.
 ///
 /// A map is the one that uniformize gives for the same positions and the same outer loop, within the tolerance and up
 /// to an automorphism of the disk: of the freedom that the options leave, as much as there is goes into laying the
