@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,13 +25,13 @@ struct Entry {
 };
 
 /// Buckets hold one fan at most, so nearly all are short.
-void sort_bucket(std::vector<Entry>::iterator first, std::vector<Entry>::iterator last)
+void sort_bucket(Entry* first, Entry* last)
 {
     constexpr std::ptrdiff_t few = 24;
     if (last - first > few) return std::sort(first, last);
-    for (auto next = first; next != last; ++next) {
+    for (Entry* next = first; next != last; ++next) {
         const Entry entry = *next;
-        auto place = next;
+        Entry* place = next;
         for (; place != first && entry < *(place - 1); --place) *place = *(place - 1);
         *place = entry;
     }
@@ -44,24 +45,33 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
 
     // Bucket the half-edges by their smaller vertex; a bucket holds at most one fan, so it is short.
     std::vector<Index> bucket_begin(vertex_count + 1, 0);
-    for (Index h = 0; h < halfedge_count; ++h) ++bucket_begin[std::min(origin(triangles, h), target(triangles, h)) + 1];
+    const auto each_edge_of = [&](std::size_t begin, std::size_t end, const auto& work) {
+        for (Index f = 0; f < halfedge_count; f += 3)
+            for (Index k = 0; k < 3; ++k) {
+                const Index a = triangles.data()[f + k], b = triangles.data()[f + (k + 1) % 3], least = std::min(a, b);
+                if (least >= static_cast<Index>(begin) && least < static_cast<Index>(end))
+                    work(least, std::max(a, b), f + k);
+            }
+    };
+    in_ranges(static_cast<std::size_t>(vertex_count), [&](std::size_t begin, std::size_t end) {
+        each_edge_of(begin, end, [&](Index least, Index, Index) { ++bucket_begin[least + 1]; });
+    });
     for (Index v = 0; v < vertex_count; ++v) bucket_begin[v + 1] += bucket_begin[v];
 
-    std::vector<Entry> entries(halfedge_count);
+    const auto entries = std::make_unique_for_overwrite<Entry[]>(static_cast<std::size_t>(halfedge_count));
     std::vector<Index> cursor(bucket_begin.begin(), bucket_begin.end() - 1);
-    for (Index h = 0; h < halfedge_count; ++h) {
-        const Index a = origin(triangles, h), b = target(triangles, h);
-        entries[cursor[std::min(a, b)]++] = {std::max(a, b), h};
-    }
+    in_ranges(static_cast<std::size_t>(vertex_count), [&](std::size_t begin, std::size_t end) {
+        each_edge_of(begin, end, [&](Index least, Index other, Index h) { entries[cursor[least]++] = {other, h}; });
+    });
 
     std::vector<Index> twin(halfedge_count, no_twin);
     const std::vector<Index> crowded = found_in_pieces(vertex_count, [&](Index v) {
         bool any = false;
-        const auto begin = entries.begin() + bucket_begin[v];
-        const auto end = entries.begin() + bucket_begin[v + 1];
+        Entry* const begin = entries.get() + bucket_begin[v];
+        Entry* const end = entries.get() + bucket_begin[v + 1];
         sort_bucket(begin, end);
-        for (auto run = begin; run != end;) {
-            auto run_end = run + 1;
+        for (Entry* run = begin; run != end;) {
+            Entry* run_end = run + 1;
             while (run_end != end && run_end->other_vertex == run->other_vertex) ++run_end;
             if (run_end - run == 2) {
                 twin[run->halfedge] = (run + 1)->halfedge;

@@ -47,6 +47,11 @@ KOEBE_API void each_beside(std::size_t count, const std::function<void(std::size
 KOEBE_API void in_pieces(std::size_t size, std::size_t length,
                          const std::function<void(std::size_t begin, std::size_t end)>& work);
 
+/// Calls work(begin, end) for ranges of [0, size), one for each of this thread's share of threads: for work that looks
+/// at all there is and does what concerns its range, in the order of one range. Then its results do not depend on how
+/// many ranges there are.
+KOEBE_API void in_ranges(std::size_t size, const std::function<void(std::size_t begin, std::size_t end)>& work);
+
 /// The numbers below `size` that a test finds, ascending.
 template <class Number, class Test>
 std::vector<Number> found_in_pieces(Number size, const Test& test)

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/prefetch.h"
 #include "core/thread_share.h"
 
 #include <algorithm>
@@ -23,6 +24,33 @@ struct Orientation {
     std::vector<Index> component;  // per face
     Index component_count = 0;
 };
+
+/// Whether the first face's component is all there is.
+bool is_connected(const std::vector<Index>& twin)
+{
+    std::vector<bool> is_met(twin.size() / 3, false);
+    std::vector<Index> queue{0};
+    queue.reserve(is_met.size());
+    is_met[0] = true;
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+        if (head + steps_ahead < queue.size()) prefetch(&twin[3 * queue[head + steps_ahead]]);
+        for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h)
+            if (twin[h] != no_twin && !is_met[face_of(twin[h])]) {
+                is_met[face_of(twin[h])] = true;
+                queue.push_back(face_of(twin[h]));
+            }
+    }
+    return queue.size() == is_met.size();
+}
+
+/// What nearly all meshes are: in one piece, all faces of one orientation.
+bool is_in_order(const Triangles& triangles, const std::vector<Index>& twin)
+{
+    return found_in_pieces(static_cast<Index>(twin.size()),
+                           [&](Index h) { return twin[h] > h && same_direction(triangles, h, twin[h]); })
+               .empty() &&
+           is_connected(twin);
+}
 
 /// Walks over each component and makes neighbours agree (breadth first).
 Orientation orient_faces(const Triangles& triangles, const std::vector<Index>& twin)
@@ -92,12 +120,15 @@ void require_manifold_vertices(const Surface& surface)
     const Index vertex_count = surface.vertex_count;
     std::vector<Index> face_count(vertex_count, 0);
     std::vector<Index> outgoing(vertex_count, no_twin);
-    for (Index h = 0; h < static_cast<Index>(surface.triangles.size()); ++h) {
-        const Index v = origin(surface.triangles, h);
-        ++face_count[v];
-        // Clockwise from a boundary half-edge one meets the whole fan.
-        if (outgoing[v] == no_twin || surface.twin[h] == no_twin) outgoing[v] = h;
-    }
+    in_ranges(static_cast<std::size_t>(vertex_count), [&](std::size_t begin, std::size_t end) {
+        for (Index h = 0; h < static_cast<Index>(surface.triangles.size()); ++h) {
+            const Index v = origin(surface.triangles, h);
+            if (v < static_cast<Index>(begin) || v >= static_cast<Index>(end)) continue;
+            ++face_count[v];
+            // Clockwise from a boundary half-edge one meets the whole fan.
+            if (outgoing[v] == no_twin || surface.twin[h] == no_twin) outgoing[v] = h;
+        }
+    });
     const std::vector<Index> bad = found_in_pieces(vertex_count, [&](Index v) {
         if (face_count[v] == 0) return false;
         Index met = 0;
@@ -114,11 +145,11 @@ void require_manifold_vertices(const Surface& surface)
                             bad);
 }
 
-std::vector<VertexLoop> find_loops(const Surface& surface)
+/// @param rim the half-edges without a twin
+std::vector<VertexLoop> find_loops(const Surface& surface, const std::vector<Index>& rim)
 {
     std::vector<Index> successor(surface.vertex_count, -1);
-    for (Index h = 0; h < static_cast<Index>(surface.triangles.size()); ++h)
-        if (surface.twin[h] == no_twin) successor[origin(surface.triangles, h)] = target(surface.triangles, h);
+    for (const Index h : rim) successor[origin(surface.triangles, h)] = target(surface.triangles, h);
     std::vector<VertexLoop> loops;
     for (Index start = 0; start < surface.vertex_count; ++start) {
         if (successor[start] < 0) continue;
@@ -242,16 +273,20 @@ Surface analyze_surface(const Triangles& triangles, Index vertex_count)
     surface.triangles = triangles;
     surface.vertex_count = vertex_count;
     surface.twin = pair_halfedges(triangles, vertex_count);
-    Orientation orientation = orient_faces(triangles, surface.twin);
-    require_one_component(orientation);
-    apply_orientation(surface, std::move(orientation.reversed));
+    if (!is_in_order(triangles, surface.twin)) {
+        Orientation orientation = orient_faces(triangles, surface.twin);
+        require_one_component(orientation);
+        apply_orientation(surface, std::move(orientation.reversed));
+    }
     require_manifold_vertices(surface);
-    surface.loops = find_loops(surface);
+    const std::vector<Index> rim =
+        found_in_pieces(static_cast<Index>(surface.twin.size()), [&](Index h) { return surface.twin[h] == no_twin; });
+    surface.loops = find_loops(surface, rim);
 
     const std::vector<char> unused = unused_vertices(triangles, vertex_count);
     for (Index v = 0; v < vertex_count; ++v)
         if (unused[v]) surface.unused.push_back(v);
-    const auto boundary_edges = std::count(surface.twin.begin(), surface.twin.end(), no_twin);
+    const auto boundary_edges = static_cast<std::ptrdiff_t>(rim.size());
     const auto faces = static_cast<std::ptrdiff_t>(triangles.rows());
     const auto edges = (3 * faces + boundary_edges) / 2;
     const auto vertices = vertex_count - static_cast<std::ptrdiff_t>(surface.unused.size());

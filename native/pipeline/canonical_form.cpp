@@ -1,28 +1,21 @@
 #include "pipeline/canonical_form.h"
 
 #include "core/connectivity.h"
-#include "core/errors.h"
 #include "core/length.h"
+#include "core/prefetch.h"
 #include "core/thread_share.h"
-
-#include <Eigen/Geometry>
+#include "pipeline/canonical_position.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr double same = 1e-4;         // relative difference of lengths that count as one: more than 32-bit noise
-constexpr double hash_unit = 1e-3;    // of lengths in a hash, over the longest boundary edge
-constexpr int hash_rounds = 24;       // edges that a neighbourhood reaches
-constexpr double coarsest = 0x1p-34;  // of the grid, over the extent
-constexpr double finest = 0x1p-50;
-constexpr double of_shortest = 0x1p-22;  // of the grid, over the shortest edge
+constexpr double hash_unit = 1e-3;  // of lengths in a hash, over the longest boundary edge
+constexpr int hash_rounds = 24;     // edges that a neighbourhood reaches
 
 std::uint64_t mixed(std::uint64_t x)
 {
@@ -33,99 +26,23 @@ std::uint64_t mixed(std::uint64_t x)
     return x ^ (x >> 31);
 }
 
-[[noreturn]] void throw_one_point() { throw InputError("all vertices lie on one point"); }
-
-/// About 0 and of about unit size, so that no length overflows.
-Vertices scaled(const Surface& surface, const Vertices& vertices)
-{
-    const Index any = surface.triangles(0, 0);
-    Eigen::RowVector3d low = vertices.row(any), high = low;
-    for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
-        low = low.cwiseMin(vertices.row(surface.triangles.data()[i]));
-        high = high.cwiseMax(vertices.row(surface.triangles.data()[i]));
-    }
-    const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
-    const double extent = (0.5 * high - 0.5 * low).maxCoeff();
-    if (!(extent > 0.0)) throw_one_point();
-    return (vertices.rowwise() - middle) / extent;
-}
-
-/// The row that is farthest by a measure; of several about as far the first.
-template <class Measure>
-Eigen::Index farthest(const Vertices& points, const Measure& measure)
-{
-    Eigen::Index best = 0;
-    double most = measure(0);
-    for (Eigen::Index v = 1; v < points.rows(); ++v)
-        if (const double m = measure(v); m > (1.0 + same) * most) {
-            most = m;
-            best = v;
-        }
-    return best;
-}
-
-CanonicalPosition position_of(const Triangles& triangles, Vertices points)
-{
-    points.rowwise() -= points.colwise().mean().eval();
-    const Eigen::Vector3d reach = points.row(farthest(points, [&](Eigen::Index v) { return points.row(v).norm(); }));
-    const double extent = points.rowwise().norm().maxCoeff();
-    if (!(extent > 0.0)) throw_one_point();
-    const Eigen::Vector3d first = reach / reach.norm();
-    const auto aside = [&](Eigen::Index v) -> Eigen::Vector3d {
-        const Eigen::Vector3d p = points.row(v);
-        return p - p.dot(first) * first;
-    };
-    const Eigen::Vector3d sideways = aside(farthest(points, [&](Eigen::Index v) { return aside(v).norm(); }));
-    // All on a line: any second axis will do.
-    const Eigen::Vector3d second =
-        sideways.norm() > same * extent ? Eigen::Vector3d(sideways / sideways.norm()) : first.unitOrthogonal();
-    Eigen::Matrix3d frame;
-    frame << first, second, first.cross(second);
-    points = (points * frame / extent).eval();
-
-    constexpr std::size_t at_a_time = 32768;
-    constexpr double none = std::numeric_limits<double>::infinity();
-    const std::size_t faces = static_cast<std::size_t>(triangles.rows());
-    std::vector<std::pair<double, double>> least((faces + at_a_time - 1) / at_a_time);  // edge and height
-    in_pieces(faces, at_a_time, [&](std::size_t begin, std::size_t end) {
-        double shortest = none, thinnest = none;
-        for (Eigen::Index f = static_cast<Eigen::Index>(begin); f < static_cast<Eigen::Index>(end); ++f) {
-            const auto edge = [&](int k) -> Eigen::RowVector3d {
-                return points.row(triangles(f, (k + 1) % 3)) - points.row(triangles(f, k));
-            };
-            const Eigen::RowVector3d first = edge(0), last = edge(2);
-            double longest = 0.0;
-            for (const double length : {first.norm(), edge(1).norm(), last.norm()}) {
-                if (length > 0.0) shortest = std::min(shortest, length);
-                longest = std::max(longest, length);
-            }
-            thinnest = std::min(thinnest, longest > 0.0 ? first.cross(last).norm() / longest : 0.0);
-        }
-        least[begin / at_a_time] = {shortest, thinnest};
-    });
-    double shortest = none, thinnest = none;
-    for (const auto& [edge, height] : least) {
-        shortest = std::min(shortest, edge);
-        thinnest = std::min(thinnest, height);
-    }
-    const double grid = std::exp2(std::round(std::log2(std::clamp(of_shortest * shortest, finest, coarsest))));
-    thinnest /= grid;
-    points = (points.array() / grid).round() * grid;
-    return {std::move(points), thinnest};
-}
-
 class Canonicalizer {
 public:
     Canonicalizer(const Surface& surface, const Vertices& vertices)
-        : surface_(surface), positions_(scaled(surface, vertices))
+        : surface_(surface), positions_(scaled_position(surface, vertices))
     {
     }
 
     CanonicalForm run()
     {
         number_from(first_halfedge());
-        CanonicalPosition position =
-            position_of(form_.surface.triangles, positions_(form_.original_vertices, Eigen::all));
+        Vertices numbered(form_.original_vertices.size(), 3);
+        each_rows(numbered.rows(), [&](Eigen::Index first, Eigen::Index count) {
+            for (Eigen::Index v = first; v < first + count; ++v)
+                numbered.row(v) = positions_.row(form_.original_vertices[v]);
+        });
+        positions_ = {};
+        CanonicalPosition position = turned_position(form_.surface.triangles, std::move(numbered));
         form_.vertices = std::move(position.vertices);
         form_.thinnest = position.thinnest;
         return std::move(form_);
@@ -139,89 +56,143 @@ private:
 
     Index first_halfedge() const
     {
+        const std::vector<Index> rim = found_in_pieces(static_cast<Index>(surface_.twin.size()),
+                                                       [&](Index h) { return surface_.twin[h] == no_twin; });
         double longest = -1.0;
-        for (Index h = 0; h < static_cast<Index>(surface_.twin.size()); ++h)
-            if (surface_.twin[h] == no_twin) longest = std::max(longest, length(h));
+        for (const Index h : rim) longest = std::max(longest, length(h));
         std::vector<Index> candidates;
-        for (Index h = 0; h < static_cast<Index>(surface_.twin.size()); ++h)
-            if (surface_.twin[h] == no_twin && length(h) >= (1.0 - same) * longest) candidates.push_back(h);
+        for (const Index h : rim)
+            if (length(h) >= (1.0 - same_size) * longest) candidates.push_back(h);
         if (candidates.size() == 1) return candidates.front();
-        const std::vector<std::uint64_t> hash = neighbourhoods(candidates, longest);
-        const auto key = [&](Index h) {
-            return std::pair(hash[origin(surface_.triangles, h)], hash[target(surface_.triangles, h)]);
-        };
-        return *std::max_element(candidates.begin(), candidates.end(),
-                                 [&](Index a, Index b) { return key(a) < key(b); });
+        const std::vector<Key> keys = keys_of(candidates, longest);
+        return candidates[static_cast<std::size_t>(std::max_element(keys.begin(), keys.end()) - keys.begin())];
     }
 
     /// The half-edges of all faces that a walk of so many edges from the ends of others comes to.
     std::vector<Index> halfedges_around(const std::vector<Index>& starts, int edges) const
     {
-        const Triangles& triangles = surface_.triangles;
-        std::vector<Index> begin(surface_.vertex_count + 1, 0), corner(triangles.size());
-        for (Eigen::Index i = 0; i < triangles.size(); ++i) ++begin[triangles.data()[i] + 1];
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        std::vector<Index> end(begin.begin(), begin.end() - 1);
-        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) corner[end[triangles.data()[h]]++] = h;
-
-        std::vector<char> is_near(surface_.vertex_count, 0), is_found(triangles.rows(), 0);
-        std::vector<Index> ring, next, result;
-        const auto add = [&](Index v) {
-            if (!std::exchange(is_near[v], 1)) next.push_back(v);
+        const std::vector<Index>& twin = surface_.twin;
+        std::vector<bool> is_near(surface_.vertex_count, false), is_found(surface_.triangles.rows(), false);
+        std::vector<Index> ring, next, result;  // a ring: of each of its vertices a half-edge from there
+        const auto add = [&](Index h) {
+            const Index v = origin(surface_.triangles, h);
+            if (!is_near[v]) next.push_back(h);
+            is_near[v] = true;
+        };
+        const auto find = [&](Index f) {
+            if (is_found[f]) return;
+            is_found[f] = true;
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                result.push_back(h);
+                add(h);
+            }
         };
         for (const Index h : starts) {
-            add(origin(triangles, h));
-            add(target(triangles, h));
+            add(h);
+            add(next_halfedge(h));
         }
         for (int step = 0; step <= edges && !next.empty(); ++step) {
             ring.swap(next);
             next.clear();
-            for (const Index v : ring)
-                for (Index i = begin[v]; i < end[v]; ++i) {
-                    const Index f = face_of(corner[i]);
-                    if (std::exchange(is_found[f], 1)) continue;
-                    for (int k = 0; k < 3; ++k) {
-                        result.push_back(3 * f + k);
-                        add(triangles(f, k));
-                    }
+            for (const Index first : ring) {
+                Index h = first;
+                for (; h != no_twin; h = twin[previous_halfedge(h)]) {
+                    find(face_of(h));
+                    if (twin[previous_halfedge(h)] == first) break;
                 }
+                if (h != no_twin) continue;  // all round
+                for (h = twin[first]; h != no_twin; h = twin[next_halfedge(h)]) find(face_of(h));
+            }
         }
         return result;
     }
 
-    /// A number for each vertex that tells its neighbourhood from others, until all candidates are told apart; of use
-    /// at the candidates.
-    std::vector<std::uint64_t> neighbourhoods(const std::vector<Index>& candidates, double unit) const
+    using Key = std::pair<std::uint64_t, std::uint64_t>;
+
+    /// Numbers for the two ends of each candidate that tell their neighbourhoods from others, until all candidates are
+    /// told apart.
+    std::vector<Key> keys_of(const std::vector<Index>& candidates, double unit) const
     {
         const Triangles& triangles = surface_.triangles;
         const std::vector<Index> around = halfedges_around(candidates, hash_rounds);
-        std::vector<std::uint64_t> edge(around.size());
-        for (std::size_t i = 0; i < around.size(); ++i) {
-            const double units = unit > 0.0 ? length(around[i]) / (hash_unit * unit) : 0.0;
-            edge[i] = mixed(units < 0x1p62 ? static_cast<std::uint64_t>(std::llround(units)) : 0u) +
-                      (surface_.twin[around[i]] == no_twin ? 1u : 0u);
-        }
-        std::vector<Index> vertices;
-        std::vector<char> is_listed(surface_.vertex_count, 0);
+        struct Edge {
+            Index from, to;  // numbers of the vertices here
+            bool on_rim;
+            std::uint64_t length;
+        };
+        std::vector<Index> number(surface_.vertex_count, -1);
+        Index count = 0;
         for (const Index h : around)
-            if (const Index v = origin(triangles, h); !std::exchange(is_listed[v], 1)) vertices.push_back(v);
-        std::vector<std::uint64_t> hash(surface_.vertex_count, 1), next(surface_.vertex_count, 0);
+            if (Index& own = number[origin(triangles, h)]; own < 0) own = count++;
+        std::vector<Edge> edges;
+        edges.reserve(around.size());
+        for (const Index h : around) {
+            const bool on_rim = surface_.twin[h] == no_twin;
+            const double units = unit > 0.0 ? length(h) / (hash_unit * unit) : 0.0;
+            edges.push_back(
+                {number[origin(triangles, h)], number[target(triangles, h)], on_rim,
+                 mixed(units < 0x1p62 ? static_cast<std::uint64_t>(std::llround(units)) : 0u) + (on_rim ? 1u : 0u)});
+        }
+        std::vector<std::uint64_t> hash(static_cast<std::size_t>(count), 1), next;
         for (int round = 0; round < hash_rounds; ++round) {
-            for (const Index v : vertices) next[v] = hash[v];
-            for (std::size_t i = 0; i < around.size(); ++i) {
-                const Index h = around[i], a = origin(triangles, h), b = target(triangles, h);
-                next[a] += mixed(hash[b] ^ mixed(edge[i]));
-                if (surface_.twin[h] == no_twin) next[b] += mixed(hash[a] ^ mixed(edge[i] + 1));
+            next = hash;
+            for (const Edge& e : edges) {
+                next[e.from] += mixed(hash[e.to] ^ mixed(e.length));
+                if (e.on_rim) next[e.to] += mixed(hash[e.from] ^ mixed(e.length + 1));
             }
-            for (const Index v : vertices) next[v] = mixed(next[v]);
+            for (std::uint64_t& number_of_vertex : next) number_of_vertex = mixed(number_of_vertex);
             hash.swap(next);
             std::vector<std::uint64_t> keys;
             for (const Index h : candidates)
-                keys.push_back(mixed(hash[origin(triangles, h)]) + hash[target(triangles, h)]);
+                keys.push_back(mixed(hash[number[origin(triangles, h)]]) + hash[number[target(triangles, h)]]);
             std::sort(keys.begin(), keys.end());
             if (std::adjacent_find(keys.begin(), keys.end()) == keys.end()) break;
         }
-        return hash;
+        std::vector<Key> result;
+        for (const Index h : candidates)
+            result.emplace_back(hash[number[origin(triangles, h)]], hash[number[target(triangles, h)]]);
+        return result;
+    }
+
+    /// The half-edges that a walk over the faces, breadth first, enters them by. Appends the vertices as it meets them:
+    /// those of the edge that it enters by are known, but for the first face.
+    std::vector<Index> walk_from(Index start)
+    {
+        const Triangles& triangles = surface_.triangles;
+        std::vector<Index> entered;
+        entered.reserve(surface_.triangles.rows());
+        form_.original_vertices.reserve(surface_.vertex_count);
+        std::vector<bool> is_met(surface_.triangles.rows(), false), is_numbered(surface_.vertex_count, false);
+        const auto meet = [&](Index h) {
+            if (is_numbered[origin(triangles, h)]) return;
+            is_numbered[origin(triangles, h)] = true;
+            form_.original_vertices.push_back(origin(triangles, h));
+        };
+        const auto cross = [&](Index h) {
+            const Index twin = surface_.twin[h];
+            if (twin == no_twin || is_met[face_of(twin)]) return;
+            is_met[face_of(twin)] = true;
+            entered.push_back(twin);
+        };
+        is_met[face_of(start)] = true;
+        entered.push_back(start);
+        for (std::size_t head = 0; head < entered.size(); ++head) {
+            if (head + steps_ahead < entered.size()) {
+                const Index ahead = entered[head + steps_ahead];
+                prefetch(&surface_.twin[ahead]);
+                prefetch(&triangles.data()[ahead]);
+            }
+            const Index second = next_halfedge(entered[head]), third = next_halfedge(second);
+            if (head == 0) {
+                meet(start);
+                cross(start);
+                meet(second);
+            }
+            cross(second);
+            meet(third);
+            cross(third);
+        }
+        return entered;
     }
 
     /// Breadth first over the faces, each from the corner it is entered by.
@@ -229,37 +200,36 @@ private:
     {
         const Index face_count = static_cast<Index>(surface_.triangles.rows());
         Surface& surface = form_.surface;
-        surface.triangles.resize(face_count, 3);
-        surface.twin.assign(3 * static_cast<std::size_t>(face_count), no_twin);
+        const std::vector<Index> entered = walk_from(start);
         rank_.assign(surface_.vertex_count, -1);
-        std::vector<Index> entered(face_count, no_twin), place(face_count, -1);
-        std::vector<Index> queue{start};
-        queue.reserve(face_count);
-        form_.original_faces.reserve(face_count);
-        place[face_of(start)] = 0;
-        entered[face_of(start)] = start;
-        for (std::size_t head = 0; head < queue.size(); ++head) {
-            Index h = queue[head];
-            form_.original_faces.push_back(face_of(h));
-            form_.first_corners.push_back(static_cast<char>((3 - h % 3) % 3));
-            for (int k = 0; k < 3; ++k, h = next_halfedge(h)) {
-                const Index v = origin(surface_.triangles, h);
-                if (rank_[v] < 0) {
-                    rank_[v] = static_cast<Index>(form_.original_vertices.size());
-                    form_.original_vertices.push_back(v);
-                }
-                surface.triangles(static_cast<Eigen::Index>(head), k) = rank_[v];
-                const Index twin = surface_.twin[h];
-                if (twin == no_twin) continue;
-                const Index g = face_of(twin);
-                if (place[g] < 0) {
-                    place[g] = static_cast<Index>(queue.size());
-                    entered[g] = twin;
-                    queue.push_back(twin);
-                }
-                surface.twin[3 * head + k] = 3 * place[g] + (twin - entered[g] + 3) % 3;
+        each_rows(static_cast<Eigen::Index>(form_.original_vertices.size()), [&](Eigen::Index first, Eigen::Index n) {
+            for (Eigen::Index v = first; v < first + n; ++v) rank_[form_.original_vertices[v]] = static_cast<Index>(v);
+        });
+        form_.original_faces.resize(face_count);
+        form_.first_corners.resize(face_count);
+        std::vector<Index> first_halfedge(face_count);  // of each face, in the new numbers
+        each_rows(face_count, [&](Eigen::Index first, Eigen::Index n) {
+            for (Eigen::Index f = first; f < first + n; ++f) {
+                const Index h = entered[f];
+                form_.original_faces[f] = face_of(h);
+                form_.first_corners[f] = static_cast<char>((3 - h % 3) % 3);
+                first_halfedge[face_of(h)] = static_cast<Index>(3 * f) + (3 - h % 3) % 3;
             }
-        }
+        });
+        surface.triangles.resize(face_count, 3);
+        surface.twin.resize(3 * static_cast<std::size_t>(face_count));
+        each_rows(face_count, [&](Eigen::Index first, Eigen::Index n) {
+            for (Eigen::Index f = first; f < first + n; ++f) {
+                Index h = entered[f];
+                for (int k = 0; k < 3; ++k, h = next_halfedge(h)) {
+                    surface.triangles(f, k) = rank_[origin(surface_.triangles, h)];
+                    const Index twin = surface_.twin[h];
+                    Index& other = surface.twin[3 * f + k];
+                    other = twin == no_twin ? no_twin : first_halfedge[face_of(twin)];
+                    for (Index step = twin % 3; step > 0; --step) other = next_halfedge(other);
+                }
+            }
+        });
         surface.vertex_count = static_cast<Index>(form_.original_vertices.size());
         surface.euler_characteristic = surface_.euler_characteristic;
         surface.genus = surface_.genus;
@@ -284,11 +254,6 @@ private:
 CanonicalForm canonical_form(const Surface& surface, const Vertices& vertices)
 {
     return Canonicalizer(surface, vertices).run();
-}
-
-CanonicalPosition canonical_position(const Surface& surface, const Vertices& vertices)
-{
-    return position_of(surface.triangles, scaled(surface, vertices));
 }
 
 }  // namespace koebe

@@ -31,13 +31,4 @@ struct CanonicalForm {
 /// @throws InputError all vertices lie on one point
 CanonicalForm canonical_form(const Surface& surface, const Vertices& vertices);
 
-/// A position in space that follows from the shape alone.
-struct CanonicalPosition {
-    Vertices vertices;  ///< (V, 3) within the unit ball, on a grid
-    double thinnest = 0.0;
-};
-
-/// That of a surface whose numbers are canonical already. @throws as above
-CanonicalPosition canonical_position(const Surface& surface, const Vertices& vertices);
-
 }  // namespace koebe

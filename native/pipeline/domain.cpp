@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "pipeline/canonical_form.h"
+#include "pipeline/canonical_position.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>

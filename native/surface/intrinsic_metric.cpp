@@ -49,10 +49,10 @@ public:
     void run()
     {
         const Index halfedge_count = static_cast<Index>(twin_.size());
-        std::vector<Index> stack;
         const EdgeLengths halves = half_cotangents(lengths_);
-        for (Index h = 0; h < halfedge_count; ++h)
-            if (twin_[h] > h && -2.0 * (halves.data()[h] + halves.data()[twin_[h]]) > tolerance) stack.push_back(h);
+        std::vector<Index> stack = found_in_pieces(halfedge_count, [&](Index h) {
+            return twin_[h] > h && -2.0 * (halves.data()[h] + halves.data()[twin_[h]]) > tolerance;
+        });
         // Lawson's algorithm ends; the bound only guards against round-off on cocircular quadrilaterals.
         const std::size_t most = 20 * twin_.size() + 1000;
         while (!stack.empty() && flips_.size() < most) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace koebe {
@@ -91,24 +92,34 @@ SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half
     // Each half-edge adds its weight to both directions, so an inner edge appears twice in each row: gather, sort
     // the short rows, merge.
     std::vector<Index> begin(vertex_count + 1, 0);
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) begin[triangles.data()[i] + 1] += 2;
+    in_ranges(static_cast<std::size_t>(vertex_count), [&](std::size_t from, std::size_t until) {
+        for (Eigen::Index i = 0; i < triangles.size(); ++i)
+            if (const Index v = triangles.data()[i]; v >= static_cast<Index>(from) && v < static_cast<Index>(until))
+                begin[v + 1] += 2;
+    });
     for (Index v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
-    std::vector<RowEntry> entries(begin[vertex_count]);
+    const auto entries = std::make_unique_for_overwrite<RowEntry[]>(static_cast<std::size_t>(begin[vertex_count]));
     std::vector<Index> cursor(begin.begin(), begin.end() - 1);
-    for (Eigen::Index f = 0; f < face_count; ++f)
-        for (int k = 0; k < 3; ++k) {
-            const Index i = triangles(f, k), j = triangles(f, (k + 1) % 3);
-            entries[cursor[i]++] = {j, half_cotangents(f, k)};
-            entries[cursor[j]++] = {i, half_cotangents(f, k)};
-        }
+    in_ranges(static_cast<std::size_t>(vertex_count), [&](std::size_t from, std::size_t until) {
+        const auto add = [&](Index row, Index column, double weight) {
+            if (row >= static_cast<Index>(from) && row < static_cast<Index>(until))
+                entries[cursor[row]++] = {column, weight};
+        };
+        for (Eigen::Index f = 0; f < face_count; ++f)
+            for (int k = 0; k < 3; ++k) {
+                const Index i = triangles(f, k), j = triangles(f, (k + 1) % 3);
+                add(i, j, half_cotangents(f, k));
+                add(j, i, half_cotangents(f, k));
+            }
+    });
 
     SparseMatrix laplacian(vertex_count, vertex_count);
     Index* const place = laplacian.outerIndexPtr();
     std::vector<double> diagonals(vertex_count, 0.0);
     in_pieces(static_cast<std::size_t>(vertex_count), at_a_time, [&](std::size_t from, std::size_t until) {
         for (std::size_t v = from; v < until; ++v) {
-            RowEntry* const first = entries.data() + begin[v];
-            RowEntry* const last = entries.data() + begin[v + 1];
+            RowEntry* const first = entries.get() + begin[v];
+            RowEntry* const last = entries.get() + begin[v + 1];
             sort_short(first, last);
             for (const RowEntry* e = first; e != last; ++e) diagonals[v] += e->weight;
             RowEntry* merged = first;
@@ -128,7 +139,7 @@ SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half
             double* value = laplacian.valuePtr() + place[v];
             const Index* const end = laplacian.innerIndexPtr() + place[v + 1];
             bool diagonal_written = row == end;
-            for (const RowEntry* e = entries.data() + begin[v]; row != end;) {
+            for (const RowEntry* e = entries.get() + begin[v]; row != end;) {
                 const bool other = diagonal_written || (row + 1 != end && e->row < static_cast<Index>(v));
                 *row++ = other ? e->row : static_cast<Index>(v);
                 *value++ = other ? -e->weight : diagonals[v];
@@ -174,10 +185,16 @@ void LaplacianPlaces::fill(const EdgeLengths& half_cotangents, SparseMatrix& lap
 VectorXd vertex_areas(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count)
 {
     VectorXd areas = VectorXd::Zero(vertex_count);
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const double third = triangle_area(lengths(f, 0), lengths(f, 1), lengths(f, 2)) / 3.0;
-        for (int k = 0; k < 3; ++k) areas[triangles(f, k)] += third;
-    }
+    std::vector<double> thirds(triangles.rows());
+    in_pieces(thirds.size(), at_a_time, [&](std::size_t begin, std::size_t end) {
+        for (Eigen::Index f = static_cast<Eigen::Index>(begin); f < static_cast<Eigen::Index>(end); ++f)
+            thirds[f] = triangle_area(lengths(f, 0), lengths(f, 1), lengths(f, 2)) / 3.0;
+    });
+    in_ranges(static_cast<std::size_t>(vertex_count), [&](std::size_t begin, std::size_t end) {
+        for (Eigen::Index i = 0; i < triangles.size(); ++i)
+            if (const Index v = triangles.data()[i]; v >= static_cast<Index>(begin) && v < static_cast<Index>(end))
+                areas[v] += thirds[i / 3];
+    });
     return areas;
 }
 
