@@ -143,12 +143,16 @@ private:
     /// Sigma times the patterns: the flux of their harmonic extensions at the boundary.
     Eigen::MatrixXcd flux_of(const MatrixXd& patterns) const
     {
-        const MatrixXd everywhere = laplacian_ * condensed_.extend(patterns);
-        Eigen::MatrixXcd flux(patterns.rows(), patterns.cols());
+        const MatrixXd everywhere = condensed_.extend(patterns);
+        MatrixXd flux = MatrixXd::Zero(patterns.rows(), patterns.cols());
         Eigen::Index row = 0;
         for (const VertexLoop& loop : loops_)
-            for (const Index v : loop) flux.row(row++) = everywhere.row(v).cast<Complex>();
-        return flux;
+            for (const Index v : loop) {
+                for (SparseMatrix::InnerIterator it(laplacian_, v); it; ++it)
+                    flux.row(row) += it.value() * everywhere.row(it.row());
+                ++row;
+            }
+        return flux.cast<Complex>();
     }
 
     /// Of each three columns 1, cos, sin the two 1 and cos + i sin.

@@ -1,6 +1,7 @@
 #include "linear/condensed_laplacian.h"
 
 #include "core/errors.h"
+#include "core/thread_share.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,6 +12,7 @@ namespace koebe {
 
 namespace {
 
+constexpr std::size_t columns_at_a_time = 32768;  // columns of a thread
 constexpr double stiffness = 1e20;  // over the largest diagonal entry: 1 over it is nothing beside rounding
 
 /// K on the interior, the unit matrix where something is cut off, nothing between them; 1 more on the diagonal of what
@@ -21,18 +23,34 @@ SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<ch
     std::vector<char> is_kept(laplacian.rows(), 0);
     for (const Index v : kept) is_kept[v] = 1;
     SparseMatrix result(laplacian.rows(), laplacian.cols());
-    result.reserve(laplacian.nonZeros());
-    for (Index column = 0; column < static_cast<Index>(laplacian.cols()); ++column) {
-        result.startVec(column);
+    Index* const begin = result.outerIndexPtr();
+    const auto each_column = [&](const auto& work) {
+        in_pieces(is_cut.size(), columns_at_a_time, [&](std::size_t from, std::size_t until) {
+            for (Index column = static_cast<Index>(from); column < static_cast<Index>(until); ++column) work(column);
+        });
+    };
+    each_column([&](Index column) {
+        Index count = is_cut[column] ? 1 : 0;
+        if (!is_cut[column])
+            for (SparseMatrix::InnerIterator it(laplacian, column); it; ++it) count += is_cut[it.row()] ? 0 : 1;
+        begin[column + 1] = count;
+    });
+    for (std::size_t column = 0; column < is_cut.size(); ++column) begin[column + 1] += begin[column];
+    result.resizeNonZeros(begin[is_cut.size()]);
+    each_column([&](Index column) {
+        Index* row = result.innerIndexPtr() + begin[column];
+        double* value = result.valuePtr() + begin[column];
         if (is_cut[column]) {
-            result.insertBack(column, column) = 1.0;
-            continue;
+            *row = column;
+            *value = 1.0;
+            return;
         }
         for (SparseMatrix::InnerIterator it(laplacian, column); it; ++it)
-            if (!is_cut[it.row()])
-                result.insertBack(it.row(), column) = it.value() + (is_kept[column] && it.row() == column ? 1.0 : 0.0);
-    }
-    result.finalize();
+            if (!is_cut[it.row()]) {
+                *row++ = static_cast<Index>(it.row());
+                *value++ = it.value() + (is_kept[column] && it.row() == column ? 1.0 : 0.0);
+            }
+    });
     return result;
 }
 
@@ -75,7 +93,8 @@ SparseMatrix with_room_for_disks(const SparseMatrix& laplacian, const std::vecto
 }  // namespace
 
 struct CondensedLaplacian::Impl {
-    SparseMatrix laplacian;  // K, where something is cut off
+    SparseMatrix ground_columns;  // of K, which are its rows too
+    double largest_diagonal = 0.0;
     Index vertex_count = 0;
     std::vector<Index> ground, kept;           // the two parts of the boundary, in the factor's order
     std::vector<std::vector<Index>> loops;     // without Sigma
@@ -84,22 +103,31 @@ struct CondensedLaplacian::Impl {
     bool is_filled = false;                    // the factor is of disks
     std::vector<Index> row;                    // of each kept vertex in the factor's order, where that is another
 
+    void take_ground_columns(const SparseMatrix& laplacian)
+    {
+        if (ground.empty()) return;
+        largest_diagonal = laplacian.diagonal().maxCoeff();
+        SparseMatrix columns(laplacian.rows(), static_cast<Eigen::Index>(ground.size()));
+        for (std::size_t i = 0; i < ground.size(); ++i) {
+            columns.startVec(static_cast<Eigen::Index>(i));
+            for (SparseMatrix::InnerIterator it(laplacian, ground[i]); it; ++it)
+                columns.insertBack(it.row(), static_cast<Eigen::Index>(i)) = it.value();
+        }
+        columns.finalize();
+        ground_columns.swap(columns);
+    }
+
     /// What is factored of a Laplacian, where there is a Sigma.
     SparseMatrix shifted(const SparseMatrix& matrix) const
     {
-        if (!ground.empty()) {
-            std::vector<char> is_cut(vertex_count, 0);
-            for (const Index v : ground) is_cut[v] = 1;
-            return shifted_and_cut(matrix, is_cut, kept);
-        }
-        SparseMatrix result = matrix;
-        for (const Index v : kept) result.coeffRef(v, v) += 1.0;
-        return result;
+        std::vector<char> is_cut(vertex_count, 0);
+        for (const Index v : ground) is_cut[v] = 1;
+        return shifted_and_cut(matrix, is_cut, kept);
     }
 
     void take_stiffness()
     {
-        const double value = stiffness * laplacian.diagonal().maxCoeff();
+        const double value = stiffness * largest_diagonal;
         stiff.clear();
         for (std::size_t k = 1; k < loops.size(); ++k)
             stiff.push_back(value * MatrixXd::Identity(loops[k].size(), loops[k].size()));
@@ -121,13 +149,26 @@ struct CondensedLaplacian::Impl {
         return result;
     }
 
-    /// -K z for values on the grounded part, and the values themselves there.
+    /// -K z for values on the grounded part, and the values themselves there. Sums go by the number of the vertex.
     MatrixXd load(const MatrixXd& ground_values) const
     {
-        MatrixXd z = MatrixXd::Zero(laplacian.rows(), ground_values.cols());
-        z(ground, Eigen::all) = ground_values;
-        MatrixXd result = -(laplacian * z);
+        std::vector<Index> order(ground.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::ranges::sort(order, {}, [&](Index i) { return ground[i]; });
+        MatrixXd result = MatrixXd::Zero(vertex_count, ground_values.cols());
+        for (const Index i : order)
+            for (SparseMatrix::InnerIterator it(ground_columns, i); it; ++it)
+                result.row(it.row()) -= it.value() * ground_values.row(i);
         result(ground, Eigen::all) = ground_values;
+        return result;
+    }
+
+    /// -K u on the grounded part.
+    VectorXd flux_to_ground(const VectorXd& u) const
+    {
+        VectorXd result = VectorXd::Zero(static_cast<Eigen::Index>(ground.size()));
+        for (Index i = 0; i < static_cast<Index>(ground.size()); ++i)
+            for (SparseMatrix::InnerIterator it(ground_columns, i); it; ++it) result[i] -= it.value() * u[it.row()];
         return result;
     }
 
@@ -159,7 +200,7 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
     impl_->vertex_count = static_cast<Index>(laplacian.rows());
     impl_->ground.assign(boundary.begin(), boundary.begin() + grounded);
     impl_->kept.assign(boundary.begin() + grounded, boundary.end());
-    if (grounded > 0) impl_->laplacian = laplacian;
+    impl_->take_ground_columns(laplacian);
     impl_->cholesky = std::make_unique<SparseCholesky>(impl_->shifted(laplacian), ordering, impl_->kept);
 }
 
@@ -167,9 +208,9 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
     : impl_(std::make_unique<Impl>())
 {
     impl_->vertex_count = static_cast<Index>(laplacian.rows());
-    impl_->laplacian = laplacian;
     impl_->loops = loops;
     for (const std::vector<Index>& loop : loops) impl_->ground.insert(impl_->ground.end(), loop.begin(), loop.end());
+    impl_->take_ground_columns(laplacian);
     impl_->cholesky = std::make_unique<SparseCholesky>(with_room_for_disks(laplacian, loops), Ordering::amd, loops[1],
                                                        std::vector(loops.begin() + 1, loops.end()));
     impl_->take_stiffness();
@@ -177,7 +218,7 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
 
 void CondensedLaplacian::renew(const SparseMatrix& laplacian)
 {
-    if (!impl_->ground.empty()) impl_->laplacian = laplacian;
+    impl_->take_ground_columns(laplacian);
     if (has_sigma()) return impl_->cholesky->refactorize(impl_->shifted(laplacian));
     impl_->cholesky->refactorize(with_room_for_disks(laplacian, impl_->loops));
     impl_->take_stiffness();
@@ -228,8 +269,7 @@ MatrixXd CondensedLaplacian::load_of_grounded(const MatrixXd& values) const
 
 VectorXd CondensedLaplacian::flux_to_grounded(const VectorXd& values) const
 {
-    const VectorXd u = impl_->cholesky->extend(values);
-    return -VectorXd(impl_->laplacian * u)(impl_->ground);
+    return impl_->flux_to_ground(impl_->cholesky->extend(values));
 }
 
 const SparseCholesky& CondensedLaplacian::fill(const std::vector<MatrixXd>& disks) const
@@ -257,14 +297,14 @@ InteriorSolution CondensedLaplacian::solve_interior(const VectorXd& load) const
     if (!has_sigma()) {
         VectorXd values = impl_->solve_inside(load);
         values(impl_->ground).setZero();
-        return {values, -VectorXd(impl_->laplacian * values)(impl_->ground)};
+        return {values, impl_->flux_to_ground(values)};
     }
     VectorXd inner = load;
     inner(impl_->ground).setZero();
     auto [values, flux] = impl_->cholesky->solve_inner(inner);
     if (impl_->ground.empty()) return {std::move(values), impl_->as_given(std::move(flux))};
     VectorXd boundary_flux(boundary_size());
-    boundary_flux << -VectorXd(impl_->laplacian * values)(impl_->ground), flux;
+    boundary_flux << impl_->flux_to_ground(values), flux;
     return {std::move(values), std::move(boundary_flux)};
 }
 

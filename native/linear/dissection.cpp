@@ -102,8 +102,9 @@ private:
         std::vector<Index>& rows = sets_[set].rows;
         measure(rows, sets_[set].end, Marks(set));
         const Index searched = Marks(set).third;
-        Cut cut = least_cut(rows, distance_, searched);
-        if (const Cut other = least_cut(rows, between_, searched); other.size < cut.size) cut = other;
+        Cut cuts[2];
+        each_beside(2, [&](std::size_t i) { cuts[i] = least_cut(rows, i == 0 ? distance_ : between_, searched); });
+        const Cut& cut = cuts[cuts[1].size < cuts[0].size ? 1 : 0];
         if (8 * cut.size > rows.size()) return;
         const std::vector<Index>& number = *cut.number;
         std::vector<Index> separator;

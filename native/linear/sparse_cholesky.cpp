@@ -1,6 +1,7 @@
 #include "linear/sparse_cholesky.h"
 
 #include "core/memory_limit.h"
+#include "core/thread_share.h"
 #include "linear/dense_spd.h"
 #include "linear/elimination_order.h"
 #include "linear/multifrontal_factor.h"
@@ -18,7 +19,8 @@ using namespace detail;
 
 namespace {
 
-constexpr Index pieces_of_large = 10;  // at least: more of them take longer to find than they save
+constexpr std::size_t solved_at_a_time = 32768;  // rows of a thread
+constexpr Index pieces_of_large = 10;            // at least: more of them take longer to find than they save
 
 }  // namespace
 
@@ -43,6 +45,7 @@ struct SparseCholesky::Impl {
     Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
     Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
     MatrixXd half_solve(const MatrixXd& f);
+    MatrixXd in_given_order(const MatrixXd& solution) const;
     MatrixXd last_in_given_order(const MatrixXd& trailing_rows) const;
     MatrixXd in_factors_order(const MatrixXd& last_values) const;
     MatrixXd back_substitution_to(const std::vector<Index>& wanted, MatrixXd y) const;
@@ -160,8 +163,21 @@ MatrixXd SparseCholesky::last_schur() const
 MatrixXd SparseCholesky::Impl::half_solve(const MatrixXd& f)
 {
     MatrixXd load = MatrixXd::Zero(l.size(), f.cols());
-    for (Index j = 0; j < inner_count(); ++j) load.row(j) = f.row(l.order()[j]);
+    in_pieces(static_cast<std::size_t>(inner_count()), solved_at_a_time, [&](std::size_t begin, std::size_t end) {
+        for (Index c = 0; c < static_cast<Index>(f.cols()); ++c)
+            for (std::size_t j = begin; j < end; ++j) load(j, c) = f(l.order()[j], c);
+    });
     return l.solve(CHOLMOD_L, load);
+}
+
+MatrixXd SparseCholesky::Impl::in_given_order(const MatrixXd& solution) const
+{
+    MatrixXd result(solution.rows(), solution.cols());
+    in_pieces(static_cast<std::size_t>(result.rows()), solved_at_a_time, [&](std::size_t begin, std::size_t end) {
+        for (Index c = 0; c < static_cast<Index>(result.cols()); ++c)
+            for (std::size_t j = begin; j < end; ++j) result(l.order()[j], c) = solution(j, c);
+    });
+    return result;
 }
 
 MatrixXd SparseCholesky::Impl::last_in_given_order(const MatrixXd& trailing_rows) const
@@ -209,8 +225,7 @@ MatrixXd SparseCholesky::extend(const MatrixXd& last_values, const MatrixXd& f) 
     load.bottomRows(count) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * values;
     const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, load);
 
-    MatrixXd result(impl_->l.size(), last_values.cols());
-    for (Index j = 0; j < impl_->l.size(); ++j) result.row(impl_->l.order()[j]) = solution.row(j);
+    MatrixXd result = impl_->in_given_order(solution);
     result(impl_->last, Eigen::all) = last_values;
     return result;
 }
@@ -229,9 +244,7 @@ std::pair<VectorXd, VectorXd> SparseCholesky::solve_inner(const VectorXd& f) con
     const MatrixXd flux = impl_->trailing.triangularView<Eigen::Lower>() * half.bottomRows(count);
     half.bottomRows(count).setZero();
     const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, half);
-    VectorXd values(impl_->l.size());
-    for (Index j = 0; j < impl_->l.size(); ++j) values[impl_->l.order()[j]] = solution(j, 0);
-    return {std::move(values), impl_->last_in_given_order(flux)};
+    return {impl_->in_given_order(solution), impl_->last_in_given_order(flux)};
 }
 
 std::vector<MatrixXd> SparseCholesky::inverse_blocks(const std::vector<std::vector<Index>>& sets) const

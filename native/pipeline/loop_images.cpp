@@ -89,7 +89,8 @@ void AssembledDomain::take_metric(const Domain& domain)
         halves = half_cotangents(kept->lengths);
     }
     metric = *std::move(kept);
-    laplacian = cotan_laplacian(metric.triangles, halves, domain.surface.vertex_count);
+    SparseMatrix next = cotan_laplacian(metric.triangles, halves, domain.surface.vertex_count);
+    laplacian.swap(next);  // an assignment would copy
 }
 
 void AssembledDomain::factorize(const Domain& domain, const IterationOptions& options)
