@@ -10,6 +10,7 @@
 #include "cli/result_line.h"
 #include "cli/roomy_heap.h"
 #include "cli/standard_streams.h"
+#include "core/thread_share.h"
 #include "core/warning.h"
 #include "io/atomic_file.h"
 #include "quality/distortion.h"
@@ -62,6 +63,7 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
         return std::chrono::duration<double>(Clock::now() - then).count();
     };
     const auto begin_write = Clock::now();
+    const ThreadShare threads(request.options.threads);
     std::vector<AtomicFile> files;
     kind.write_mesh(files.emplace_back(request.output), input, result);
     if (!request.sphere.empty()) kind.write_sphere(files.emplace_back(request.sphere), input, result);
@@ -88,8 +90,9 @@ int run_map_of(const MapRequest& request, const MapKind<Result>& kind)
     const CancelToken token = cancel_on_signal();
     if (!kind.many_pieces) take_roomy_heap();
     require_writable_files(map_files(request), !request.quiet);
-    const MeshInput input =
-        read_mesh_input(request.input, token, {.any_polygon = kind.any_polygon, .hash = !request.json.empty()});
+    const MeshInput input = read_mesh_input(
+        request.input, token,
+        {.any_polygon = kind.any_polygon, .hash = !request.json.empty(), .threads = request.options.threads});
     Result result;
     {
         ProgressLine progress(request.quiet);

@@ -4,6 +4,7 @@
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/errors.h"
+#include "core/thread_share.h"
 #include "io/mesh_reader.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ namespace {
 MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions options)
 {
     const auto begin = std::chrono::steady_clock::now();
+    const ThreadShare threads(options.threads);
     MeshInput input;
     // Before it is read: if it changes in between, the hash is that of no mesh, and nobody takes the map for this
     // one's.

@@ -24,6 +24,7 @@ struct MeshInput {
 struct ReadOptions {
     bool any_polygon = false;  ///< those that cannot be cut into triangles are a warning, no error
     bool hash = false;         ///< which takes as long as the reading
+    int threads = 1;           ///< at most; 0: all cores
 };
 
 /// @throws FileError, InputError, Cancelled

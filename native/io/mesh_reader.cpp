@@ -1,5 +1,6 @@
 #include "io/mesh_reader.h"
 
+#include "core/thread_share.h"
 #include "io/descriptor.h"
 #include "io/extension.h"
 #include "io/file_error.h"
@@ -55,19 +56,13 @@ std::string read_bytes(const fs::path& path)
 
 std::vector<Index> not_finite(const Vertices& vertices)
 {
-    std::vector<Index> bad;
-    for (Index v = 0; v < vertices.rows(); ++v)
-        if (!vertices.row(v).allFinite()) bad.push_back(v);
-    return bad;
+    return found_in_pieces(static_cast<Index>(vertices.rows()), [&](Index v) { return !vertices.row(v).allFinite(); });
 }
 
 std::vector<Index> faces_out_of_range(const PolygonMesh& mesh)
 {
-    std::vector<Index> bad;
     const auto is_bad = [&](Index v) { return v < 0 || v >= mesh.vertices.rows(); };
-    for (Index f = 0; f < mesh.face_count(); ++f)
-        if (std::ranges::any_of(mesh.face(f), is_bad)) bad.push_back(f);
-    return bad;
+    return found_in_pieces(mesh.face_count(), [&](Index f) { return std::ranges::any_of(mesh.face(f), is_bad); });
 }
 
 void require_a_mesh(const PolygonMesh& mesh)

@@ -13,14 +13,14 @@ using io::TextWriter;
 void add_vertices(TextWriter& text, const Vertices& vertices)
 {
     text.add("# Koebe UV " KOEBE_VERSION "\n");
-    for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-        text.add('v');
+    text.add_each(static_cast<Index>(vertices.rows()), [&](TextWriter& part, Index v) {
+        part.add('v');
         for (int axis = 0; axis < 3; ++axis) {
-            text.add(' ');
-            text.add_number(vertices(v, axis));
+            part.add(' ');
+            part.add_number(vertices(v, axis));
         }
-        text.add('\n');
-    }
+        part.add('\n');
+    });
 }
 
 void add_texture_coordinate(TextWriter& text, const Eigen::RowVector2d& uv)
@@ -49,15 +49,15 @@ std::vector<Index> places_of_corners(const PolygonMesh& mesh, const PlanarPoints
 
 void add_texture_coordinates(TextWriter& text, const PlanarPoints& disk_points)
 {
-    for (Eigen::Index v = 0; v < disk_points.rows(); ++v) {
-        text.add('v');
-        text.add('t');
+    text.add_each(static_cast<Index>(disk_points.rows()), [&](TextWriter& part, Index v) {
+        part.add('v');
+        part.add('t');
         for (int axis = 0; axis < 2; ++axis) {
-            text.add(' ');
-            text.add_number(io::texture_coordinate(disk_points(v, axis)));
+            part.add(' ');
+            part.add_number(io::texture_coordinate(disk_points(v, axis)));
         }
-        text.add('\n');
-    }
+        part.add('\n');
+    });
 }
 
 void add_face(TextWriter& text, std::span<const Index> face, bool with_texture)
@@ -81,7 +81,7 @@ void write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarP
     TextWriter text(file);
     add_vertices(text, mesh.vertices);
     add_texture_coordinates(text, disk_points);
-    for (Index f = 0; f < mesh.face_count(); ++f) add_face(text, mesh.face(f), true);
+    text.add_each(mesh.face_count(), [&](TextWriter& part, Index f) { add_face(part, mesh.face(f), true); });
     text.flush();
 }
 

@@ -1,4 +1,5 @@
 #include "core/errors.h"
+#include "io/binary_ply.h"
 #include "io/format_readers.h"
 #include "io/polygon_soup.h"
 
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -89,7 +91,9 @@ PolygonMesh read_ply(std::string_view bytes)
     if (!bytes.starts_with("ply")) throw InputError("the file does not start with 'ply'");
     const std::size_t size = bytes.size(), end = bytes.find("\nend_header"), data = bytes.find('\n', end + 1);
     if (end == bytes.npos || data == bytes.npos) throw InputError("the header has no 'end_header'");
-    std::istringstream file(ply_header(bytes.substr(0, end)) + std::string(bytes.substr(data + 1)));
+    const std::string known = ply_header(bytes.substr(0, end));
+    if (std::optional<PolygonMesh> mesh = read_binary_ply(known, bytes.substr(data + 1))) return *std::move(mesh);
+    std::istringstream file(known + std::string(bytes.substr(data + 1)));
     CGAL::IO::internal::PLY_reader header(false);
     if (!header.init(file)) throw InputError("the header's format or a count is not one of PLY");
     Soup soup;

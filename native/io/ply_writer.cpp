@@ -69,18 +69,18 @@ void write_ply_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarP
     io::require_point_for_each_vertex(mesh, disk_points);
     TextWriter text(file);
     add_header(text, mesh, {"s", "t", "texture_u", "texture_v"}, "");
-    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-        add_position(text, mesh.vertices, v);
+    text.add_each(static_cast<Index>(mesh.vertices.rows()), [&](TextWriter& part, Index v) {
+        add_position(part, mesh.vertices, v);
         for (const int axis : {0, 1, 0, 1}) {
-            text.add(' ');
-            text.add_number(io::texture_coordinate(disk_points(v, axis)));
+            part.add(' ');
+            part.add_number(io::texture_coordinate(disk_points(v, axis)));
         }
-        text.add('\n');
-    }
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        add_corners(text, mesh.face(f));
-        text.add('\n');
-    }
+        part.add('\n');
+    });
+    text.add_each(mesh.face_count(), [&](TextWriter& part, Index f) {
+        add_corners(part, mesh.face(f));
+        part.add('\n');
+    });
     text.flush();
 }
 

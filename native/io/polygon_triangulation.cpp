@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/silent_cgal.h"
+#include "core/thread_share.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -143,10 +145,31 @@ private:
     std::vector<Index> face_, collapsed_, uncut_;
 };
 
+/// A mesh of triangles alone, as they are.
+Triangulation as_it_is(const PolygonMesh& mesh)
+{
+    Triangulation result;
+    result.triangles.resize(mesh.face_count(), 3);
+    result.face.resize(static_cast<std::size_t>(mesh.face_count()));
+    constexpr std::size_t at_a_time = 32768;
+    in_pieces(result.face.size(), at_a_time, [&](std::size_t begin, std::size_t end) {
+        std::copy(mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * begin),
+                  mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * end), result.triangles.data() + 3 * begin);
+        std::iota(result.face.begin() + static_cast<std::ptrdiff_t>(begin),
+                  result.face.begin() + static_cast<std::ptrdiff_t>(end), static_cast<Index>(begin));
+    });
+    return result;
+}
+
 }  // namespace
 
 Triangulation triangulate(const PolygonMesh& mesh, bool refuse)
 {
+    const auto is_no_triangle = [&](Index f) {
+        const std::span<const Index> face = mesh.face(f);
+        return face.size() != 3 || !are_different(face[0], face[1], face[2]);
+    };
+    if (found_in_pieces(mesh.face_count(), is_no_triangle).empty()) return as_it_is(mesh);
     const SilentCgal silent;
     Triangulator triangulator(mesh);
     for (Index f = 0; f < mesh.face_count(); ++f) triangulator.add_face(f);

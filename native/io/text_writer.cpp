@@ -1,7 +1,11 @@
 #include "io/text_writer.h"
 
+#include "core/thread_share.h"
+
 #include <cmath>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 
 namespace koebe::io {
 namespace {
@@ -24,7 +28,59 @@ char* write_millionths(char* here, std::uint64_t count)
     return here;
 }
 
+/// Who writes next: the pieces of a text, made side by side, in their order.
+class Turns {
+public:
+    /// Calls write() when all before `begin` is written; not at all once another has failed.
+    template <class Write>
+    void take(std::size_t begin, std::size_t end, const Write& write)
+    {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return failed_ || written_ == begin; });
+        if (failed_) return;
+        lock.unlock();
+        write();
+        lock.lock();
+        written_ = end;
+        changed_.notify_all();
+    }
+    void fail()
+    {
+        const std::scoped_lock lock(mutex_);
+        failed_ = true;
+        changed_.notify_all();
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::size_t written_ = 0;
+    bool failed_ = false;
+};
+
 }  // namespace
+
+/// Pieces are begun in their order, so that whose turn it is is always at work.
+void TextWriter::add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add)
+{
+    constexpr std::size_t at_a_time = 8192;
+    if (ThreadShare::here() == 1 || static_cast<std::size_t>(count) <= at_a_time) {
+        for (Index i = 0; i < count; ++i) add(*this, i);
+        return;
+    }
+    flush();
+    Turns turns;
+    in_pieces(static_cast<std::size_t>(count), at_a_time, [&](std::size_t begin, std::size_t end) {
+        try {
+            TextWriter piece;
+            for (std::size_t i = begin; i < end; ++i) add(piece, static_cast<Index>(i));
+            turns.take(begin, end, [&] { file_->write({piece.buffer_.data(), piece.used_}); });
+        } catch (...) {
+            turns.fail();
+            throw;
+        }
+    });
+}
 
 /// Of two different decimal numbers of 15 digits at most no two are the same double. So if a number of millionths is
 /// the value, there is no shorter text; and it is the value if its quotient is, which is rounded once, as a reader

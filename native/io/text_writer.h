@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -21,7 +22,7 @@ char* write_number(char* here, double number);
 /// value. The text is complete after flush().
 class TextWriter {
 public:
-    explicit TextWriter(AtomicFile& file) : file_(file), buffer_(std::size_t{1} << 16, '\0') {}
+    explicit TextWriter(AtomicFile& file) : file_(&file), buffer_(std::size_t{1} << 16, '\0') {}
 
     void add(char c)
     {
@@ -53,21 +54,31 @@ public:
         std::memcpy(buffer_.data() + used_ + 1, buffer_.data() + begin, length);
         used_ += length + 1;
     }
+    /// Calls add(text, i) once for each i < count, which adds what item i is, on this thread's share of threads; the
+    /// text is that of one after the other.
+    void add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add);
     /// @throws FileError
     void flush()
     {
-        file_.write({buffer_.data(), used_});
+        file_->write({buffer_.data(), used_});
         used_ = 0;
     }
 
 private:
     static constexpr std::size_t longest_number = 24;  // bytes: -1.2345678901234567e-308
+
+    /// Of a piece, which is kept until its turn.
+    TextWriter() : buffer_(std::size_t{1} << 18, '\0') {}
     void reserve(std::size_t count)
     {
-        if (used_ + count > buffer_.size()) flush();
+        if (used_ + count <= buffer_.size()) return;
+        if (file_)
+            flush();
+        else
+            buffer_.resize(2 * buffer_.size());
     }
 
-    AtomicFile& file_;
+    AtomicFile* file_ = nullptr;
     std::string buffer_;
     std::size_t used_ = 0;
 };
