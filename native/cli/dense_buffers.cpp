@@ -52,6 +52,10 @@ void require_room_to_start(int, char**, char**)
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
                                                                              char**) = require_room_to_start;
 
+/// Called before OpenBLAS starts, where that is inside the program: of its threads none would ever be used, as dense
+/// kernels run on the thread that calls them, and each is busy for its first tenth of a second, waiting for work.
+[[gnu::constructor(101)]] void have_no_dense_threads() { ::setenv("OPENBLAS_NUM_THREADS", "1", 1); }
+
 bool is_limited(int resource)
 {
     rlimit limit{};
