@@ -4,7 +4,6 @@
 #include "core/thread_share.h"
 
 #include <algorithm>
-#include <compare>
 #include <memory>
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 #include "foldover/tangled_map.h"
 
+#include "core/thread_share.h"
 #include "core/tolerances.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
@@ -47,11 +48,10 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
 
 std::vector<Index> TangledMap::tangled() const
 {
-    std::vector<Index> result;
-    for (Eigen::Index f = 0; f < triangles().rows(); ++f)
-        if (const StoredFace face(triangles(), uv_, f); face.doubtful() && !face.below_resolution())
-            result.push_back(static_cast<Index>(f));
-    return result;
+    return found_in_pieces(static_cast<Index>(triangles().rows()), [&](Index f) {
+        const StoredFace face(triangles(), uv_, f);
+        return face.doubtful() && !face.below_resolution();
+    });
 }
 
 std::vector<Index> TangledMap::tangled(const std::vector<Index>& faces) const

@@ -1,5 +1,6 @@
 #include "linear/dissection.h"
 
+#include "core/prefetch.h"
 #include "core/thread_share.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ public:
     }
 
     Index size() const { return size_; }
+    const Index* begin_of(Index row) const { return begin_ + row; }
     const Index* begin(Index row) const { return neighbours_ + begin_[row]; }
     const Index* end(Index row) const { return neighbours_ + begin_[row + 1]; }
 
@@ -129,13 +131,18 @@ private:
         distance[start] = 0;
         mark_[start] = to;
         order.push_back(start);
-        for (; head < order.size(); ++head)
+        for (; head < order.size(); ++head) {
+            if (head + 2 * steps_ahead < order.size()) {
+                prefetch(graph_.begin_of(order[head + 2 * steps_ahead]));
+                prefetch(graph_.begin(order[head + steps_ahead]));
+            }
             for (const Index* w = graph_.begin(order[head]); w != graph_.end(order[head]); ++w)
                 if (mark_[*w] == from) {
                     mark_[*w] = to;
                     distance[*w] = distance[order[head]] + 1;
                     order.push_back(*w);
                 }
+        }
     }
 
     /// Distances from one end of each component, and what they are more than those from the other end; the numbers of a

@@ -87,8 +87,10 @@ PolygonMesh mixed_polygons()
     constexpr Index rows = 260;
     PolygonMesh mesh;
     mesh.vertices.resize(rows * column_count, 3);
-    for (Index v = 0; v < rows * column_count; ++v)
-        mesh.vertices.row(v) << v % column_count, v / column_count, 0.1 * ((7 * v) % 11);
+    for (Index v = 0; v < rows * column_count; ++v) {
+        const Index row = v / column_count;
+        mesh.vertices.row(v) << v % column_count, row, 0.1 * ((7 * v) % 11);
+    }
     const auto add = [&](std::initializer_list<Index> face) {
         mesh.corners.insert(mesh.corners.end(), face);
         mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
@@ -155,7 +157,6 @@ TEST(Passes, topology)
     });
 }
 
-/// The walk that all others are held against: what its words say, step by step.
 TEST(Passes, the_canonical_form)
 {
     const LargeSurface given = large_surface();
@@ -207,7 +208,6 @@ TEST(Passes, extensions_and_fluxes)
             VectorXd flux;
             if (grounded > 0) {
                 // The flux into what is grounded, from the whole product.
-                const VectorXd u = extension.col(0);
                 VectorXd on_rest = values.col(0);
                 on_rest.head(grounded).setZero();
                 const VectorXd whole = -(laplacian * VectorXd(condensed.extend(on_rest).col(0)));
