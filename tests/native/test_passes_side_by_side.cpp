@@ -11,6 +11,7 @@
 #include "io/mesh_writer.h"
 #include "io/polygon_triangulation.h"
 #include "linear/condensed_laplacian.h"
+#include "linear/dense_spd.h"
 #include "pipeline/canonical_form.h"
 #include "surface/intrinsic_metric.h"
 #include "surface/laplacian.h"
@@ -215,6 +216,7 @@ TEST(Passes, metric_and_laplacian)
 
 TEST(Passes, extensions_and_fluxes)
 {
+    const SerialDenseKernels serial;
     const LargeSurface given = large_surface();
     const Surface surface = analyze_surface(given.triangles, static_cast<Index>(given.vertices.rows()));
     const SparseMatrix laplacian = cotan_laplacian(
