@@ -224,13 +224,6 @@ void CondensedLaplacian::renew(const SparseMatrix& laplacian)
     impl_->take_stiffness();
 }
 
-bool CondensedLaplacian::retake(const SparseMatrix& laplacian)
-{
-    if (!has_sigma()) return false;
-    if (!impl_->ground.empty()) impl_->laplacian = laplacian;
-    return impl_->cholesky->retake(impl_->shifted(laplacian));
-}
-
 CondensedLaplacian::~CondensedLaplacian() = default;
 CondensedLaplacian::CondensedLaplacian(CondensedLaplacian&&) noexcept = default;
 CondensedLaplacian& CondensedLaplacian::operator=(CondensedLaplacian&&) noexcept = default;

@@ -48,11 +48,6 @@ public:
     /// @throws SolverError as above; then this cannot be used any more
     void renew(const SparseMatrix& laplacian);
 
-    /// The same of a Laplacian with another pattern: of the surface on other triangles.
-    /// @return false, and then this cannot be used any more, where that is not faster than to begin anew
-    /// @throws SolverError as above; then this cannot be used any more
-    bool retake(const SparseMatrix& laplacian);
-
     /// Takes the boundary in another order from now on: what is given and returned goes by it.
     /// @param boundary the same vertices
     /// @return false, and nothing has changed, if a part of it is grounded

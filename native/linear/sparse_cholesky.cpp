@@ -4,9 +4,9 @@
 #include "core/thread_share.h"
 #include "linear/dense_spd.h"
 #include "linear/elimination_order.h"
+#include "linear/factor_numbers.h"
 #include "linear/multifrontal_factor.h"
 #include "linear/part_substitution.h"
-#include "linear/renewed_factor.h"
 #include "linear/selected_inverse.h"
 #include "linear/supernodal_factor.h"
 
@@ -30,7 +30,7 @@ struct SparseCholesky::Impl {
     MatrixXd trailing;                           // L_BB in the factor's own order
     SparseMatrix both;                           // triangles of the matrix, where one was given
     std::unique_ptr<MultifrontalFactor> fronts;  // of a matrix that changes in a few rows
-    std::unique_ptr<RenewedFactor> renewed;      // of a second matrix, and those after it
+    std::unique_ptr<FactorNumbers> numbers;      // of one that changes as a whole
 
     const SparseMatrix& full(const SparseMatrix& matrix)
     {
@@ -102,19 +102,6 @@ void SparseCholesky::Impl::analyze(const SparseMatrix& matrix, Ordering ordering
     }
 }
 
-bool SparseCholesky::retake(const SparseMatrix& matrix)
-{
-    SupernodalFactor& l = impl_->l;
-    if (impl_->fronts || l.split) return false;
-    impl_->analyze(matrix, Ordering::amd);
-    l.common.require(cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, l.factor.get(), l.common.get()) != 0,
-                     "room for the factor");
-    l.number();
-    impl_->renewed = std::make_unique<RenewedFactor>(l);
-    refactorize(matrix);
-    return true;
-}
-
 void SparseCholesky::refactorize(const SparseMatrix& matrix)
 {
     SupernodalFactor& l = impl_->l;
@@ -124,15 +111,8 @@ void SparseCholesky::refactorize(const SparseMatrix& matrix)
         impl_->both = {};
         return impl_->take_trailing();
     }
-    if (l.factor->xtype == CHOLMOD_REAL) {
-        if (!impl_->renewed) impl_->renewed = std::make_unique<RenewedFactor>(l);
-        impl_->renewed->take(matrix);
-        return impl_->take_trailing();
-    }
-    cholmod_sparse lower = view(matrix, -1);
-    const SerialRegions serial;
-    const int done = cholmod_factorize(&lower, l.factor.get(), l.common.get());
-    l.common.require(done != 0, "numeric factorization (matrix not positive definite)");
+    if (!impl_->numbers) impl_->numbers = std::make_unique<FactorNumbers>(l);
+    impl_->numbers->take(matrix);
     impl_->take_trailing();
 }
 

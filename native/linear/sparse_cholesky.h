@@ -35,12 +35,6 @@ public:
     /// Factor of another matrix with the same pattern; of A + blocks there is none then before refactorize(blocks).
     void refactorize(const SparseMatrix& matrix);
 
-    /// Factor of a matrix of another pattern, by AMD, as refactorize() makes it: faster than the constructor does, and
-    /// other in the last bits.
-    /// @return false, and nothing has changed, where the factor is in pieces, or of A + blocks
-    /// @throws SolverError if the matrix is not positive definite; then there is no factor
-    bool retake(const SparseMatrix& matrix);
-
     /// Factor of A + symmetric blocks, one on each set that changes: only what they reach is computed anew.
     /// @throws SolverError if that is not positive definite
     void refactorize(const std::vector<MatrixXd>& blocks);

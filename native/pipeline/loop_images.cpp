@@ -84,6 +84,7 @@ void AssembledDomain::take_metric(const Domain& domain)
     }
     uses = kept ? uses + 1 : 1;
     if (!kept) {
+        condensed.reset();
         places.reset();
         kept = intrinsic_metric(domain.vertices, domain.surface);
         halves = half_cotangents(kept->lengths);
@@ -96,12 +97,10 @@ void AssembledDomain::take_metric(const Domain& domain)
 void AssembledDomain::factorize(const Domain& domain, const IterationOptions& options)
 {
     try {
-        if (condensed && uses > 1) {
+        if (condensed)
             condensed->renew(laplacian);
-        } else if (!condensed || !condensed->retake(laplacian)) {
-            condensed.reset();  // two of them at once may be more than the memory holds
+        else
             condensed.emplace(condense(laplacian, domain.loops, options));
-        }
         factored = true;
     } catch (...) {
         condensed.reset();

@@ -22,7 +22,7 @@ struct AssembledDomain {
     bool factored = false;                        ///< whether that is of this Laplacian
 
     /// Where there is a factor the last metric's triangulation is kept as long as it is nearly Delaunay: then the
-    /// factor can be renewed. Else it is made anew by what renews it.
+    /// factor can be renewed.
     void take_metric(const Domain& domain);
     /// @throws SolverError
     void factorize(const Domain& domain, const IterationOptions& options);

@@ -127,34 +127,6 @@ TEST(SparseCholesky, renewed_factor_is_that_of_the_other_matrix)
     }
 }
 
-TEST(SparseCholesky, retaken_factor_is_that_of_a_matrix_of_another_pattern)
-{
-    const SparseMatrix bare = grid_with_cliques({}), matrix = grid_with_cliques(cliques);
-    const MatrixXd f = MatrixXd::Random(matrix.rows(), 2);
-    for (const std::vector<Index>& last : {std::vector<Index>{}, cliques[0]}) {
-        SparseCholesky cholesky(bare, Ordering::amd, last);
-        for (const SparseMatrix& other : {matrix, bare, matrix, SparseMatrix(2.0 * matrix)}) {
-            ASSERT_TRUE(cholesky.retake(other));
-            EXPECT_LT((other * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
-            const SparseCholesky fresh(other, Ordering::amd, last);
-            EXPECT_LT((cholesky.last_schur() - fresh.last_schur()).norm(), 1e-12 * other.norm());
-            for (const double scale : {3.0, 0.3}) {
-                cholesky.refactorize(scale * other);
-                EXPECT_LT((scale * (other * cholesky.solve(f)) - f).cwiseAbs().maxCoeff(), 1e-11) << scale;
-            }
-        }
-        SparseMatrix indefinite = bare;
-        indefinite.coeffRef(77, 77) = -1.0;
-        EXPECT_THROW(cholesky.retake(indefinite), SolverError);
-        ASSERT_TRUE(cholesky.retake(matrix));
-        EXPECT_LT((matrix * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
-    }
-    SparseCholesky in_pieces(bare, Ordering::amd, {}, 100);
-    EXPECT_FALSE(in_pieces.retake(matrix));
-    EXPECT_LT((bare * in_pieces.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
-    EXPECT_FALSE(SparseCholesky(matrix, Ordering::amd, {}, cliques).retake(bare));
-}
-
 TEST(SparseCholesky, renewal_by_a_matrix_that_is_not_positive_definite_is_told_and_forgotten)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);

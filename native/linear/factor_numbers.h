@@ -1,4 +1,4 @@
-// The numbers of a factor whose matrix has changed. For the .cpp files of this folder only.
+// The numbers of a factor that CHOLMOD has analyzed. For the .cpp files of this folder only.
 #pragma once
 
 #include "linear/piece_factor.h"
@@ -8,13 +8,13 @@
 
 namespace koebe::detail {
 
-/// What a factor of CHOLMOD's is renewed with: its supernodes, and where each entry of the matrix stands in them. The
-/// numbers are made by factorize_piece. CHOLMOD takes memory and a team of OpenMP for each supernode, which on meshes,
-/// where they are small, takes longer than the numbers do.
-class RenewedFactor {
+/// CHOLMOD's supernodes, and where each entry of the matrix stands in them; the numbers are made by factorize_piece.
+/// CHOLMOD takes memory and a team of OpenMP for each supernode, which on meshes, where they are small, takes longer
+/// than the numbers do.
+class FactorNumbers {
 public:
-    /// @param l analyzed by CHOLMOD, and with room for the numbers
-    explicit RenewedFactor(SupernodalFactor& l);
+    /// @param l analyzed by CHOLMOD; gets room for the numbers
+    explicit FactorNumbers(SupernodalFactor& l);
 
     /// @param matrix with no entries but those that were analyzed: the lower triangle, or both
     /// @throws SolverError if it is not positive definite; then there is no factor

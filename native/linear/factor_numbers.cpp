@@ -1,4 +1,4 @@
-#include "linear/renewed_factor.h"
+#include "linear/factor_numbers.h"
 
 #include "linear/kernel_buffer.h"
 
@@ -7,8 +7,11 @@
 
 namespace koebe::detail {
 
-RenewedFactor::RenewedFactor(SupernodalFactor& l) : l_(l)
+FactorNumbers::FactorNumbers(SupernodalFactor& l) : l_(l)
 {
+    l.common.require(cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, l.factor.get(), l.common.get()) != 0,
+                     "room for the factor");
+    l.number();
     const Index count = l.supernode_count();
     layout_.order.assign(l.order(), l.order() + l.size());
     layout_.rank = l.rank;
@@ -23,14 +26,14 @@ RenewedFactor::RenewedFactor(SupernodalFactor& l) : l_(l)
     whole_.last_supernode = count;
 }
 
-bool RenewedFactor::has_pattern_of(const SparseMatrix& matrix) const
+bool FactorNumbers::has_pattern_of(const SparseMatrix& matrix) const
 {
     const Index *outer = matrix.outerIndexPtr(), *inner = matrix.innerIndexPtr();
     return std::equal(outer_.begin(), outer_.end(), outer, outer + matrix.cols() + 1) &&
            std::equal(inner_.begin(), inner_.end(), inner, inner + matrix.nonZeros());
 }
 
-void RenewedFactor::take_pattern(const SparseMatrix& matrix)
+void FactorNumbers::take_pattern(const SparseMatrix& matrix)
 {
     outer_.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1);
     inner_.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
@@ -40,7 +43,7 @@ void RenewedFactor::take_pattern(const SparseMatrix& matrix)
         has_both_ = outer_[c] < outer_[c + 1] && inner_[outer_[c]] < c;
 }
 
-void RenewedFactor::find_places()
+void FactorNumbers::find_places()
 {
     const auto each_entry = [&](const auto& visit) {
         for (Index c = 0; c + 1 < static_cast<Index>(outer_.size()); ++c)
@@ -66,7 +69,7 @@ void RenewedFactor::find_places()
     });
 }
 
-void RenewedFactor::take(const SparseMatrix& matrix)
+void FactorNumbers::take(const SparseMatrix& matrix)
 {
     const bool known = has_pattern_of(matrix);
     if (!known) take_pattern(matrix);
