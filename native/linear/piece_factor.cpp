@@ -4,6 +4,7 @@
 #include "linear/cholmod_support.h"
 #include "linear/dense_blas.h"
 #include "linear/elimination_order.h"
+#include "linear/large_array.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -100,8 +101,11 @@ private:
 
     double* room(std::size_t numbers)
     {
-        if (work_.size() < static_cast<Eigen::Index>(numbers))
-            work_.resize(static_cast<Eigen::Index>(numbers + numbers / 2));
+        if (room_ < numbers) {
+            const std::size_t room = numbers + numbers / 2;
+            work_ = LargeArray(room);  // Eigen's resize() would free the old memory twice where there is no more
+            room_ = room;
+        }
         return work_.data();
     }
 
@@ -212,7 +216,8 @@ private:
     std::vector<Index> place_;           // of a row in the block that is being made
     std::vector<Index> number_;          // of a row in the interface
     std::vector<Index> targets_;
-    VectorXd work_;
+    LargeArray work_;
+    std::size_t room_ = 0;
 };
 
 }  // namespace

@@ -249,7 +249,7 @@ void SplitFactor::solve_lower(const SplitPart& part, MatrixXd& x, MatrixXd& inte
         double* own = &x(layout_.first[s], 0);
         dtrsm_("L", "L", "N", "N", &width, &count, &one, block, &height, own, &stride);
         if (below == 0) continue;
-        update.resize(below, count);
+        update = MatrixXd(below, count);  // resize() would free it twice where there is no more memory
         dgemm_("N", "N", &below, &count, &width, &minus_one, block + width, &height, own, &stride, &zero, update.data(),
                &below);
         const Index* rows = layout_.rows_of(s) + width;
@@ -280,7 +280,7 @@ void SplitFactor::solve_upper(const SplitPart& part, MatrixXd& x) const
         const double* block = values_.data() + layout_.value_begin[s];
         double* own = &x(layout_.first[s], 0);
         if (below > 0) {
-            above.resize(below, count);
+            above = MatrixXd(below, count);
             const Index* rows = layout_.rows_of(s) + width;
             for (Index r = 0; r < below; ++r) above.row(r) = x.row(rows[r]);
             dgemm_("T", "N", &width, &count, &below, &minus_one, block + width, &height, above.data(), &below, &one,

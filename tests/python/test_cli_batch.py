@@ -558,8 +558,9 @@ def test_killed_at_any_moment_and_resumed_the_results_are_those_of_an_undisturbe
     length = time.monotonic() - begin
     expected = contents(tmp_path / "undisturbed")
     chance = random.Random(1)
-    kills = 0
-    for _ in range(40):
+    kills = rounds = 0
+    while rounds < 40 or (kills < 10 and rounds < 200):
+        rounds += 1
         run = start(library, "--output", out, "--workers", 2)
         time.sleep(chance.uniform(0.0, 0.5 * length))
         if chance.random() < 0.5:
