@@ -46,7 +46,7 @@ private:
     void gather(Index s)
     {
         const int height = l_.height(s);
-        if (front_.cols() < height) front_ = MatrixXd(y_.rows(), height);
+        if (front_.cols() < height) front_ = Values(y_.rows(), height);
         for (int r = 0; r < height; ++r) front_.col(r) = y_.col(l_.rows(s)[r]);
     }
 
