@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <map>
 #include <string>
@@ -155,6 +156,9 @@ int main(int argc, char** argv)
     } catch (const KoebeError& error) {
         std::cerr << error.name() << ": " << error.what() << '\n';
         return 3;
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
+        return 1;
     }
     return 0;
 }
