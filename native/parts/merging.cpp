@@ -12,7 +12,8 @@ namespace {
 
 constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
 constexpr std::size_t most_at_once = 4;  // merges tried side by side, for any number of threads
-constexpr std::size_t few = 20;          // faces: a part of fewer is a crumb
+constexpr std::size_t few = 20;          // faces: a part of fewer is a crumb, and
+constexpr std::size_t small = 400;       // one of fewer than the whole has over this
 constexpr double crumb_worth = 4.0;      // prices of a part, beside that and its cut's: a crumb that saves more stays
 constexpr double sure = 0.5;             // of price and forecast: a gain that needs no map to be sure of
 
@@ -167,9 +168,10 @@ void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vec
                   ExecutionContext& context, SplitEffort& effort)
 {
     std::set<PartPointer> kept;
+    const std::size_t largest = std::max(few, static_cast<std::size_t>(whole.areas.size()) / small);
     for (;;) {
         const auto crumb = std::ranges::find_if(
-            parts, [&](const PartPointer& part) { return part->mesh.faces.size() < few && !kept.contains(part); });
+            parts, [&](const PartPointer& part) { return part->mesh.faces.size() < largest && !kept.contains(part); });
         if (crumb == parts.end()) return;
         const int own = static_cast<int>(crumb - parts.begin());
         PartPointer best;
