@@ -52,11 +52,20 @@ VectorXcd FilledState::rim() const { return unit_circle_points(angles_[0]); }
 
 void FilledState::take_angles(const OpenedLoops& open, const VectorXd& flux, int& raised)
 {
+    std::vector<VectorXd> fluxes;
     Index row = 0;
     for (const int k : open) {
-        angles_[k] =
-            centered_angles(angles_from_flux(flux.segment(row, size_[k]), edges_[k], raised), weights_[k], angles_[k]);
+        fluxes.emplace_back(flux.segment(row, size_[k]));
         row += size_[k];
+    }
+    take_angles(open, fluxes, raised);
+}
+
+void FilledState::take_angles(const OpenedLoops& open, const std::vector<VectorXd>& fluxes, int& raised)
+{
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const int k = open[i];
+        angles_[k] = centered_angles(angles_from_flux(fluxes[i], edges_[k], raised), weights_[k], angles_[k]);
     }
     fill(open);
 }
@@ -74,18 +83,16 @@ Index FilledState::total(const std::vector<int>& loops) const
     return result;
 }
 
+OpenedLoops FilledState::inner_loops() const
+{
+    OpenedLoops result(size_.size() - 1);
+    std::iota(result.begin(), result.end(), 1);
+    return result;
+}
+
 void GroundedState::take_steps(const Sweep&, int& raised)
 {
-    const std::vector<VectorXd> fluxes = fluxes_against_outer();
-    OpenedLoops inner(fluxes.size());
-    std::iota(inner.begin(), inner.end(), 1);
-    VectorXd flux(total(inner));
-    Index row = 0;
-    for (const VectorXd& one : fluxes) {
-        flux.segment(row, one.size()) = one;
-        row += static_cast<Index>(one.size());
-    }
-    take_angles(inner, flux, raised);
+    take_angles(inner_loops(), fluxes_against_outer(), raised);
     take_angles({0}, outer_flux(), raised);
 }
 

@@ -50,6 +50,8 @@ protected:
 
     /// New angles for open loops from the flux through them: the conjugate of the harmonic function.
     void take_angles(const OpenedLoops& open, const VectorXd& flux, int& raised);
+    /// The same for each loop its own flux.
+    void take_angles(const OpenedLoops& open, const std::vector<VectorXd>& fluxes, int& raised);
 
     /// Angles by arc length for inner loops.
     void take_arc_lengths(const OpenedLoops& loops);
@@ -61,6 +63,9 @@ protected:
     virtual void set_disk(int k, const MatrixXd& disk) = 0;
 
     Index total(const std::vector<int>& loops) const;
+
+    /// All but the outer one.
+    OpenedLoops inner_loops() const;
 
     const std::vector<VectorXd>& edges_;
     std::vector<Index> size_;        // of each loop

@@ -4,7 +4,6 @@
 #include "linear/dense_spd.h"
 #include "linear/kernel_buffer.h"
 
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -21,10 +20,7 @@ SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian
     for (const VertexLoop& loop : inner_loops_) inner_.insert(inner_.end(), loop.begin(), loop.end());
     couple(laplacian, loops[0]);
     fill();
-    if (begun()) return;
-    OpenedLoops inner(inner_loops_.size());
-    std::iota(inner.begin(), inner.end(), 1);
-    take_arc_lengths(inner);
+    if (!begun()) take_arc_lengths(inner_loops());
 }
 
 /// K between the outer loop and the vertices beside it.

@@ -9,9 +9,7 @@ namespace koebe::detail {
 
 FactorNumbers::FactorNumbers(SupernodalFactor& l) : l_(l)
 {
-    l.common.require(cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, l.factor.get(), l.common.get()) != 0,
-                     "room for the factor");
-    l.number();
+    l.make_room();
     const Index count = l.supernode_count();
     layout_.order.assign(l.order(), l.order() + l.size());
     layout_.rank = l.rank;

@@ -108,8 +108,7 @@ MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& 
                                        const std::vector<std::vector<Index>>& changing)
     : l_(l)
 {
-    l_.common.require(cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, l_.factor.get(), l_.common.get()) != 0,
-                      "room for the factor");
+    l_.make_room();
     values_ = static_cast<double*>(l_.factor->x);
     px_ = static_cast<const Index*>(l_.factor->px);
     const Index count = static_cast<Index>(l_.factor->nsuper);

@@ -29,6 +29,12 @@ void SupernodalFactor::number()
         std::fill(supernode.begin() + first_column(s), supernode.begin() + first_column(s + 1), s);
 }
 
+void SupernodalFactor::make_room()
+{
+    common.require(cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor.get(), common.get()) != 0,
+                   "room for the factor");
+}
+
 MatrixXd SupernodalFactor::trailing_block(Index count) const
 {
     MatrixXd trailing = MatrixXd::Zero(count, count);

@@ -21,6 +21,8 @@ struct SupernodalFactor {
 
     /// Fills rank and supernode once the factor has been analyzed.
     void number();
+    /// Room for the numbers of a factor that CHOLMOD has analyzed.
+    void make_room();
 
     Index size() const { return size_; }
     Index supernode_count() const { return supernode_count_; }
