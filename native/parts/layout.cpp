@@ -28,7 +28,8 @@
 namespace koebe {
 namespace {
 
-constexpr double cut_share = 1.0;       // of a part's price, for a cut as long as the root of the area
+constexpr double own_piece = 0.25;      // of the area: a piece of less pays less for its parts,
+constexpr double small_piece = 0.01;    // and one of less than this pays in proportion to its area
 constexpr int rounds = 2;               // of splitting and merging
 constexpr double margin = 0.004;        // between parts, in the unit square
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
@@ -249,6 +250,16 @@ private:
     std::unordered_set<std::uint64_t> border_;
 };
 
+/// What the parts of a piece cost. The price is for the whole surface: by it a small piece would never be split, however
+/// many of its faces are lost. Lengths of cuts are in roots of the whole's area, of which a small piece has little.
+/// @param area of the piece; that of the whole is 1
+SplitOptions prices_for(double area, double price, int threads)
+{
+    const double share = area < small_piece ? std::sqrt(small_piece / own_piece) * area / small_piece
+                                            : std::min(1.0, std::sqrt(area / own_piece));
+    return {share * price, std::min(1.0, share / std::sqrt(area)) * price, threads};
+}
+
 /// The parts of a piece, flat.
 FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const Seams& seams,
                      const PartsOptions& options, int threads, ExecutionContext& context)
@@ -267,7 +278,7 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     whole.slit = chosen_slits(piece, options.slits);
     whole.seam = seams.of(piece);
     SplitEffort effort;
-    const SplitOptions prices{options.price, cut_share * options.price, threads};
+    const SplitOptions prices = prices_for(whole.areas.sum(), options.price, threads);
     std::vector<PartPointer> parts = is_large ? parts_by_coarse_surface(whole, prices, context, effort)
                                               : even_parts(whole, std::move(first), prices, context, effort);
     if (parts.empty()) {  // no curve cuts it in two

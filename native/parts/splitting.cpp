@@ -15,7 +15,7 @@ namespace koebe {
 namespace {
 
 constexpr double remaining = 0.6;          // of an uneven child's cost, after it is split in its turn
-constexpr double lost_cost = 0.25;         // in u: what is left of a face's cost where the parent's map says nothing
+constexpr double unknown_cost = 0.25;      // in u, of a face that the parent's map has lost: its own may not
 constexpr std::size_t most_looked_at = 8;  // proposals of a part
 constexpr std::size_t most_verified = 3;   // of them
 constexpr double crumb_leaves = 0.9;       // of a part's area
@@ -35,12 +35,12 @@ struct Split {
 
 double cost_of(const PartMap& map)
 {
-    return map.measured ? map.overflow : std::max(map.overflow - (6.0 - lost_cost) * map.lost_area, 0.0);
+    return map.measured ? map.overflow : std::max(map.overflow - (lost_cost - unknown_cost) * map.lost_area, 0.0);
 }
 
 double cost_of(const PieceForecast& forecast)
 {
-    return std::max(forecast.overflow - (6.0 - lost_cost) * forecast.lost_area, 0.0);
+    return std::max(forecast.overflow - (lost_cost - unknown_cost) * forecast.lost_area, 0.0);
 }
 
 /// What is left of a child's cost in the end.
