@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "core/side_by_side.h"
+#include "parts/halving.h"
 #include "parts/piece_forecast.h"
 #include "parts/proposals.h"
 
@@ -22,6 +23,7 @@ constexpr double crumb_leaves = 0.9;       // of a part's area
 constexpr double least_return = 0.5;       // of the price, in cost that is gone at once
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
+constexpr double hopeless = 1.0;           // overflow over area: so uneven that any cut in two is better than none
 constexpr std::size_t few_open = 3;        // parts: what is done for each goes side by side, too
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
                                            // is so large that its cost matters
@@ -185,6 +187,20 @@ struct Step {
     SplitEffort effort;
 };
 
+/// The part cut in two, whatever its map says, each with a map of its own; none if no curve was found.
+std::vector<PartPointer> halved(const CutSurface& whole, const PartPointer& part, int threads,
+                                ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<PartPointer> children;
+    std::vector<Part*> unmapped;
+    for (std::vector<Index>& faces : pieces_of(part->mesh, halving(part->mesh))) {
+        children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, part}));
+        unmapped.push_back(children.back().get());
+    }
+    map_all(whole, unmapped, threads, context, effort);
+    return children;
+}
+
 Step take_step(const CutSurface& whole, const SplitOptions& options, const PartPointer& part, int threads,
                ExecutionContext& context)
 {
@@ -205,6 +221,9 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
             return step;
         }
     }
+    if (part->map.overflow > std::max(options.part_price, hopeless * part->mesh.area))
+        step.open = halved(whole, part, threads, context, step.effort);
+    if (!step.open.empty()) return step;
     part->settled = true;
     step.settled = part;
     return step;
