@@ -8,9 +8,8 @@
 #include "parts/closed_surface.h"
 #include "parts/coarse_surface.h"
 #include "parts/fine_labels.h"
-#include "parts/flat_part.h"
+#include "parts/flat_parts.h"
 #include "parts/hidden_cuts.h"
-#include "parts/mirror_symmetry.h"
 #include "parts/packing.h"
 #include "parts/splitting.h"
 
@@ -163,47 +162,6 @@ std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std:
         slit[h] = chosen.contains(std::minmax(a, b));
     }
     return slit;
-}
-
-/// @param slit (3F) half-edges of the whole
-void prefer_slits(PartMesh& part, const std::vector<char>& slit)
-{
-    part.slit.resize(3 * part.faces.size(), 0);
-    for (std::size_t i = 0; i < part.faces.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (slit[3 * static_cast<std::size_t>(part.faces[i]) + k]) part.slit[3 * i + k] = 1;
-}
-
-/// @param opened (3F) half-edges of the whole, changed in place
-void note_slit(const PartMesh& part, const FlatPart& flat, std::vector<char>& opened)
-{
-    for (std::size_t h = 0; h < part.surface.twin.size(); ++h)
-        if (part.surface.twin[h] != no_twin && flat.surface.twin[h] == no_twin)
-            opened[3 * static_cast<std::size_t>(part.faces[h / 3]) + h % 3] = 1;
-}
-
-/// The parts, flat, side by side; of a mirror image one after the other, as each slit follows those before it.
-/// @param parts let go of, one by one
-std::vector<FlatPart> flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
-                                 const FlatOptions& options, int threads, ExecutionContext& context,
-                                 SplitEffort& effort)
-{
-    std::vector<FlatPart> flats(parts.size());
-    std::vector<SplitEffort> efforts(parts.size());
-    std::vector<char> opened(whole.surface.twin.size(), 0);
-    const bool in_turn = !mirror.image.empty();
-    side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
-        Part& part = *parts[k];
-        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k]);
-        const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
-        if (in_turn && part.map.kind == PartKind::tube && !chosen)
-            prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
-        flats[k] = flat_part(part, {chosen ? 0.0 : options.slit_price, options.round_cuts}, own);
-        if (in_turn) note_slit(part.mesh, flats[k], opened);
-        parts[k].reset();
-    });
-    for (const SplitEffort& own : efforts) effort.maps += own.maps;
-    return flats;
 }
 
 /// Of each piece, its boundary edges that are cuts, as another boundary edge lies in the same place: by vertices of the

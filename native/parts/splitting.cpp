@@ -163,6 +163,19 @@ void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threa
     for (const SplitEffort& own : efforts) effort.maps += own.maps;
 }
 
+std::vector<PartPointer> halved(const CutSurface& whole, const PartPointer& part, int threads,
+                                ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<PartPointer> children;
+    std::vector<Part*> unmapped;
+    for (std::vector<Index>& faces : pieces_of(part->mesh, halving(part->mesh))) {
+        children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, part}));
+        unmapped.push_back(children.back().get());
+    }
+    map_all(whole, unmapped, threads, context, effort);
+    return children;
+}
+
 std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
                                      ExecutionContext& context, SplitEffort& effort)
 {
@@ -186,20 +199,6 @@ struct Step {
     PartPointer settled;
     SplitEffort effort;
 };
-
-/// The part cut in two, whatever its map says, each with a map of its own; none if no curve was found.
-std::vector<PartPointer> halved(const CutSurface& whole, const PartPointer& part, int threads,
-                                ExecutionContext& context, SplitEffort& effort)
-{
-    std::vector<PartPointer> children;
-    std::vector<Part*> unmapped;
-    for (std::vector<Index>& faces : pieces_of(part->mesh, halving(part->mesh))) {
-        children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, part}));
-        unmapped.push_back(children.back().get());
-    }
-    map_all(whole, unmapped, threads, context, effort);
-    return children;
-}
 
 Step take_step(const CutSurface& whole, const SplitOptions& options, const PartPointer& part, int threads,
                ExecutionContext& context)
