@@ -173,13 +173,20 @@ void settle(const PartMesh& mesh, const std::vector<Index>& own, const FlatOptio
     free_rims(flat.vertices, flat.surface, freedom, flat.points, context);
 }
 
-FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext& context)
+/// Without a slit, and without points yet.
+FlatPart unopened(const PartMesh& mesh)
 {
     FlatPart flat;
-    flat.faces = part.mesh.faces;
-    flat.original = part.mesh.original;
-    flat.vertices = part.mesh.vertices;
-    flat.surface = part.mesh.surface;
+    flat.faces = mesh.faces;
+    flat.original = mesh.original;
+    flat.vertices = mesh.vertices;
+    flat.surface = mesh.surface;
+    return flat;
+}
+
+FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext& context)
+{
+    FlatPart flat = unopened(part.mesh);
     DiskPoints points(part.mesh);
     points.consider(part.map.positions);
     if (points.any_turned()) try {  // the map was made to be judged
@@ -247,6 +254,16 @@ FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContex
     }
     flat.loops = original_loops(part.mesh);
     scale_evenly(part.mesh, flat);
+    return flat;
+}
+
+FlatPart flat_as_mapped(const PartMesh& mesh, const PlanarPoints& points)
+{
+    FlatPart flat = unopened(mesh);
+    flat.points = points;
+    flat.rims.assign(mesh.surface.loops.begin(), mesh.surface.loops.end());
+    flat.loops = original_loops(mesh);
+    scale_evenly(mesh, flat);
     return flat;
 }
 

@@ -255,8 +255,17 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
         merge_crumbs(whole, prices, parts, context, effort);
     }
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
-    FlatPiece flat{flat_parts(whole, mirror, parts, {prices.cut_price, options.round_cuts}, threads, context, effort),
-                   0.0};
+    std::shared_ptr<const Part> root = parts.front();
+    while (root->parent) root = root->parent;
+    if (root->mesh.faces.size() != static_cast<std::size_t>(whole.areas.size())) root = nullptr;
+    FlatParts flats =
+        flat_parts(whole, mirror, parts, {prices.cut_price, options.round_cuts}, threads, context, effort);
+    if (!is_large)
+        if (auto one = better_as_one(stays_closed ? opened() : whole, root.get(), flats, context)) {
+            flats.parts.clear();
+            flats.parts.push_back(std::move(*one));
+        }
+    FlatPiece flat{std::move(flats.parts), 0.0};
     flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
     for (FlatPart& part : flat.parts) {
         for (Index& f : part.faces) f = piece.source_face[f];
