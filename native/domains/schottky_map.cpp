@@ -6,11 +6,11 @@
 #include "core/errors.h"
 #include "core/memory_limit.h"
 #include "core/peak_memory.h"
+#include "core/stopwatch.h"
 #include "domains/circle_cut.h"
 #include "domains/finer_faces.h"
 #include "domains/glued_state.h"
 #include "domains/schottky_tile.h"
-#include "domains/stopwatch.h"
 #include "linear/dense_spd.h"
 #include "surface/intrinsic_metric.h"
 
