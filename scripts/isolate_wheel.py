@@ -5,7 +5,7 @@ ELF looks a symbol up in the host program before it looks in the wheel. Debian's
 BLAS, so a bundled CHOLMOD would call THAT one: slow where it is the reference BLAS, a crash where it is an
 OpenBLAS of another version. Every symbol that a bundled C library exports therefore gets the prefix `koebe_`,
 in the library and in all that call it. C++ names, libgomp and libgfortran stay: they are versioned by their makers.
-Their files get names of their own too: threadpoolctl, and so scikit-learn, takes whatever is called libopenblas... for an
+Their files get names of their own too: threadpoolctl, and so scikit-learn, takes every file called libopenblas... for an
 OpenBLAS, and asks it for functions by the names that it no longer has.
 
 Usage: isolate_wheel.py IN.whl OUT_FOLDER   (needs patchelf >= 0.18 and the package `wheel`)
@@ -39,7 +39,7 @@ def require_fast_blas(libraries: list[Path]) -> None:
 
 
 def own_names(libraries: list[Path]) -> dict[str, str]:
-    """The bundled libraries' file names -> what they are to be called: `libopenblas.so.0` is `libkoebe_openblas.so.0`."""
+    """File names of the bundled libraries -> their new ones: `libopenblas.so.0` becomes `libkoebe_openblas.so.0`."""
     return {lib.name: f"lib{PREFIX}{lib.name.removeprefix('lib')}" for lib in libraries
             if lib.parent.name.endswith(".libs") and not lib.name.startswith(KEEP)}
 

@@ -34,7 +34,7 @@ def installed(tmp_path_factory):
     """A folder with the wheel for this Python in it, and nothing else."""
     folder = tmp_path_factory.mktemp("wheel")
     tag = "cp{}{}".format(*sys.version_info)
-    version = subprocess.run([ROOT / "scripts" / "version.sh"], capture_output=True, text=True, check=True).stdout.strip()
+    version = subprocess.check_output([ROOT / "scripts/version.sh"], text=True).strip()
     (wheel,) = (ROOT / "dist").glob(f"koebe-{version}-{tag}-{tag}-*.whl")
     subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", folder,
                     wheel], check=True)  # fmt: skip

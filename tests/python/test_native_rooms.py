@@ -109,10 +109,11 @@ def test_no_hidden_name_is_a_public_one():
 
 def test_a_function_is_in_one_header():
     # Two headers with the same inline function compile until a source includes both.
+    function = re.compile(r"^inline [\w:<>,&* ]*[ &*](\w+)(\([^{;]*?\))[\w ]*\s*\{", re.MULTILINE)
     found = collections.defaultdict(list)
     for path in NATIVE.rglob("*.h"):
         text = path.read_text(encoding="utf-8")
-        for name, parameters in re.findall(r"^inline [\w:<>,&* ]*[ &*](\w+)(\([^{;]*?\))[\w ]*\s*\{", text, re.MULTILINE):
+        for name, parameters in function.findall(text):
             types = re.sub(r"\w+(?=[,)])|\s", "", parameters)
             found[namespace_of(text), name, types].append(path.name)
     assert ("koebe", "cross", "(Complex,Complex)") in found
