@@ -12,7 +12,7 @@
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index most_samples = 350;
+constexpr Eigen::Index most_pole_samples = 350;
 constexpr double least_hole = 0.08;     // disk units: to turn a map inside out about a smaller hole is never even
 constexpr double worth_turning = 0.85;  // of the overflow, for another loop outside
 constexpr double hopeless = 1.5;        // of the least overflow so far, on the coarse grid: not refined
@@ -79,7 +79,7 @@ MapSample sampled(const VectorXd& areas, const PartMap& map)
     std::vector<Eigen::Index> kept;
     for (Eigen::Index f = 0; f < areas.size(); ++f)
         if (!map.lost[f]) kept.push_back(f);
-    const Eigen::Index stride = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kept.size()) / most_samples);
+    const Eigen::Index stride = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kept.size()) / most_pole_samples);
     std::vector<Eigen::Index> picked;
     for (std::size_t i = 0; i < kept.size(); i += stride) picked.push_back(kept[i]);
     return {map.centers(picked), map.u(picked), areas(picked)};

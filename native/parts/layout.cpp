@@ -166,9 +166,10 @@ std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std:
 
 /// Of each piece, its boundary edges that are cuts, as another boundary edge lies in the same place: by vertices of the
 /// input that stand for all of one place.
-class Seams {
+class SeamPlaces {
 public:
-    Seams(const OpenedSurface& opened, const Vertices& vertices) : place_(static_cast<std::size_t>(vertices.rows()))
+    SeamPlaces(const OpenedSurface& opened, const Vertices& vertices)
+        : place_(static_cast<std::size_t>(vertices.rows()))
     {
         std::vector<Index> order(place_.size());
         std::iota(order.begin(), order.end(), 0);
@@ -219,7 +220,7 @@ SplitOptions prices_for(double area, double price, int threads)
 }
 
 /// The parts of a piece, flat.
-FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const Seams& seams,
+FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const SeamPlaces& seams,
                      const PartsOptions& options, int threads, ExecutionContext& context)
 {
     std::vector<Index> polygon;
@@ -286,7 +287,7 @@ std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& 
     for (std::size_t i = 0; i < opened.pieces.size(); ++i)
         (8 * opened.pieces[i].triangles.rows() > total ? big : small).push_back(i);
     std::vector<FlatPiece> flats(opened.pieces.size());
-    const Seams seams(opened, vertices);
+    const SeamPlaces seams(opened, vertices);
     double done = 0.0;
     const auto stage = [&](double faces) {
         const double from = done;
