@@ -224,6 +224,8 @@ def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDo
     """The same, of the UVs (n, 2) of its vertices in 32 bits."""
     if not np.isfinite(old_uv).all():
         raise DomainError("its UVs are not finite")
+    if not np.isfinite(island.vertices).all():
+        raise DomainError("one of its vertices has a coordinate that is NaN or infinite: delete it")
     plane = old_uv.astype(np.float64)
     if np.ptp(plane, axis=0).max() < RESOLUTION:
         raise DomainError("it has no UVs: map it first")

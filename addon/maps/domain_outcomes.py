@@ -15,7 +15,7 @@ from .mapping import check_area, foreseen
 from .outcomes import LATER, Progress, Task, share_of
 from .seams import cut_edges
 from .surface import Island, Surface
-from .wording import counted, own_warnings, too_uneven
+from .wording import counted, in_mesh, own_warnings, too_uneven
 
 
 class DomainChoice(Protocol):
@@ -117,13 +117,9 @@ class DomainOutcome:
         mapped = self.mapped
         return np.concatenate([one.corners for one in mapped]), np.concatenate([one.uv for one in mapped])
 
-    def warnings(self, one: Any) -> list[str]:
-        """What to watch out for in a mapped island."""
-        return [*(warning.text for warning in one.result.warnings), *(text for _, text in self.own_warnings(one))]
-
-    def own_warnings(self, one: Any) -> list[tuple[str, str]]:
-        """Kind and text of those that are not the solver's."""
-        return own_warnings(self.task)
+    def warnings(self, one: Any) -> list[dict[str, Any]]:
+        """What to watch out for in a mapped island, in the mesh's numbers."""
+        return [*(in_mesh(one.island, warning) for warning in one.result.warnings), *own_warnings(self.task)]
 
     def notes(self, one: Any) -> list[str]:
         """What cannot be otherwise, in a mapped island."""

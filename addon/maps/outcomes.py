@@ -40,13 +40,18 @@ class Mapped(Protocol):
     def density_ratio(self) -> float: ...
 
 
-class Failure(Protocol):
+class Failed(Protocol):
+    """Why something could not be mapped."""
+
+    @property
+    def error(self) -> Exception | None: ...
+
+
+class Failure(Failed, Protocol):
     """An island, and why it could not be mapped."""
 
     @property
     def island(self) -> Island: ...
-    @property
-    def error(self) -> Exception | None: ...
 
 
 class Failures(Protocol):
@@ -57,9 +62,9 @@ class Failures(Protocol):
     @property
     def not_written(self) -> str | None: ...
     @property
-    def islands(self) -> Sequence[Failure]: ...
+    def islands(self) -> Sequence[Failed]: ...
     @property
-    def failed(self) -> Sequence[Failure]: ...
+    def failed(self) -> Sequence[Failed]: ...
 
 
 @dataclasses.dataclass(frozen=True)

@@ -15,7 +15,7 @@ from .outcomes import LATER, Progress, Task
 from .surface import Island, Surface
 from .tile_fit import FittedTile, fitted
 from .triangles import density_ratio, signed_areas
-from .wording import counted
+from .wording import counted, own_warning
 
 if TYPE_CHECKING:
     from koebe import TileMap
@@ -58,10 +58,10 @@ class TileIsland(DomainIsland):
 class TileOutcome(DomainOutcome):
     """What became of one surface: each island fills the UV square for itself."""
 
-    def own_warnings(self, one: TileIsland) -> list[tuple[str, str]]:
+    def warnings(self, one: TileIsland) -> list[dict[str, Any]]:
         lost = len(np.setdiff1d(one.flipped, one.result.flipped_faces))
         text = f"{counted(lost, 'triangle')} turned over as the tile was fitted: take Fit: Inside"
-        return [("flipped", text)] * (lost > 0) + super().own_warnings(one)
+        return [*super().warnings(one), *[own_warning("flipped", text)] * (lost > 0)]
 
     def figures(self) -> list[str]:
         results = [one.result for one in self.mapped]

@@ -353,6 +353,7 @@ class SequenceProperties:
     frame_end: sequence_properties.FRAME_END
     frame_step: sequence_properties.FRAME_STEP
     target: sequence_properties.TARGET
+    play: sequence_properties.PLAY
     layer: option("layer")
     cut: option("cut")
     outer: option("outer")
@@ -403,9 +404,10 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     frame_end: sequence_properties.FRAME_END
     frame_step: sequence_properties.FRAME_STEP
     target: sequence_properties.TARGET
+    play: sequence_properties.PLAY
 
 
-SEQUENCE_SETTINGS = ("source", "scene_range", "frame_start", "frame_end", "frame_step", "target")
+SEQUENCE_SETTINGS = ("source", "scene_range", "frame_start", "frame_end", "frame_step", "target", "play")
 SETTING_NAMES = tuple(
     dict.fromkeys(
         (

@@ -188,8 +188,8 @@ def record_parts(
     """Replace the report by the parts of objects, an entry for each object. They have no circles to be drawn."""
     with _new_report(run, context, refused) as report:
         for outcome in outcomes:
-            if outcome.problem:
-                _record_failure(report, outcome.name, outcome.problem)
+            if outcome.failed or outcome.not_written:
+                _record_failure(report, outcome.name, failure_line(outcome))
             for result in outcome.mapped:
                 entry = report.islands.add()
                 entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)
@@ -200,7 +200,7 @@ def record_parts(
                 if outcome.cuts is not None and outcome.cuts.any():
                     entry.cut_edges = json.dumps(np.flatnonzero(outcome.cuts).tolist())
                 entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
-                entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
+                entry.message = "; ".join([*(warning["text"] for warning in outcome.warnings()), *outcome.remarks])
 
 
 def record_domains(
@@ -234,7 +234,7 @@ def _record_domain(entry: KoebeIslandReport, outcome: DomainOutcome, one: Any) -
     entry.angle_error, entry.seconds = one.angle_error, result.seconds["total"]
     entry.flipped, entry.flipped_faces = len(one.flipped), json.dumps(one.flipped_faces.tolist())
     entry.uneven, entry.cut_edges = too_uneven(one), json.dumps(np.flatnonzero(one.cuts).tolist())
-    entry.message = "; ".join([*outcome.warnings(one), *outcome.remarks])
+    entry.message = "; ".join([*(warning["text"] for warning in outcome.warnings(one)), *outcome.remarks])
     entry.note = "; ".join(outcome.notes(one))
     for of_loop in result.loops:
         entry.loops.add().vertices = json.dumps(one.island.source_vertex[of_loop["vertices"]].tolist())
