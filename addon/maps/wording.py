@@ -183,7 +183,7 @@ class Numbers(Protocol):
 
 
 # Where a warning's sentence counts faces or vertices, or names a vertex; a loop keeps its number.
-_COUNTS = re.compile(r"\b(\d+) (face|vertex)(?:s|\b)|\b(\d+) vertices\b")
+_COUNTS = re.compile(r"\b(\d+) (face|vertex)(?:s|\b)|\b(\d+) vertices\b|\b(\d+)(?= of them too small\b)")
 _NAMES = re.compile(r"(?<=\bvertex )\d+|(?<=\bedge )\d+(?=-)|(?<=\d-)\d+|(?<=the circle, the first )\d+|"
                     r"(?<=a place, the first is )\d+|(?<=the disk, the first is )\d+|(?<=at vertices, the first is )\d+")
 _FIRST = re.compile(r"(?<=the first face is )\d+|(?<=the first vertex is )\d+")  # fmt: skip
@@ -197,10 +197,11 @@ def in_mesh(numbers: Numbers, warning: "koebe.Warning") -> dict[str, Any]:
     elements = old if number is None or not old else np.unique(number[old]).tolist()
 
     def count(match: re.Match[str]) -> str:
-        found, noun = int(match[1] or match[3]), match[2] or "vertex"
-        own = {"vertices": "vertex", "faces": "face"}.get(warning.of) == noun and found == len(old)
-        return counted(len(elements) if own else found, *(
-            ("vertex", "vertices") if noun == "vertex" else ("face",) if own else ("triangle",)))  # fmt: skip
+        found, noun = int(match[1] or match[3] or match[4]), match[2] or ("vertex" if match[3] else "face")
+        own = found == len(old) and warning.of == ("vertices" if noun == "vertex" else "faces")
+        if noun == "face" and not own:
+            noun = "triangle"
+        return counted(len(elements) if own else found, noun, "vertices" if noun == "vertex" else None)
 
     def name(match: re.Match[str]) -> str:
         vertex = int(match[0])

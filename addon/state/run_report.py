@@ -328,7 +328,7 @@ CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)
 
 
 def register() -> None:
-    """Register the report and hang it on the window manager, which no file keeps and no undo changes."""
+    """Register the report and hang it on the window manager, which no undo changes."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.WindowManager.koebe_uv = PointerProperty(type=KoebeReport)

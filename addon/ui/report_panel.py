@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import bpy
 
-from ..maps.wording import UNEVEN, density_text
+from ..maps.wording import UNEVEN, counted, density_text
 from ..operators.select_from_report import (
     UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
@@ -124,7 +124,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),
         *(of_parts if entry.parts else of_domain if entry.domain else of_circles),
-        ("Flipped", f"{entry.flipped}"),
+        ("Flipped", counted(len(json.loads(entry.flipped_faces or "[]")), "face")),
         ("Time", f"{entry.seconds:.2f} s"),
     ):
         split = table.split(factor=0.45)
