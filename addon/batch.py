@@ -10,7 +10,7 @@ The last form maps a library: every file by a Blender of its own, what is done a
 command `koebe batch --blender`, which the native module brings, and has its exit codes.
 
 Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage, 3 the file cannot be read or an
-object cannot be mapped (no OUT), 4 not converged (OUT is written), 130 interrupted (nothing is written).
+object cannot be mapped (no OUT), 4 not converged, or too much of the area lost (OUT is written; what is lost keeps its UVs), 130 interrupted (nothing is written).
 OUT and the report are written to temporary files and renamed: each is whole or absent. There is a report with 0, 3 and
 4, and where the native module is missing. With 3 its `error` says why.
 """
@@ -79,6 +79,7 @@ from koebe_uv_batch.jobs.sequence_job import SequenceJob  # noqa: E402
 from koebe_uv_batch.jobs.tile_job import TileJob  # noqa: E402
 from koebe_uv_batch.maps import wording  # noqa: E402
 from koebe_uv_batch.maps.options import SchottkyChoice, SphereChoice  # noqa: E402
+from koebe_uv_batch.maps.stored import LostAreaError  # noqa: E402
 from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
 
 OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
@@ -305,9 +306,10 @@ def compute(job: Job) -> None:
 
 def exit_code(job: Job) -> int:
     """The code for a job that was run."""
-    if any(outcome.failed for outcome in job.outcomes):
+    errors = [one.error for outcome in job.outcomes for one in outcome.failed]
+    if not all(isinstance(error, LostAreaError) for error in errors):
         return UNMAPPABLE
-    return DONE if all(outcome.converged for outcome in job.outcomes) else NOT_CONVERGED
+    return DONE if not errors and all(outcome.converged for outcome in job.outcomes) else NOT_CONVERGED
 
 
 def save(output: Target | None, report_file: Target | None, content: dict[str, Any]) -> None:

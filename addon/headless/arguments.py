@@ -17,7 +17,7 @@ DISK = "disk"
 OF_DOMAINS = ("domain", "holes", "fit", "layout", "normalization")
 OF_PARTS = ("parts", "evenness", "seams", "write_seams")
 WRITTEN = {"layer", "checker", "checker_size", "checker_even"}  # of all but sequences
-OF_ALL = {"tolerance", "max_sweeps", "threads", *WRITTEN}  # of every domain
+OF_ALL = {"tolerance", "max_sweeps", "most_lost", "threads", *WRITTEN}  # of every domain
 OF_SEQUENCES = ("sequence", "frames", "sequence_target", "play")
 NOT_OF_SEQUENCES = ("parts", "domain", "engine", "tube", "symmetry", "placement", "checker_size", "checker_even")
 IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
@@ -119,6 +119,11 @@ def parse(arguments: list[str]) -> Request:
         parser.add_argument(name, type=_whole_number, metavar="VERTEX", help="of each object")
     parser.add_argument("--tolerance", type=float, default=default.tolerance)
     parser.add_argument("--max-sweeps", type=_whole_number, default=default.max_sweeps)
+    parser.add_argument(
+        "--most-lost", type=float, default=default.most_lost, metavar="SHARE",
+        help="of the area that may have no area in the UVs; default: 0.01. With more of it parts and other domains are "
+        "not done",
+    )  # fmt: skip
     parser.add_argument("--balance", choices=options.BALANCES)
     parser.add_argument(
         "--importance", default=default.importance, metavar="GROUP", help="vertex group that weighs the balance"
@@ -144,7 +149,7 @@ def parse(arguments: list[str]) -> Request:
     sequence = _sequence_choice({name: values.pop(name) for name in OF_SEQUENCES}, given)
     if sequence is not None:
         values["checker"] = False
-    parts = _parts_choice({name: values.pop(name) for name in OF_PARTS}, given)
+    parts = _parts_choice({name: values.pop(name) for name in OF_PARTS}, values, given)
     domain = _domain_choice({name: values.pop(name) for name in OF_DOMAINS}, values, given)
     if values["center"] is not None and values["balance"] == "area":
         raise Stop(USAGE, "--center excludes --balance area: both choose the centre of the disk")
@@ -168,17 +173,18 @@ def _wrong(error: options.OptionError) -> Stop:
     return Stop(USAGE, f"{flag(error.option)}: {error.reason}")
 
 
-def _parts_choice(own: dict[str, Any], given: set[str]) -> options.PartsChoice | None:
+def _parts_choice(own: dict[str, Any], values: dict[str, Any], given: set[str]) -> options.PartsChoice | None:
     """What is asked for of parts, or None without them."""
     if not own.pop("parts"):
         for name in own:
             if own[name] is not None:
                 raise Stop(USAGE, f"{flag(name)} needs --parts")
         return None
-    for name in sorted(given - WRITTEN - {*OF_PARTS, "objects"}):
+    for name in sorted(given - WRITTEN - {*OF_PARTS, "most_lost", "objects"}):
         raise Stop(USAGE, f"{flag(name)} is not of --parts")
     try:
-        return options.PartsChoice(**{name: value for name, value in own.items() if value is not None})
+        asked = {name: value for name, value in own.items() if value is not None}
+        return options.PartsChoice(**asked, most_lost=values["most_lost"])
     except options.OptionError as error:
         raise _wrong(error) from None
 
@@ -230,7 +236,7 @@ def _domain_choice(own: dict[str, Any], values: dict[str, Any], given: set[str])
         return None
     try:
         asked = {name: value for name, value in own.items() if value is not None}
-        asked.update(tolerance=values["tolerance"], max_sweeps=values["max_sweeps"])
+        asked.update({name: values[name] for name in ("tolerance", "max_sweeps", "most_lost")})
         if domain not in options.TILE_DOMAINS:
             del asked["domain"]
         return options.CHOICES[domain](**asked)

@@ -61,20 +61,22 @@ def domain_entries(outcome: DomainOutcome) -> list[dict[str, Any]]:
 def parts_entry(outcome: PartsOutcome) -> dict[str, Any]:
     """`result.to_dict()` in the mesh's numbers, or the error."""
     entry = _head(outcome.task, 0, outcome, int(np.count_nonzero(outcome.task.surface.selected)))
-    if outcome.error is not None or outcome.result is None:
+    if outcome.result is None:
         return entry
     result, numbers = outcome.result.to_dict(), outcome.numbers
     for part in result["parts"]:
         part["faces"] = np.unique(numbers.triangle_face[part["faces"]]).tolist()
         part["loops"] = [numbers.source_vertex[np.asarray(loop, dtype=np.int64)].tolist() for loop in part["loops"]]
     result["warnings"] = outcome.warnings()
+    if outcome.error is not None:
+        result["converged"] = False
     return {**result, **entry}
 
 
 def _sphere_entry(outcome: SphereOutcome, index: int, one: SphereIsland) -> dict[str, Any]:
     """Of the sphere; `layout` is of the UVs."""
     entry = _head(outcome.task, index, one, len(one.island.faces))
-    if one.error is not None:
+    if one.result is None:
         return entry
     result, source = one.result.to_dict(), one.island.source_vertex
     for loop in result["loops"]:
@@ -83,6 +85,7 @@ def _sphere_entry(outcome: SphereOutcome, index: int, one: SphereIsland) -> dict
     result["turned"] = _faces(one, result["turned"])
     for key in ("crossing", "torn", "flipped", "below_resolution"):
         result["layout"][key] = _faces(one, result["layout"][key])
+    result.update(_stored(one))
     result["warnings"] = outcome.warnings(one)
     return {**result, **entry, "domain": outcome.choice.domain}
 
@@ -90,15 +93,22 @@ def _sphere_entry(outcome: SphereOutcome, index: int, one: SphereIsland) -> dict
 def _schottky_entry(outcome: SchottkyOutcome, index: int, one: SchottkyIsland) -> dict[str, Any]:
     """Circles and generators are those of `koebe.SchottkyMap`."""
     entry = _head(outcome.task, index, one, len(one.island.faces))
-    if one.error is not None:
+    if one.result is None:
         return entry
     result, source = one.result.to_dict(), one.island.source_vertex
     for part, key in (("loops", "vertices"), ("handles", "cut")):
         for path in result[part]:
             path[key] = source[np.asarray(path[key], dtype=np.int64)].tolist()
     result["turned"] = _faces(one, result["turned"])
+    result.update(_stored(one))
     result["warnings"] = outcome.warnings(one)
     return {**result, **entry, "domain": outcome.choice.domain}
+
+
+def _stored(one: DomainIsland) -> dict[str, Any]:
+    """What the UVs hold of the map; where too much is lost it is not done."""
+    lost = {"converged": False} if one.error is not None else {}
+    return {**one.stored.figures(), "flipped": len(one.flipped), **lost}
 
 
 def _faces(one: DomainIsland, triangles: list[int]) -> list[int]:
@@ -108,7 +118,7 @@ def _faces(one: DomainIsland, triangles: list[int]) -> list[int]:
 
 def _tile_entry(outcome: TileOutcome, index: int, one: TileIsland) -> dict[str, Any]:
     entry = _head(outcome.task, index, one, len(one.island.faces))
-    if one.error is not None:
+    if one.result is None:
         return entry
     result, source = one.result.to_dict(), one.island.source_vertex
     matrix, offset = one.tile.move
@@ -125,8 +135,9 @@ def _tile_entry(outcome: TileOutcome, index: int, one: TileIsland) -> dict[str, 
                 loop["center"] = list(center)
     result["turned"] = _faces(one, result["turned"])
     result["periods"] = one.tile.periods.tolist()
-    result.update(one.distortion or {})
-    result["flipped"] = len(one.flipped)
+    if outcome.choice.fit == "square":
+        result.update(one.stored.report)
+    result.update(_stored(one))
     result["warnings"] = outcome.warnings(one)
     return {**result, **entry, "domain": outcome.choice.domain, "fit": outcome.choice.fit}
 
@@ -166,6 +177,7 @@ def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
     if one.remark:
         result["remark"] = one.remark
     result.update(one.distortion or {})
+    result.update(one.stored.figures())
     result["unrolled"] = one.unrolled
     result["warnings"] = warnings(task, one)
     result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded

@@ -24,6 +24,7 @@ NORMALIZATIONS = ("area", "circles")
 SEAMS = ("add", "only")
 SEQUENCE_SOURCES = ("FRAMES", "SHAPE_KEYS")
 SEQUENCE_TARGETS = ("ATTRIBUTE", "LAYERS")
+MOST_LOST = 0.01  # share of the area, as of the solver
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
 MAX_LAYER_NAME_BYTES = 63
@@ -66,6 +67,7 @@ class Options:
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
                   "keep" (every island goes where it was before)
     margin        between islands, in units of the UV square
+    most_lost     share of the surface's area that may have no area in the UVs before a warning comes first
     checker_size  squares across the UV square of the first object
     checker_even  the other objects' squares are as large in space; else as many across the UV square
     """
@@ -88,6 +90,7 @@ class Options:
     layer: str = "Koebe"
     placement: str = "pack"
     margin: float = 0.02
+    most_lost: float = MOST_LOST
     checker: bool = True
     checker_size: float = 32.0
     checker_even: bool = True
@@ -110,7 +113,7 @@ class Options:
             raise OptionError("symmetry", "it excludes a centre and a rim point: all choose where the disk's centre is")
         if self.importance and self.balance != "area":
             raise OptionError("importance", "it weighs the balance: set Balance to Area")
-        _check_iteration(self.tolerance, self.max_sweeps)
+        _check_iteration(self)
         if self.threads < 0:
             raise OptionError("threads", f"{self.threads} is negative")
         if not 0.0 <= self.margin < 0.5:
@@ -129,6 +132,7 @@ class Options:
             "balance": self.balance,
             "polish": self.polish,
             "threads": self.threads,
+            "most_lost": self.most_lost,
         }
 
 
@@ -139,15 +143,17 @@ class PartsChoice:
     evenness     from 0, few parts, to 1, texels as even as can be
     seams        "add": cut along seams, and further where that pays; "only": nowhere else, but to get a map at all
     write_seams  make seams of the cuts
+    most_lost    share of the surface's area that may have no area in the UVs; with more of it nothing is written
     """
 
     evenness: float = 0.5
     seams: str = "add"
     write_seams: bool = False
+    most_lost: float = MOST_LOST
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.evenness <= 1.0:
-            raise OptionError("evenness", f"{self.evenness} is not in [0, 1]")
+        _check_share("evenness", self.evenness)
+        _check_share("most_lost", self.most_lost)
         _one_of("seams", self.seams, SEAMS)
 
 
@@ -168,13 +174,14 @@ class TileChoice:
     fit: str = "inside"
     tolerance: float = 1e-6
     max_sweeps: int = 50
+    most_lost: float = MOST_LOST
 
     def __post_init__(self) -> None:
         _one_of("domain", self.domain, TILE_DOMAINS)
         _one_of("holes", self.holes, HOLES)
         _one_of("rims", self.rims, RIMS)
         _one_of("fit", self.fit, FITS)
-        _check_iteration(self.tolerance, self.max_sweeps)
+        _check_iteration(self)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -188,11 +195,12 @@ class SphereChoice:
     layout: str = "equirectangular"
     tolerance: float = 1e-6
     max_sweeps: int = 50
+    most_lost: float = MOST_LOST
     add_sphere: bool = False
 
     def __post_init__(self) -> None:
         _one_of("layout", self.layout, LAYOUTS)
-        _check_iteration(self.tolerance, self.max_sweeps)
+        _check_iteration(self)
 
     @property
     def domain(self) -> str:
@@ -211,10 +219,11 @@ class SchottkyChoice:
     normalization: str = "area"
     tolerance: float = 1e-6
     max_sweeps: int = 50
+    most_lost: float = MOST_LOST
 
     def __post_init__(self) -> None:
         _one_of("normalization", self.normalization, NORMALIZATIONS)
-        _check_iteration(self.tolerance, self.max_sweeps)
+        _check_iteration(self)
 
     @property
     def domain(self) -> str:
@@ -260,11 +269,17 @@ OtherDomain = TileChoice | SphereChoice | SchottkyChoice  # of maps that are to 
 CHOICES = {"torus": TileChoice, "ring": TileChoice, SPHERE: SphereChoice, SCHOTTKY: SchottkyChoice}
 
 
-def _check_iteration(tolerance: float, max_sweeps: int) -> None:
-    if not (math.isfinite(tolerance) and tolerance > 0.0):
-        raise OptionError("tolerance", f"{tolerance} is not a positive number")
-    if max_sweeps < 1:
-        raise OptionError("max_sweeps", f"{max_sweeps} is less than 1")
+def _check_iteration(choice: Any) -> None:
+    if not (math.isfinite(choice.tolerance) and choice.tolerance > 0.0):
+        raise OptionError("tolerance", f"{choice.tolerance} is not a positive number")
+    if choice.max_sweeps < 1:
+        raise OptionError("max_sweeps", f"{choice.max_sweeps} is less than 1")
+    _check_share("most_lost", choice.most_lost)
+
+
+def _check_share(name: str, value: float) -> None:
+    if not 0.0 <= value <= 1.0:
+        raise OptionError(name, f"{value} is not from 0 to 1")
 
 
 def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:

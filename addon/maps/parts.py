@@ -12,6 +12,7 @@ from .mapping import foreseen
 from .options import PartsChoice
 from .outcomes import LATER, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
+from .stored import LostAreaError
 from .surface import Surface, next_corners
 from .wording import counted, density_text, in_mesh
 
@@ -58,7 +59,7 @@ class PartsOutcome:
     @property
     def mapped(self) -> list["PartsResult"]:
         """The result, unless there is none or it could not be written."""
-        return [self.result] if self.result is not None and not self.not_written else []
+        return [] if self.result is None or self.error is not None or self.not_written else [self.result]
 
     @property
     def flipped_faces(self) -> np.ndarray:
@@ -67,7 +68,8 @@ class PartsOutcome:
 
     def warnings(self) -> list[dict[str, Any]]:
         """What to watch out for in the parts, in the mesh's numbers."""
-        return [in_mesh(self.numbers, warning) for result in self.mapped for warning in result.warnings]
+        found = [warning for result in self.mapped for warning in result.warnings]
+        return [in_mesh(self.numbers, warning) for warning in found if warning.kind != LostAreaError.kind]
 
     @property
     def islands(self) -> list["PartsOutcome"]:
@@ -82,7 +84,7 @@ class PartsOutcome:
     @property
     def converged(self) -> bool:
         """Whether the parts are what they promise."""
-        return True
+        return all(result.converged for result in self.mapped)
 
     def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
         """Corners (m,) and their UV coordinates (m, 2) in 32 bits."""
@@ -96,12 +98,14 @@ class PartsOutcome:
             counted(len(kinds), "part") + f" ({', '.join(counted(kinds.count(kind), kind) for kind in _kinds(kinds))})",
             f"cuts {result.cut_length:.1f} times the root of the area",
             f"texel density 1 : {density_text(result.density_ratio_5_95)} on nine tenths",
-            f"angle error {result.angle_error_deg['mean']:.2f}°",
+            f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
             counted(result.flipped, "flip"),
             f"{result.seconds:.2f} s",
         ]
         if result.handles_cut:
             words.insert(1, counted(result.handles_cut, "handle") + " cut")
+        if not result.converged:
+            words.append("NOT CONVERGED")
         return f"{self.name}: {', '.join(words)}"
 
 
@@ -132,11 +136,11 @@ def cut_into_parts(
     slits = tube_slits(surface, cut_into_islands(surface))
     try:
         if slits.any():
-            _map(koebe, outcome, surface, slits, price, progress, cancel)
+            _map(koebe, outcome, surface, slits, price, choice.most_lost, progress, cancel)
             assert outcome.cuts is not None
             if not (inner_seams(surface) & ~outcome.cuts).any():
                 return outcome
-        _map(koebe, outcome, surface, np.zeros_like(slits), price, progress, cancel)
+        _map(koebe, outcome, surface, np.zeros_like(slits), price, choice.most_lost, progress, cancel)
     except koebe.Cancelled:
         raise
     except Exception as error:
@@ -150,6 +154,7 @@ def _map(
     surface: Surface,
     slits: np.ndarray,
     price: float,
+    most_lost: float,
     progress: Progress | None,
     cancel: Any,
 ) -> None:
@@ -168,8 +173,11 @@ def _map(
     outcome.numbers = Numbers(surface.triangle_face[chosen], np.concatenate(sources))
     result = koebe.parts(
         np.concatenate(positions), vertex_of_corner[corners], price=price, polygon=outcome.numbers.triangle_face,
-        slits=vertex_of_corner[ends], progress=progress, cancel=cancel,
+        slits=vertex_of_corner[ends], most_lost=most_lost, progress=progress, cancel=cancel,
     )  # fmt: skip
+    if result.lost_area > most_lost:
+        outcome.result = result
+        raise LostAreaError(result.lost_area, result.flipped_faces, "uniformize")
     uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
     uv[corners.ravel()] = result.uv.reshape(-1, 2)
     outcome.result, outcome.corners = result, np.unique(corners)

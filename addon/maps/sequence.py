@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from .errors import MapError
-from .mapping import check_area, failing_alone, map_surfaces
+from .mapping import check_area, failing_alone, judge_island, map_surfaces
 from .options import Options
 from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task, share_of
 from .surface import Surface
@@ -161,7 +161,7 @@ def map_sequence(
         if number == 0:
             (made,) = map_surfaces(kept, [of_shape], options, _saying(part, shape), cancel)  # type: ignore[arg-type]
         else:
-            made = _next_map(kept, outcome.maps[0], of_shape, _saying(part, shape), cancel)
+            made = _next_map(kept, outcome.maps[0], of_shape, options.most_lost, _saying(part, shape), cancel)
         if made.failed or not made.islands:
             outcome.broken = made
             break
@@ -205,7 +205,9 @@ def _saying(progress: Progress | None, shape: Shape) -> Progress | None:
     return lambda fraction, stage: progress(fraction, f"mapping {shape.label}")
 
 
-def _next_map(kept: _Kept, first: SurfaceOutcome, task: Task, progress: Progress | None, cancel: Any) -> SurfaceOutcome:
+def _next_map(
+    kept: _Kept, first: SurfaceOutcome, task: Task, most_lost: float, progress: Progress | None, cancel: Any
+) -> SurfaceOutcome:
     """The map of another shape, laid over the first."""
     ones, done = [], 0
     total = sum(len(one.island.triangles) for one in first.islands)
@@ -224,6 +226,7 @@ def _next_map(kept: _Kept, first: SurfaceOutcome, task: Task, progress: Progress
             one.shape = one.result.uv
             if not np.isfinite(one.uv).all():  # worked out here, on this thread
                 raise MapError("its UVs are not finite")
+            judge_island(kept, one, most_lost)  # type: ignore[arg-type]
         ones.append(one)
         done += size
     return SurfaceOutcome(task, ones)

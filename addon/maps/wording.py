@@ -2,7 +2,7 @@
 """The text of every result, reason and warning: what the report, the status line and the command line say."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -48,6 +48,8 @@ def result_line(outcome: SurfaceOutcome) -> str:
     ]
     if len(results) > 1:
         words.insert(0, counted(len(results), "island"))
+    if outcome.lost:
+        words.insert(0, f"LOST {max(100.0 * one.stored.lost_area for one in outcome.lost):.2g} % OF THE AREA")
     if not outcome.converged:
         words.append("NOT CONVERGED")
     edges = sum(cut_edges(opening) for opening in outcome.openings)
@@ -158,9 +160,10 @@ def warnings(task: Task, one: IslandOutcome) -> list[dict[str, Any]]:
     native = [
         in_mesh(one.island, warning)
         for warning in one.result.warnings
-        if not (one.unrolled and warning.kind == OF_THE_DISK)
+        if warning.kind != "lost_area" and not (one.unrolled and warning.kind == OF_THE_DISK)
     ]
-    return [*native, *own_warnings(task)]
+    lost = own_warning("lost_area", one.lost, np.unique(one.sheet.triangle_face[one.flipped]) if one.lost else ())
+    return [*[lost] * bool(one.lost), *native, *own_warnings(task)]
 
 
 def own_warnings(task: Task) -> list[dict[str, Any]]:
@@ -168,9 +171,9 @@ def own_warnings(task: Task) -> list[dict[str, Any]]:
     return [own_warning("mirrored", MIRRORED)] * task.mirrored + [own_warning("pinned", PINNED)] * task.pinned
 
 
-def own_warning(kind: str, text: str) -> dict[str, Any]:
-    """A warning that is not the solver's."""
-    return {"kind": kind, "elements": [], "text": text}
+def own_warning(kind: str, text: str, elements: Iterable[int] = ()) -> dict[str, Any]:
+    """A warning that is not the solver's, or not in its words."""
+    return {"kind": kind, "elements": [int(element) for element in elements], "text": text}
 
 
 class Numbers(Protocol):

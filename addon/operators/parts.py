@@ -27,7 +27,7 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     options_shown = PART_OPTION_NAMES
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
-        choice = PartsChoice(self.evenness, self.seams, self.write_seams)
+        choice = PartsChoice(self.evenness, self.seams, self.write_seams, self.most_lost)
         return PartsJob(target_objects(context), written_options_of(self), choice, selected_only, refused=[])
 
     def _finish(self, context: bpy.types.Context, job: PartsJob) -> set[str]:
@@ -47,7 +47,7 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
             if outcome.mapped:
                 found = [warning["text"] for warning in outcome.warnings()]
                 warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
-                results.append((outcome.line(), True, [], warnings))
+                results.append((outcome.line(), outcome.converged, [], warnings))
         return self._tell(job, failures, results)
 
 

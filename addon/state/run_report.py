@@ -189,12 +189,13 @@ def record_parts(
     with _new_report(run, context, refused) as report:
         for outcome in outcomes:
             if outcome.failed or outcome.not_written:
-                _record_failure(report, outcome.name, failure_line(outcome))
+                _record_failure(report, outcome.name, failure_line(outcome), " ".join(getattr(outcome.error, "offer", ())))
             for result in outcome.mapped:
                 entry = report.islands.add()
                 entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)
                 entry.mapped = entry.converged = True
-                entry.angle_error, entry.flipped = result.angle_error_deg["mean"], result.flipped
+                entry.angle_error, entry.flipped = result.angle_error_stored_deg["mean"], result.flipped
+                entry.converged = result.converged
                 entry.density, entry.cut_length = result.density_ratio_5_95, result.cut_length
                 entry.seconds = result.seconds
                 if outcome.cuts is not None and outcome.cuts.any():
@@ -269,10 +270,10 @@ def _record_handles(entry: KoebeIslandReport, one: SchottkyIsland) -> None:
         loop.name = f"{number}" if number else "Rim"
 
 
-def _record_failure(report: KoebeReport, name: str, text: str) -> None:
+def _record_failure(report: KoebeReport, name: str, text: str, offer: str = "") -> None:
     """The entry of an object that was left out as a whole."""
     entry = report.islands.add()
-    entry.object_name, entry.message = name, text.removeprefix(f"{name}: ")
+    entry.object_name, entry.message, entry.offer = name, text.removeprefix(f"{name}: "), offer
 
 
 def _record_result(entry: KoebeIslandReport, outcome: SurfaceOutcome, one: IslandOutcome) -> None:

@@ -85,9 +85,10 @@ class ReportPanel(KoebePanel):
         if entry.mapped:
             draw_unroll(layout, context, entry)
             draw_result(layout.column(), entry)
-        elif entry.offenders:
+            return
+        if entry.offenders:
             layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
-            draw_offer(layout.column(align=True), context, entry)
+        draw_offer(layout.column(align=True), context, entry)
 
 
 def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
