@@ -30,6 +30,7 @@ void add_domain_options(CLI::App& app, MapRequest& request)
         ->type_name("auto|longest|VERTEX")
         ->capture_default_str();
     add_mapping_options(app, options);
+    add_most_lost(app, options.most_lost);
     app.add_option("--center", options.center, "vertex inside the surface that goes to 0 (from 0)")
         ->check(whole_number(0))
         ->type_name("VERTEX");
@@ -68,7 +69,8 @@ nlohmann::ordered_json domain_options_report(const MapRequest& request)
             {"center", vertex(options.center)},
             {"point", vertex(options.point)},
             {"tolerance", options.tolerance},
-            {"max_sweeps", options.max_sweeps}};
+            {"max_sweeps", options.max_sweeps},
+            {"most_lost", options.most_lost}};
 }
 
 void check_map_files(MapRequest& request)

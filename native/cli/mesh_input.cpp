@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "core/thread_share.h"
 #include "io/mesh_reader.h"
+#include "pipeline/take_verdict.h"
 
 #include <algorithm>
 #include <chrono>
@@ -58,6 +59,7 @@ void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)
         if (elements_of(warning.kind) == ElementKind::faces)
             warning.elements = filed_faces(input.triangulation, warning.elements);
     warnings.insert(warnings.begin(), input.warnings.begin(), input.warnings.end());
+    put_loss_first(warnings);
 }
 
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles)

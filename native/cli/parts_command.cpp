@@ -1,6 +1,7 @@
 // koebe parts IN OUT
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/mapping_options.h"
 #include "cli/mesh_input.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
@@ -68,7 +69,9 @@ void write_files(const Request& request, const MeshInput& input, PartsResult& re
     if (!request.json.empty()) {
         nlohmann::ordered_json report = to_json(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
-        report["options"] = {{"price", request.options.price}, {"round_cuts", request.options.round_cuts}};
+        report["options"] = {{"price", request.options.price},
+                             {"round_cuts", request.options.round_cuts},
+                             {"most_lost", request.options.most_lost}};
         files.emplace_back(request.json).write(json_text(report));
     }
     context.checkpoint();
@@ -80,13 +83,13 @@ std::string result_line(const Request& request, const PartsResult& result)
     char figures[160];
     std::snprintf(figures, sizeof figures,
                   ", cuts %.2f of the root of the area, texel density within %.3g, angle error %.2f deg, ",
-                  result.cut_length, result.density_ratio_5_95, result.angle_error_deg.mean);
+                  result.cut_length, result.density_ratio_5_95, result.distortion.angle_error_deg.mean);
     std::string line = one_line(request.output) + ": " + counted(result.parts.size(), "part") + figures +
-                       std::to_string(result.flipped.size()) + " flipped";
-    if (const std::size_t tiny = result.below_resolution.size(); tiny > 0)
+                       std::to_string(result.distortion.flipped.size()) + " flipped";
+    if (const std::size_t tiny = result.distortion.below_resolution.size(); tiny > 0)
         line += " (" + std::to_string(tiny) + " below resolution)";
-    std::snprintf(figures, sizeof figures, ", %.2f s", result.seconds);
-    return line + figures + warning_count(result.warnings) + "\n";
+    std::snprintf(figures, sizeof figures, ", %.2f s", result.seconds.total);
+    return line + figures + (result.converged ? "" : ", not converged") + warning_count(result.warnings) + "\n";
 }
 
 int run(const Request& request)
@@ -110,7 +113,7 @@ int run(const Request& request)
             for (const Warning& warning : result.warnings)
                 std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
     }
-    return done;
+    return result.converged ? done : not_converged;
 }
 
 void check(const Request& request)
@@ -139,6 +142,7 @@ Subcommand add_parts(CLI::App& app)
         ->capture_default_str();
     options->add_flag("--round-cuts", request->options.round_cuts,
                       "loops at cuts on circles and straight lines, for more angle error");
+    add_most_lost(*options, request->options.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");

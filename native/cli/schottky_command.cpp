@@ -1,6 +1,7 @@
 // koebe schottky IN OUT
 #include "cli/end_with_input.h"
 #include "cli/map_run.h"
+#include "cli/mapping_options.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
 
@@ -83,6 +84,7 @@ Subcommand add_schottky(CLI::App& app)
         ->check(whole_number(1))
         ->type_name("N")
         ->capture_default_str();
+    add_most_lost(*options, request->schottky.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture there: the faces, and the circles of the copies")
         ->type_name("FILE");
@@ -92,7 +94,8 @@ Subcommand add_schottky(CLI::App& app)
         check_map_files(*request);
         request->entries["options"] = {{"normalization", to_string(request->schottky.normalization)},
                                        {"tolerance", request->schottky.tolerance},
-                                       {"max_sweeps", request->schottky.max_sweeps}};
+                                       {"max_sweeps", request->schottky.max_sweeps},
+                                       {"most_lost", request->schottky.most_lost}};
     });
     return {options, [request] { return run_schottky(*request); }};
 }

@@ -1,6 +1,7 @@
 // koebe sphere IN OUT
 #include "cli/end_with_input.h"
 #include "cli/map_run.h"
+#include "cli/mapping_options.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
 
@@ -105,6 +106,7 @@ Subcommand add_sphere(CLI::App& app)
         ->check(whole_number(1))
         ->type_name("N")
         ->capture_default_str();
+    add_most_lost(*options, sphere.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the sphere there, front and back")
         ->type_name("FILE");
@@ -115,7 +117,8 @@ Subcommand add_sphere(CLI::App& app)
         if (!request->sphere.empty()) required_format(request->sphere);
         request->entries["options"] = {{"layout", to_string(request->sphere_options.layout)},
                                        {"tolerance", request->sphere_options.tolerance},
-                                       {"max_sweeps", request->sphere_options.max_sweeps}};
+                                       {"max_sweeps", request->sphere_options.max_sweeps},
+                                       {"most_lost", request->sphere_options.most_lost}};
     });
     return {options, [request] { return run_sphere(*request); }};
 }

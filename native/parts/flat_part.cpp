@@ -256,7 +256,7 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
 
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 {
-    const PlanarPoints stored = uv.cast<float>().cast<double>();
+    const PlanarPoints stored = uv.unaryExpr(&as_stored);
     return crossing_boundary_edges(part.surface.loops, stored, shortest_drawn).empty() &&
            turned_loops(part.surface.loops, stored, shortest_drawn).empty();
 }
