@@ -6,6 +6,7 @@
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/peak_memory.h"
+#include "core/stopwatch.h"
 #include "core/thread_share.h"
 #include "embedding/embedded_map.h"
 #include "embedding/fixed_places.h"
@@ -22,7 +23,6 @@
 #include "pipeline/take_verdict.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -32,21 +32,6 @@
 
 namespace koebe {
 namespace {
-
-class Stopwatch {
-public:
-    /// Seconds since the last lap.
-    double lap()
-    {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// Least angles between the vertices of the outer loop: three neighbours s apart make a face s^2 / 2 high, which 32-bit
 /// UVs must tell from none.
