@@ -5,8 +5,8 @@ ELF looks a symbol up in the host program before it looks in the wheel. Debian's
 BLAS, so a bundled CHOLMOD would call THAT one: slow where it is the reference BLAS, a crash where it is an
 OpenBLAS of another version. Every symbol that a bundled C library exports therefore gets the prefix `koebe_`,
 in the library and in all that call it. C++ names, libgomp and libgfortran stay: they are versioned by their makers.
-Their files get names of their own too: threadpoolctl, and so scikit-learn, takes every file called libopenblas... for an
-OpenBLAS, and asks it for functions by the names that it no longer has.
+Their files get names of their own too: threadpoolctl, and so scikit-learn, takes every file called libopenblas...
+for an OpenBLAS, and asks it for functions by names that it no longer has.
 
 Usage: isolate_wheel.py IN.whl OUT_FOLDER   (needs patchelf >= 0.18 and the package `wheel`)
 """

@@ -30,8 +30,8 @@ def script(name):
     return module
 
 
-# CMakeLists.txt sets it, and pip's package takes it from there by the pattern in pyproject.toml. Files that Blender, GitHub
-# or another CMake reads repeat it.
+# CMakeLists.txt sets it, and pip's package takes it from there by the pattern in pyproject.toml. Files for Blender,
+# GitHub or another CMake repeat it.
 VERSIONS = {
     "CMakeLists.txt": re.search(r"regex = '''(.*)'''", (ROOT / "pyproject.toml").read_text(encoding="utf-8"))[1],
     "CHANGELOG.md": r"(?m)^## (.*?)(?:, not released yet)?$",
