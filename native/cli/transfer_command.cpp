@@ -80,6 +80,7 @@ nlohmann::ordered_json report(const Request& request, const MappedInput& a, cons
             {"beltrami", {{"mean", found.beltrami.mean}, {"max", found.beltrami.max}}},
             {"flipped", found.folded},
             {"largest_distance", found.places.distance.maxCoeff()},
+            {"warnings", to_json(found.warnings)},
             {"places", std::move(places)}};
 }
 
@@ -92,7 +93,8 @@ std::string result_line(const Request& request, const MappedInput& a, const Mapp
     std::snprintf(text, sizeof text, ": %lld points, holes miss by up to %.2g radii%s, |mu| %.2g, at most %.2g",
                   static_cast<long long>(found.points.rows()), worst, found.fitted ? ", fitted" : ", not fitted",
                   found.beltrami.mean, found.beltrami.max);
-    return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") + "\n";
+    return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") +
+           warning_count(found.warnings) + "\n";
 }
 
 int run(const Request& request)

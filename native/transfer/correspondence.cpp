@@ -1,11 +1,15 @@
 #include "transfer/correspondence.h"
 
 #include "core/errors.h"
+#include "core/tolerances.h"
 #include "quality/distortion.h"
 #include "shape/conformal_module.h"
 #include "surface/harmonic_map.h"
+#include "transfer/landmark_alignment.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <string>
 
 namespace koebe {
 namespace {
@@ -24,6 +28,31 @@ PlanarPoints planar(const VectorXcd& z)
     PlanarPoints points(z.size(), 2);
     points << z.real(), z.imag();
     return points;
+}
+
+/// A domain moved by an automorphism: vertex by vertex, or, where that turns faces over, which are too large for it,
+/// its rims so and the inside by harmonic functions of the surface.
+/// @return nothing if faces turn over either way
+std::optional<PlanarPoints> moved_domain(const MappedSurface& surface, const Moebius& map)
+{
+    const std::size_t folded = folded_faces(surface.triangles, surface.uv).size();
+    const auto serves = [&](const PlanarPoints& uv) {
+        return uv.allFinite() && folded_faces(surface.triangles, uv).size() <= folded;
+    };
+    const VectorXcd moved = map(complex(surface.uv));
+    if (PlanarPoints points = planar(moved); serves(points)) return points;
+    std::vector<Index> rims;
+    for (const LoopReport& loop : surface.loops) rims.insert(rims.end(), loop.vertices.begin(), loop.vertices.end());
+    try {
+        const PlanarPoints points =
+            planar(harmonic_map(surface.triangles, edge_lengths(surface.vertices, surface.triangles),
+                                static_cast<Index>(moved.size()), rims, moved(rims)));
+        if (serves(points)) return points;
+    } catch (const OutOfMemory&) {
+        throw;
+    } catch (const SolverError&) {  // faces without area: nothing
+    }
+    return {};
 }
 
 /// Vertices of all rims, and the way that each has to go.
@@ -80,8 +109,46 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
 
 namespace {
 
+/// Where landmarks lie in the two domains, both laid over the source.
+struct LandmarkPlaces {
+    std::vector<SurfacePoint> on_target;
+    VectorXcd now, wanted;
+};
+
+LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface& target, const Moebius& map,
+                               const std::vector<Landmark>& landmarks)
+{
+    const auto count = static_cast<Eigen::Index>(landmarks.size());
+    LandmarkPlaces places{{}, VectorXcd(count), VectorXcd(count)};
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Landmark& landmark = landmarks[i];
+        const Eigen::RowVector2d on_target = landmark.target.of(target.uv, target.triangles),
+                                 on_source = landmark.source.of(source.uv, source.triangles);
+        places.on_target.push_back(landmark.target);
+        places.now[i] = map(Complex(on_target[0], on_target[1]));
+        places.wanted[i] = Complex(on_source[0], on_source[1]);
+    }
+    return places;
+}
+
+/// The target's domain laid over the source's, with the symmetry that is best for the landmarks, unless that turns
+/// faces over. @param map of the circles; changed to what was taken
+PlanarPoints aligned_domain(const MappedSurface& target, const std::vector<Circle>& circles,
+                            const LandmarkPlaces& places, Moebius& map)
+{
+    if (places.now.size() > 0) {
+        const Moebius best = nearest_symmetry(circles, places.now, places.wanted) * map;
+        if (std::optional<PlanarPoints> moved = moved_domain(target, best)) {
+            map = best;
+            return *std::move(moved);
+        }
+    }
+    std::optional<PlanarPoints> moved = moved_domain(target, map);
+    return moved ? *std::move(moved) : planar(map(complex(target.uv)));
+}
+
 LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& target, const Correspondence& found,
-                              const PlanarPoints& aligned, const std::vector<Landmark>& landmarks,
+                              const PlanarPoints& aligned, const LandmarkPlaces& places,
                               const ExecutionContext& context)
 {
     std::vector<Circle> circles(target.loops.size());
@@ -89,14 +156,21 @@ LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& 
         const std::size_t own = k == 0 ? 0 : found.alignment.match[k];
         circles[own] = found.fitted ? source.loops[k].circle : found.alignment.map(target.loops[own].circle);
     }
-    std::vector<SurfacePoint> points;
-    VectorXcd places(static_cast<Eigen::Index>(landmarks.size()));
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
-        points.push_back(landmarks[i].target);
-        const Eigen::RowVector2d place = landmarks[i].source.of(source.uv, source.triangles);
-        places[static_cast<Eigen::Index>(i)] = Complex(place[0], place[1]);
-    }
-    return map_with_landmarks(target, circles, aligned, found.uv, points, places, context);
+    return map_with_landmarks(target, circles, aligned, found.uv, places.on_target, places.wanted, context);
+}
+
+/// Which of the source's holes the target's miss.
+Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& circles)
+{
+    char miss[32];
+    std::snprintf(miss, sizeof miss, "%.2g", alignment.largest);
+    Warning warning{WarningKind::not_fitted,
+                    std::string("the holes could not be bent onto each other without turning faces over: they miss "
+                                "each other by up to ") +
+                        miss + " in the unit disk"};
+    for (std::size_t k = 1; k < circles.size(); ++k)
+        if (alignment.misses[k] > circle_tolerance) warning.elements.push_back(static_cast<Index>(k));
+    return warning;
 }
 
 /// What the bending has done to the aligned domain.
@@ -106,10 +180,13 @@ void judge(Correspondence& result, const MappedSurface& target, const CutMesh& m
     Vertices flat = Vertices::Zero(uv.rows(), 3);
     const PlanarPoints before = mesh.extended(aligned, target.triangles);
     flat.leftCols<2>() = before;
-    result.beltrami = measure_distortion(flat, mesh.triangles, uv).beltrami;
     const std::vector<Index> lost = folded_faces(mesh.triangles, before), now = folded_faces(mesh.triangles, uv);
-    result.folded = static_cast<std::size_t>(
-        std::ranges::count_if(now, [&](Index f) { return !std::ranges::binary_search(lost, f); }));
+    const auto is_lost = [&](Index f) { return std::ranges::binary_search(lost, f); };
+    std::vector<Index> whole;
+    for (Index f = 0; f < static_cast<Index>(mesh.triangles.rows()); ++f)
+        if (!is_lost(f)) whole.push_back(f);
+    result.beltrami = measure_distortion(flat, mesh.triangles(whole, Eigen::all), uv).beltrami;
+    result.folded = static_cast<std::size_t>(std::ranges::count_if(now, [&](Index f) { return !is_lost(f); }));
 }
 
 /// Where the source's vertices lie.
@@ -140,8 +217,9 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     const std::vector<Circle> circles = circles_of(source.loops);
     Correspondence result;
     result.alignment = align_domains(circles, circles_of(target.loops), options.match, context);
-    const VectorXcd aligned = result.alignment.map(complex(target.uv));
-    result.uv = planar(aligned);
+    LandmarkPlaces places = landmark_places(source, target, result.alignment.map, options.landmarks);
+    const PlanarPoints aligned = aligned_domain(target, circles, places, result.alignment.map);
+    result.uv = aligned;
     if (options.fit_holes && circles.size() > 1) {
         try {
             std::optional<PlanarPoints> bent = with_fitted_holes(circles, target, result.alignment, result.uv, context);
@@ -151,17 +229,18 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
             throw;
         } catch (const SolverError&) {  // aligned only, as `fitted` says
         }
+        if (!result.fitted) result.warnings.push_back(not_fitted(result.alignment, circles));
     }
     CutMesh mesh{target.triangles, {}, {}, {}};
     PlanarPoints uv = result.uv;
     if (!options.landmarks.empty()) {
-        LandmarkMap map = bent_to_landmarks(source, target, result, planar(aligned), options.landmarks, context);
+        LandmarkMap map = bent_to_landmarks(source, target, result, aligned, places, context);
         mesh = std::move(map.mesh);
         uv = std::move(map.uv);
         result.uv = uv.topRows(target.uv.rows());
     }
     context.checkpoint();
-    judge(result, target, mesh, planar(aligned), uv);
+    judge(result, target, mesh, aligned, uv);
     look_up(result, source, target, mesh, uv);
     return result;
 }

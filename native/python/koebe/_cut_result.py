@@ -1,18 +1,16 @@
 """What uniformize(..., cut=True) gives: pieces with a map each, side by side in the unit square."""
 
 import copy
-import json
-import os
 from typing import Any
 
 import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
-from ._files import whole_file
+from ._files import Saved
 from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
 
 
-class CutResult:
+class CutResult(Saved):
     """The maps of the pieces of any mesh, and their report.
 
     uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. A cut is an edge
@@ -86,16 +84,8 @@ class CutResult:
         """The command's JSON report as a new dict, with input_sha256 and options."""
         return copy.deepcopy(self._report)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write all of it to a file, which `koebe.load` reads: NumPy's .npz. The file is whole or absent.
-
-        Of a mesh of another package its arrays are kept, not the mesh.
-        """
-        with whole_file(path) as file:
-            np.savez_compressed(
-                file, report=np.array(json.dumps(self._report)), uv=self.uv, flipped_faces=self.flipped_faces,
-                vertices=self._source.vertices, triangles=self._source.triangles,
-            )  # fmt: skip
+    def _arrays(self) -> dict[str, Any]:
+        return {"uv": self.uv, "flipped_faces": self.flipped_faces}
 
     def __repr__(self) -> str:
         return (

@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
+from ._files import Saved
 from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
 
 
-class DomainMap:
+class DomainMap(Saved):
     """UVs that are cut, and a report. What its fields mean, TileMap, SphereMap and SchottkyMap say."""
 
     version: str
@@ -46,6 +47,9 @@ class DomainMap:
         for name, array in arrays.items():
             array.flags.writeable = False
             setattr(self, name, array)
+
+    def _arrays(self) -> dict[str, Any]:
+        return {"uv": self.uv, "flipped_faces": self.flipped_faces}
 
     def _drawn(self) -> np.ndarray:
         """(F,) which faces have UVs that can be drawn."""
