@@ -8,6 +8,7 @@
 #include "transfer/landmark_alignment.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -28,31 +29,6 @@ PlanarPoints planar(const VectorXcd& z)
     PlanarPoints points(z.size(), 2);
     points << z.real(), z.imag();
     return points;
-}
-
-/// A domain moved by an automorphism: vertex by vertex, or, where that turns faces over, which are too large for it,
-/// its rims so and the inside by harmonic functions of the surface.
-/// @return nothing if faces turn over either way
-std::optional<PlanarPoints> moved_domain(const MappedSurface& surface, const Moebius& map)
-{
-    const std::size_t folded = folded_faces(surface.triangles, surface.uv).size();
-    const auto serves = [&](const PlanarPoints& uv) {
-        return uv.allFinite() && folded_faces(surface.triangles, uv).size() <= folded;
-    };
-    const VectorXcd moved = map(complex(surface.uv));
-    if (PlanarPoints points = planar(moved); serves(points)) return points;
-    std::vector<Index> rims;
-    for (const LoopReport& loop : surface.loops) rims.insert(rims.end(), loop.vertices.begin(), loop.vertices.end());
-    try {
-        const PlanarPoints points =
-            planar(harmonic_map(surface.triangles, edge_lengths(surface.vertices, surface.triangles),
-                                static_cast<Index>(moved.size()), rims, moved(rims)));
-        if (serves(points)) return points;
-    } catch (const OutOfMemory&) {
-        throw;
-    } catch (const SolverError&) {  // faces without area: nothing
-    }
-    return {};
 }
 
 /// Vertices of all rims, and the way that each has to go.
@@ -131,20 +107,40 @@ LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface&
     return places;
 }
 
-/// The target's domain laid over the source's, with the symmetry that is best for the landmarks, unless that turns
-/// faces over. @param map of the circles; changed to what was taken
-PlanarPoints aligned_domain(const MappedSurface& target, const std::vector<Circle>& circles,
-                            const LandmarkPlaces& places, Moebius& map)
+/// The target's domain laid over the source's, and the domain that counts as free of distortion.
+struct AlignedDomain {
+    PlanarPoints uv, undistorted;
+};
+
+/// With the symmetry that is best for the landmarks; where that turns faces over, which are too large for it, with as
+/// much of it as turns none, and the domain as it was counts.
+/// @param map of the circles; changed to what was taken
+AlignedDomain aligned_domain(const MappedSurface& target, const std::vector<Circle>& circles,
+                             const LandmarkPlaces& places, Moebius& map)
 {
-    if (places.now.size() > 0) {
-        const Moebius best = nearest_symmetry(circles, places.now, places.wanted) * map;
-        if (std::optional<PlanarPoints> moved = moved_domain(target, best)) {
-            map = best;
-            return *std::move(moved);
-        }
+    constexpr int halvings = 10;
+    const Moebius plain = map, symmetry = nearest_symmetry(circles, places.now, places.wanted);
+    const VectorXcd uv = complex(target.uv);
+    const double length = std::abs(symmetry.a);
+    const auto with_share = [&](double share) {
+        const double a = std::tanh(share * std::atanh(length));
+        map = Moebius{length > 0.0 ? a / length * symmetry.a : Complex(0.0), symmetry.turn} * plain;
+        return planar(map(uv));
+    };
+    const auto folded = [&](const PlanarPoints& points) { return folded_faces(target.triangles, points).size(); };
+    const PlanarPoints whole = with_share(1.0);
+    if (length == 0.0) return {whole, whole};
+    const std::size_t most = folded(with_share(0.0));
+    if (folded(whole) <= most) {
+        with_share(1.0);
+        return {whole, whole};
     }
-    std::optional<PlanarPoints> moved = moved_domain(target, map);
-    return moved ? *std::move(moved) : planar(map(complex(target.uv)));
+    double served = 0.0, failed = 1.0;
+    for (int i = 0; i < halvings; ++i) {
+        const double share = 0.5 * (served + failed);
+        (folded(with_share(share)) <= most ? served : failed) = share;
+    }
+    return {with_share(served), target.uv};
 }
 
 LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& target, const Correspondence& found,
@@ -218,8 +214,8 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     Correspondence result;
     result.alignment = align_domains(circles, circles_of(target.loops), options.match, context);
     LandmarkPlaces places = landmark_places(source, target, result.alignment.map, options.landmarks);
-    const PlanarPoints aligned = aligned_domain(target, circles, places, result.alignment.map);
-    result.uv = aligned;
+    const AlignedDomain aligned = aligned_domain(target, circles, places, result.alignment.map);
+    result.uv = aligned.uv;
     if (options.fit_holes && circles.size() > 1) {
         try {
             std::optional<PlanarPoints> bent = with_fitted_holes(circles, target, result.alignment, result.uv, context);
@@ -234,13 +230,13 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     CutMesh mesh{target.triangles, {}, {}, {}};
     PlanarPoints uv = result.uv;
     if (!options.landmarks.empty()) {
-        LandmarkMap map = bent_to_landmarks(source, target, result, aligned, places, context);
+        LandmarkMap map = bent_to_landmarks(source, target, result, aligned.undistorted, places, context);
         mesh = std::move(map.mesh);
         uv = std::move(map.uv);
         result.uv = uv.topRows(target.uv.rows());
     }
     context.checkpoint();
-    judge(result, target, mesh, aligned, uv);
+    judge(result, target, mesh, aligned.undistorted, uv);
     look_up(result, source, target, mesh, uv);
     return result;
 }
