@@ -22,6 +22,7 @@ constexpr double power = 2.0, slack = 1e-4;  // of the energy, dimensionless: th
 constexpr int most_trials = 60;              // steps of one way, those that fail too
 constexpr double shortest_step = 1.0 / 256;  // of the whole way
 constexpr double unfolded_step = 1.0 / 16;   // of the whole way: where faces fold in one as short, they are turned back
+constexpr int most_unfoldings = 6;           // of a map: each takes as long as the last steps
 constexpr int steps_between = 4;             // of Newton, after each step of the way
 constexpr int steps_at_the_end = 60;
 constexpr double settled = 1e-7;             // relative decrease of the energy
@@ -67,7 +68,8 @@ public:
     {
         const DirichletSolver extension(bending_matrix(), fixed_);
         for (const double bow : bows)
-            if (go(extension, bow, context)) return std::move(map_);
+            if (go(extension, bow, 0, context)) return std::move(map_);
+        if (go(extension, bows[0], most_unfoldings, context)) return std::move(map_);
         if (go_at_once(extension, context)) return std::move(map_);
         throw SolverError("no map that is one to one was found: the landmarks stand in each other's way, or the mesh "
                           "is too coarse for them, most of all at " +
@@ -233,16 +235,17 @@ private:
             for (const Pin& pin : pins_) stuck_.push_back(pin.landmark);
     }
 
-    bool go(const DirichletSolver& extension, double bow, const ExecutionContext& context)
+    /// @param unfoldings how often the faces that fold in a short step may be turned back
+    bool go(const DirichletSolver& extension, double bow, int unfoldings, const ExecutionContext& context)
     {
         PlanarPoints now = start_;
-        relax(now, steps_between, context);
+        if (unfoldings > 0) relax(now, steps_between, context);
         double reached = 0.0, step = 1.0;
         for (int trial = 0; trial < most_trials && reached < 1.0; ++trial) {
             context.checkpoint();
             const double share = std::min(step, 1.0 - reached);
             PlanarPoints next = step_to(extension, now, reached + share, bow);
-            if (is_one_to_one(next) || (share <= unfolded_step && unfold(next, context))) {
+            if (is_one_to_one(next) || (share <= unfolded_step && unfoldings-- > 0 && unfold(next, context))) {
                 now = std::move(next);
                 reached += share;
                 step = 2.0 * share;

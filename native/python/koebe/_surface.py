@@ -17,9 +17,10 @@ class Surface:
     """A surface that is mapped again and again: an animation, a sculpting stroke, scans of one topology.
 
     Topology, the order of elimination and the outer loop are found once; each map begins at the angles that the last
-    ones forecast. It is the map that uniformize gives for the same positions and outer loop, within the tolerance and
-    up to an automorphism of the disk: of the freedom that the options leave, as much as there is goes into laying the
-    loops over those of the first map, so that a texture stays in its place.
+    ones forecast. Up to an automorphism of the disk its circles are those that uniformize gives for the same positions
+    and outer loop: after a large move to rounding; after a small one, for which the last triangulation is kept, up to
+    what the mesh resolves (docs/labs.md has figures). Of the freedom that the options leave, as much as there is goes
+    into laying the loops over those of the first map, so that a texture stays in its place.
 
     vertices, triangles, or a mesh of another package, and the options: as for uniformize. With outer='auto' or
     'longest' the first positions choose the outer loop, with balance='area' the first map does.
