@@ -88,7 +88,7 @@ class _AreaBeforeBalance(TypedDict, total=False):
 
 
 class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
-    """before_balance is the same of the map before `balance`, its outer loop included: that of a call without it, unless
+    """before_balance is the same of the map before `balance`, on its outer loop: that of a call without `balance`, unless
     that one has faces to turn back."""
 
 
