@@ -88,8 +88,8 @@ class _AreaBeforeBalance(TypedDict, total=False):
 
 
 class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
-    """before_balance is the same of the map before `balance`, on its outer loop: that of a call without `balance`, unless
-    that one has faces to turn back."""
+    """before_balance is the same of the map before `balance`, on its outer loop: that of a call without it, unless that
+    one has faces to turn back."""
 
 
 class Step(TypedDict):
