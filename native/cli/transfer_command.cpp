@@ -17,8 +17,10 @@
 #include "report/json.h"
 #include "transfer/correspondence.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -55,7 +57,8 @@ MappedInput read_and_map(const std::string& path, const Request& request, const 
 }
 
 nlohmann::ordered_json report(const Request& request, const MappedInput& a, const MappedInput& b,
-                              const Correspondence& found, std::size_t landmark_count)
+                              const Correspondence& found, std::size_t landmark_count,
+                              const std::vector<Warning>& warnings)
 {
     const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
     std::vector<double> in_radii = found.alignment.misses;
@@ -80,11 +83,12 @@ nlohmann::ordered_json report(const Request& request, const MappedInput& a, cons
             {"beltrami", {{"mean", found.beltrami.mean}, {"max", found.beltrami.max}}},
             {"flipped", found.folded},
             {"largest_distance", found.places.distance.maxCoeff()},
-            {"warnings", to_json(found.warnings)},
+            {"warnings", to_json(warnings)},
             {"places", std::move(places)}};
 }
 
-std::string result_line(const Request& request, const MappedInput& a, const MappedInput& b, const Correspondence& found)
+std::string result_line(const Request& request, const MappedInput& a, const MappedInput& b, const Correspondence& found,
+                        const std::vector<Warning>& warnings)
 {
     double worst = 0.0;
     for (std::size_t k = 1; k < found.alignment.misses.size(); ++k)
@@ -94,7 +98,7 @@ std::string result_line(const Request& request, const MappedInput& a, const Mapp
                   static_cast<long long>(found.points.rows()), worst, found.fitted ? ", fitted" : ", not fitted",
                   found.beltrami.mean, found.beltrami.max);
     return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") +
-           warning_count(found.warnings) + "\n";
+           warning_count(warnings) + "\n";
 }
 
 int run(const Request& request)
@@ -116,12 +120,19 @@ int run(const Request& request)
     std::vector<AtomicFile> files;
     PolygonMesh moved = a->mesh.polygons;
     moved.vertices = found.points;
-    write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv);
+    std::vector<Warning> warnings = found.warnings;
+    std::ranges::move(
+        write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv, {a->mesh.file, true}),
+        std::back_inserter(warnings));
     if (!request.json.empty())
-        files.emplace_back(request.json).write(json_text(report(request, *a, *b, found, options.landmarks.size())));
+        files.emplace_back(request.json)
+            .write(json_text(report(request, *a, *b, found, options.landmarks.size(), warnings)));
     context.checkpoint();
     for (AtomicFile& file : files) file.commit();
-    if (!request.quiet) print(result_line(request, *a, *b, found), "; the files are written");
+    if (!request.quiet) {
+        print(result_line(request, *a, *b, found, warnings), "; the files are written");
+        show_warnings(warnings);
+    }
     return a->converged && b->converged ? done : not_converged;
 }
 

@@ -27,9 +27,12 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::flow_flips: return "flow_flips";
     case WarningKind::no_hole: return "no_hole";
     case WarningKind::not_fitted: return "not_fitted";
+    case WarningKind::replaced_uvs: return "replaced_uvs";
+    case WarningKind::not_kept: return "not_kept";
     case WarningKind::cut: return "cut";
     case WarningKind::pieces: return "pieces";
     case WarningKind::left_out: return "left_out";
+    case WarningKind::lost_area: return "lost_area";
     case WarningKind::not_mapped: return "not_mapped";
     }
     return "unknown";
@@ -48,6 +51,7 @@ ElementKind elements_of(WarningKind kind) noexcept
     case WarningKind::below_resolution:
     case WarningKind::flipped:
     case WarningKind::left_out:
+    case WarningKind::lost_area:
     case WarningKind::not_mapped:
     case WarningKind::not_one_to_one: return ElementKind::faces;
     case WarningKind::lost_circles:
