@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <string>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -105,6 +107,33 @@ LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface&
         places.wanted[i] = Complex(on_source[0], on_source[1]);
     }
     return places;
+}
+
+/// The alignment that is best for circles and landmarks together, as far as all matches of the loops can be tried: the
+/// nearest module alone may take one hole for another, and landmarks tell.
+DomainAlignment aligned_by_landmarks(const MappedSurface& source, const MappedSurface& target,
+                                     const std::vector<Landmark>& landmarks, const ExecutionContext& context)
+{
+    constexpr std::size_t most_loops = 6;  // 120 matches
+    const std::vector<Circle> circles = circles_of(source.loops), others = circles_of(target.loops);
+    DomainAlignment best = align_domains(circles, others, {}, context);
+    if (landmarks.empty() || circles.size() < 3 || circles.size() > most_loops) return best;
+    const auto squares = [&](const DomainAlignment& alignment) {
+        const LandmarkPlaces places = landmark_places(source, target, alignment.map, landmarks);
+        return (places.now - places.wanted).squaredNorm() / static_cast<double>(landmarks.size()) +
+               alignment.residual * alignment.residual;
+    };
+    double least = squares(best);
+    std::vector<int> match(circles.size());
+    std::iota(match.begin(), match.end(), 0);
+    do {
+        DomainAlignment next = align_domains(circles, others, match, context);
+        if (const double sum = squares(next); sum < least) {
+            least = sum;
+            best = std::move(next);
+        }
+    } while (std::next_permutation(match.begin() + 1, match.end()));
+    return best;
 }
 
 /// The target's domain laid over the source's, and the domain that counts as free of distortion.
@@ -212,7 +241,8 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     require_own_circles(target.loops);
     const std::vector<Circle> circles = circles_of(source.loops);
     Correspondence result;
-    result.alignment = align_domains(circles, circles_of(target.loops), options.match, context);
+    result.alignment = options.match.empty() ? aligned_by_landmarks(source, target, options.landmarks, context)
+                                             : align_domains(circles, circles_of(target.loops), options.match, context);
     LandmarkPlaces places = landmark_places(source, target, result.alignment.map, options.landmarks);
     const AlignedDomain aligned = aligned_domain(target, circles, places, result.alignment.map);
     result.uv = aligned.uv;

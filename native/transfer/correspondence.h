@@ -41,10 +41,11 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
                                               const DomainAlignment& alignment, const PlanarPoints& uv,
                                               const ExecutionContext& context = {});
 
-/// Lays the target's circle domain over the source's (align_domains), with the freedom that no circle or one hole
-/// leaves so that landmarks lie near each other (nearest_symmetry), bends its holes onto the source's, and then until
-/// its landmarks lie on the source's (map_with_landmarks), and looks up where the source's vertices lie in it. A vertex
-/// that lies outside, by the height of an arc over its edge at a rim, takes the nearest point: none is lost.
+/// Lays the target's circle domain over the source's (align_domains; of up to five holes landmarks choose the match),
+/// with the freedom that no circle or one hole leaves so that landmarks lie near each other (nearest_symmetry), bends
+/// its holes onto the source's, and then until its landmarks lie on the source's (map_with_landmarks), and looks up
+/// where the source's vertices lie in it. A vertex that lies outside, by the height of an arc over its edge at a rim,
+/// takes the nearest point: none is lost.
 /// @throws InputError as align_domains and map_with_landmarks; circles that are not the surfaces'
 /// (require_own_circles); SolverError, Cancelled
 KOEBE_API Correspondence correspond(const MappedSurface& source, const MappedSurface& target,

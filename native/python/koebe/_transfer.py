@@ -97,7 +97,8 @@ def transfer(
     face turns over, but it is quasi-conformal where the holes differ.
     field      (V_a,) or (V_a, k) at a's vertices: its values at b's vertices, (V_b,) or (V_b, k) float64, are returned
                None: the Correspondence itself
-    match      a's loop for each of b's, 0 for 0; None: as match_loops finds them
+    match      a's loop for each of b's, 0 for 0; None: as match_loops finds them, or, with landmarks and up to five
+               holes, as it brings circles and landmarks nearest
     landmarks  pairs (on a, on b) that shall correspond: each a vertex, or a point (x, y, z), in the surface's unit,
                which stands for the nearest of the surface. Then the domain is bent further, circles to circles. Of the
                maps that take landmarks to landmarks exactly and turn no face over it is the one with the least fourth
