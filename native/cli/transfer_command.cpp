@@ -17,8 +17,10 @@
 #include "report/json.h"
 #include "transfer/correspondence.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -118,16 +120,18 @@ int run(const Request& request)
     std::vector<AtomicFile> files;
     PolygonMesh moved = a->mesh.polygons;
     moved.vertices = found.points;
-    const std::vector<Warning> losses =
-        write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv, {a->mesh.file, true});
+    std::vector<Warning> warnings = found.warnings;
+    std::ranges::move(
+        write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv, {a->mesh.file, true}),
+        std::back_inserter(warnings));
     if (!request.json.empty())
         files.emplace_back(request.json)
-            .write(json_text(report(request, *a, *b, found, options.landmarks.size(), losses)));
+            .write(json_text(report(request, *a, *b, found, options.landmarks.size(), warnings)));
     context.checkpoint();
     for (AtomicFile& file : files) file.commit();
     if (!request.quiet) {
-        print(result_line(request, *a, *b, found, losses), "; the files are written");
-        show_warnings(losses);
+        print(result_line(request, *a, *b, found, warnings), "; the files are written");
+        show_warnings(warnings);
     }
     return a->converged && b->converged ? done : not_converged;
 }

@@ -26,6 +26,7 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::closing_gap: return "closing_gap";
     case WarningKind::flow_flips: return "flow_flips";
     case WarningKind::no_hole: return "no_hole";
+    case WarningKind::not_fitted: return "not_fitted";
     case WarningKind::replaced_uvs: return "replaced_uvs";
     case WarningKind::not_kept: return "not_kept";
     case WarningKind::cut: return "cut";
@@ -55,7 +56,8 @@ ElementKind elements_of(WarningKind kind) noexcept
     case WarningKind::not_one_to_one: return ElementKind::faces;
     case WarningKind::lost_circles:
     case WarningKind::shrunk_circles:
-    case WarningKind::replaced_circles: return ElementKind::loops;
+    case WarningKind::replaced_circles:
+    case WarningKind::not_fitted: return ElementKind::loops;
     default: return ElementKind::none;
     }
 }

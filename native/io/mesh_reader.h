@@ -1,6 +1,7 @@
 // Mesh files: OBJ, OFF, PLY and STL to polygons in 64 bits.
 #pragma once
 
+#include "core/api.h"
 #include "io/polygon_mesh.h"
 
 #include <filesystem>
@@ -37,6 +38,6 @@ PolygonMesh read_mesh(const std::filesystem::path& path);
 /// The same for the bytes of a file.
 /// @param extension of its name, with the dot
 /// @throws InputError as read_mesh
-PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension);
+KOEBE_API PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension);
 
 }  // namespace koebe

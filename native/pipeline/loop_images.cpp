@@ -72,26 +72,37 @@ bool more_boundary_than_inside(const Domain& domain)
 
 void AssembledDomain::take_metric(const Domain& domain)
 {
+    if (std::exchange(moved, false)) return;
     factored = false;
-    EdgeLengths halves;
-    std::optional<IntrinsicMetric> kept;
-    if (condensed) kept = metric_with_flips_of(metric, domain.vertices, domain.surface, &halves);
-    if (kept && uses > 1) {
-        metric = *std::move(kept);
-        if (!places) places.emplace(metric.triangles, laplacian);
-        places->fill(halves, laplacian);
-        return;
-    }
-    uses = kept ? uses + 1 : 1;
-    if (!kept) {
-        condensed.reset();
-        places.reset();
-        kept = intrinsic_metric(domain.vertices, domain.surface);
-        halves = half_cotangents(kept->lengths);
-    }
-    metric = *std::move(kept);
+    condensed.reset();
+    places.reset();
+    uses = 1;
+    metric = intrinsic_metric(domain.vertices, domain.surface);
+    take_laplacian(half_cotangents(metric.lengths), domain);
+}
+
+void AssembledDomain::take_laplacian(const EdgeLengths& halves, const Domain& domain)
+{
     SparseMatrix next = cotan_laplacian(metric.triangles, halves, domain.surface.vertex_count);
     laplacian.swap(next);  // an assignment would copy
+}
+
+bool AssembledDomain::move_metric(const Domain& domain)
+{
+    EdgeLengths halves;
+    std::optional<IntrinsicMetric> kept = metric_with_flips_of(metric, domain.vertices, domain.surface, &halves);
+    if (!kept) return false;
+    metric = *std::move(kept);
+    factored = false;
+    moved = true;
+    if (uses > 1) {
+        if (!places) places.emplace(metric.triangles, laplacian);
+        places->fill(halves, laplacian);
+    } else {
+        take_laplacian(halves, domain);
+    }
+    ++uses;
+    return true;
 }
 
 void AssembledDomain::factorize(const Domain& domain, const IterationOptions& options)

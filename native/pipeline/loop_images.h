@@ -21,13 +21,19 @@ struct AssembledDomain {
     std::optional<CondensedLaplacian> condensed;  ///< its factor, the loops last
     bool factored = false;                        ///< whether that is of this Laplacian
 
-    /// Where there is a factor the last metric's triangulation is kept as long as it is nearly Delaunay: then the
-    /// factor can be renewed.
+    bool moved = false;  ///< whether move_metric has done what take_metric would
+
     void take_metric(const Domain& domain);
+    /// The same of a domain with its vertices elsewhere, on the triangles of the last metric, so that its factor can be
+    /// renewed. @return false where these are far from Delaunay
+    bool move_metric(const Domain& domain);
     /// @throws SolverError
     void factorize(const Domain& domain, const IterationOptions& options);
     /// Of the same domain with its loops in another order: the factor is kept where that can be.
     void reorder(const Domain& domain);
+
+private:
+    void take_laplacian(const EdgeLengths& halves, const Domain& domain);
 };
 
 /// Runs the engine that the options name. Where the loops' images cannot be right (a circle that leaves the disk or

@@ -61,6 +61,16 @@ CircleMap with_center_moved(const DomainSolver& solver, const Domain& whole, con
     return best;
 }
 
+void move_points(const Domain& whole, const Moebius& moebius, CircleMap& map)
+{
+    for (std::size_t k = 1; k < map.circles.size(); ++k) map.circles[k] = image_of(map.circles[k], moebius);
+    const VectorXcd before = map.uv.col(0) + Complex(0.0, 1.0) * map.uv.col(1);
+    VectorXcd points = moebius(before);
+    for (const Index v : whole.loops[0])
+        if (std::abs(std::abs(before[v]) - 1.0) < on_circle) points[v] /= std::abs(points[v]);
+    map.uv << points.real(), points.imag();
+}
+
 void put_in_place(const Domain& whole, CircleMap& map)
 {
     if (held_vertices(whole).empty()) return;
@@ -72,14 +82,9 @@ void put_in_place(const Domain& whole, CircleMap& map)
         moebius.turn = std::conj(image) / std::abs(image);
     }
     if (moebius.a == 0.0 && moebius.turn == 1.0) return;
-    for (std::size_t k = 1; k < map.circles.size(); ++k) map.circles[k] = image_of(map.circles[k], moebius);
-    const VectorXcd before = map.uv.col(0) + Complex(0.0, 1.0) * map.uv.col(1);
-    VectorXcd points = moebius(before);
-    for (const Index v : whole.loops[0])
-        if (std::abs(std::abs(before[v]) - 1.0) < on_circle) points[v] /= std::abs(points[v]);
-    if (whole.center >= 0) points[whole.center] = 0.0;
-    if (whole.point >= 0) points[whole.point] = 1.0;
-    map.uv << points.real(), points.imag();
+    move_points(whole, moebius, map);
+    if (whole.center >= 0) map.uv.row(whole.center).setZero();
+    if (whole.point >= 0) map.uv.row(whole.point) << 1.0, 0.0;
 }
 
 std::vector<Index> held_vertices(const Domain& whole)

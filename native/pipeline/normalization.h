@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle_map.h"
+#include "circles/moebius.h"
 #include "core/execution.h"
 #include "pipeline/domain.h"
 #include "pipeline/map_from_loops.h"
@@ -17,6 +18,9 @@ namespace koebe {
 /// @return the best that was found, map itself if nothing is better
 CircleMap with_center_moved(const DomainSolver& solver, const Domain& whole, const FlapCut& cut, const CircleMap& map,
                             ExecutionContext& context);
+
+/// An automorphism of the disk, exactly and vertex by vertex. @param map of the whole domain, changed in place
+void move_points(const Domain& whole, const Moebius& moebius, CircleMap& map);
 
 /// The rest, exactly and vertex by vertex: the automorphism that sends the domain's centre to 0 and its point to 1.
 /// Nothing if the domain names neither.

@@ -4,6 +4,8 @@
 #include "circles/point_alignment.h"
 #include "core/memory_limit.h"
 #include "iteration/koebe_mesh.h"
+#include "pipeline/normalization.h"
+#include "quality/distortion.h"
 
 #include <cmath>
 #include <limits>
@@ -21,6 +23,29 @@ FlapCut flaps_of(const Domain& whole)
 VectorXd shape_of(const Problem& problem)
 {
     return AngleForecast::shape_of(problem.domain().vertices, problem.domain().surface.triangles);
+}
+
+/// Whether the inner loops still go by falling length.
+bool goes_by_length(const Domain& domain)
+{
+    for (std::size_t k = 2; k < domain.edges.size(); ++k)
+        if (domain.edges[k].sum() > (1.0 + same_length) * domain.edges[k - 1].sum()) return false;
+    return true;
+}
+
+/// The map moved by an automorphism; the interior is harmonic again only where faces would turn over.
+void move_as_one(const Problem& problem, CircleMap& map, Moebius automorphism)
+{
+    const Domain& domain = problem.domain();
+    if (map.circles.size() == 2) automorphism = center_circle(automorphism(map.circles[1])) * automorphism;
+    CircleMap moved = map;
+    move_points(domain, automorphism, moved);
+    const Triangles& triangles = domain.surface.triangles;
+    const std::size_t flipped = flipped_faces(triangles, moved.uv).size();
+    if (flipped > 0 && flipped > flipped_faces(triangles, map.uv).size())
+        if (std::optional<CircleMap> harmonic = moved_by(problem.solver(), map, automorphism))
+            moved = *std::move(harmonic);
+    map = std::move(moved);
 }
 
 }  // namespace
@@ -44,20 +69,22 @@ bool chooses_outer_loop(const UniformizeOptions& options, const Domain& domain)
            domain.loops.size() > 1;
 }
 
-void move_problem(Problem& problem, const Vertices& vertices)
+bool move_problem(Problem& problem, const Vertices& vertices)
 {
-    move_domain(problem.whole, vertices);
+    Domain& whole = problem.whole;
+    const Vertices before = whole.vertices;
+    move_domain(whole, vertices);
+    if (!problem.assembled.condensed) return whole.vertices == before;
+    if (!goes_by_length(whole)) return false;
     const std::vector<Index> kept = std::move(problem.cut.vertices);
-    problem.cut = flaps_of(problem.whole);
-    if (problem.cut.vertices != kept) {
-        problem.assembled = {};
-        problem.outcome = {};
-        problem.forecast = {};
-    }
+    problem.cut = flaps_of(whole);
+    if (problem.cut.vertices != kept) return false;
     problem.core.reset();
-    if (!problem.cut.flaps.empty()) problem.core = core_domain(problem.whole, problem.cut);
+    if (!problem.cut.flaps.empty()) problem.core = core_domain(whole, problem.cut);
+    if (!problem.assembled.move_metric(problem.domain())) return false;
     if (problem.outcome.converged && !problem.outcome.angles.empty())
         problem.outcome.angles = problem.forecast.angles_for(shape_of(problem));
+    return true;
 }
 
 void remember_angles(Problem& problem)
@@ -77,29 +104,31 @@ VectorXcd places_of_loops(const Problem& problem)
     return result;
 }
 
-void lay_over_first(Problem& problem)
+void lay_over_first(Problem& problem, CircleMap& map)
 {
-    if (problem.first_places.size() == 0) return;
     const Domain& domain = problem.domain();
-    std::vector<VectorXcd>& images = problem.outcome.loops;
     std::vector<Complex> points, targets;
     std::vector<double> weights;
-    for (std::size_t k = 0; k < images.size(); ++k) {
+    for (std::size_t k = 0; k < domain.loops.size() && problem.first_places.size() > 0; ++k) {
         const VectorXd share = vertex_weights(domain.edges[k]) * domain.edges[k].sum();
-        for (Eigen::Index b = 0; b < images[k].size(); ++b) {
-            const Complex target = problem.first_places[domain.original[domain.loops[k][b]]];
+        for (Eigen::Index b = 0; b < share.size(); ++b) {
+            const Index v = domain.loops[k][b];
+            const Complex target = problem.first_places[domain.original[v]];
             if (std::isnan(target.real())) continue;
-            points.push_back(images[k][b]);
+            points.emplace_back(map.uv(v, 0), map.uv(v, 1));
             targets.push_back(target);
             weights.push_back(share[b]);
         }
     }
-    if (points.empty()) return;
-    const auto size = static_cast<Eigen::Index>(points.size());
-    const Moebius map = nearest_automorphism(Eigen::Map<const VectorXcd>(points.data(), size),
-                                             Eigen::Map<const VectorXcd>(targets.data(), size),
-                                             Eigen::Map<const VectorXd>(weights.data(), size));
-    for (VectorXcd& image : images) image = map(image);
+    if (!points.empty()) {
+        const auto size = static_cast<Eigen::Index>(points.size());
+        move_as_one(problem, map,
+                    nearest_automorphism(Eigen::Map<const VectorXcd>(points.data(), size),
+                                         Eigen::Map<const VectorXcd>(targets.data(), size),
+                                         Eigen::Map<const VectorXd>(weights.data(), size)));
+    }
+    for (std::size_t k = 0; k < domain.loops.size(); ++k)
+        problem.outcome.loops[k] = map.uv(domain.loops[k], 0) + Complex(0.0, 1.0) * map.uv(domain.loops[k], 1);
 }
 
 }  // namespace koebe

@@ -35,11 +35,13 @@ Problem prepare_problem(const Vertices& vertices, const Triangles& triangles, co
 /// Whether the first map is to choose the outer loop: with Balance::area, unless something else does.
 bool chooses_outer_loop(const UniformizeOptions& options, const Domain& domain);
 
-/// The same surface with its vertices elsewhere. Topology, outer loop and order of elimination stay, and the angles of
-/// the last maps, unless other flaps hang on it now: then the rest of it is another surface.
+/// The same surface with its vertices elsewhere. Topology, outer loop, triangulation and order of elimination stay, and
+/// the angles of the last maps.
 /// @param vertices (V, 3) as many as before
+/// @return false, with nothing left of use, where the problem must be prepared anew to be the same as without a last
+/// map: other flaps hang on it, its holes are in another order of length, its triangulation is far from Delaunay
 /// @throws InputError
-void move_problem(Problem& problem, const Vertices& vertices);
+bool move_problem(Problem& problem, const Vertices& vertices);
 
 /// What forecast is to know of the last run, if it converged.
 void remember_angles(Problem& problem);
@@ -47,9 +49,10 @@ void remember_angles(Problem& problem);
 /// Where the last run took the vertices of the loops, as first_places.
 VectorXcd places_of_loops(const Problem& problem);
 
-/// Moves the images of the loops by the automorphism of the disk that brings them nearest to first_places, if there are
-/// any.
-void lay_over_first(Problem& problem);
+/// Moves a map of the last run by the automorphism of the disk that brings its loops nearest to first_places, if there
+/// are any: circles are fitted before that, so that they do not depend on it. The run's images of loops are the map's
+/// then.
+void lay_over_first(Problem& problem, CircleMap& map);
 
 /// The map of a problem, and its report. @param vertices, triangles of the input, which the report is on
 /// @param prepare makes the problem ready; its time counts as topology

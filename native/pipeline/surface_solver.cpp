@@ -60,10 +60,7 @@ UniformizeResult SurfaceSolver::uniformize(const Vertices& vertices, ExecutionCo
     const auto compute = [problem, begun, vertices, triangles = impl_->triangles, options = impl_->options,
                           places = impl_->first_places](ExecutionContext& own) {
         const auto prepare = [&]() -> Problem& {
-            if (begun)
-                move_problem(*problem, vertices);
-            else
-                *problem = prepare_problem(vertices, *triangles, options);
+            if (!begun || !move_problem(*problem, vertices)) *problem = prepare_problem(vertices, *triangles, options);
             problem->first_places = places;
             return *problem;
         };

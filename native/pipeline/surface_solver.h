@@ -13,10 +13,11 @@ namespace koebe {
 /// the iteration begins at the angles that the last maps forecast, and ends when the next sweep, by the contraction
 /// that was seen on this surface, would move the circles by less than a third of the tolerance.
 ///
-/// A map is the one that uniformize gives for the same positions and the same outer loop, within the tolerance and up
-/// to an automorphism of the disk: of the freedom that the options leave, as much as there is goes into laying the
-/// loops over those of the first map that converged. After an error or a cancel nothing is lost but what was kept: the
-/// next map takes as long as a first one.
+/// Up to an automorphism of the disk a map's circles are those that uniformize gives for the same positions and outer
+/// loop: to rounding where the surface had to be prepared anew (move_problem), else up to what the mesh resolves, as
+/// the last triangulation is nearly Delaunay. Of the freedom that the options leave, as much as there is goes into
+/// laying the loops over those of the first map that converged. After an error or a cancel nothing is lost but what was
+/// kept: the next map takes as long as a first one.
 class KOEBE_API SurfaceSolver {
 public:
     /// @param vertices (V, 3) the first positions: with an outer loop that is automatic or the longest, they choose it

@@ -59,11 +59,12 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
     seconds.factor += stage.lap();
     context.begin_stage("iterate", at(0.45), at(0.95));
     problem.outcome = loop_images(problem.domain(), problem.assembled, options, context, &problem.outcome);
-    lay_over_first(problem);
     seconds.iterate += stage.lap();
     context.begin_stage("finish", at(0.95), at(1.0));
     if (!problem.assembled.factored || problem.outcome.loops.empty()) return {};
-    return map_from_loops(problem.solver(), problem.cut, problem.outcome);
+    std::optional<CircleMap> map = map_from_loops(problem.solver(), problem.cut, problem.outcome);
+    if (map) lay_over_first(problem, *map);
+    return map;
 }
 
 /// The map that is one to one from the start (embedded_map), on the circles of the iteration if it has found any.
@@ -160,7 +161,8 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     std::optional<CircleMap> map = iterate(problem, options, 0.15, choose ? 0.5 : 0.9, context, stage, result.seconds);
     if (map && options.balance == Balance::area)
         result.unbalanced_area =
-            measure_distortion(problem.domain().vertices, problem.domain().surface.triangles, map->uv).area;
+            measure_distortion(whole.vertices, whole.surface.triangles, hang_back(whole, problem.cut, *map, context).uv)
+                .area;
     if (map && choose)
         if (const int outer = better_outer_loop(problem.domain(), *map); outer != 0) {
             put_outside(outer, problem.whole, problem.cut, problem.core);

@@ -1,5 +1,7 @@
 #include "error_translation.h"
 
+#include "native_call.h"
+
 #include "core/error_description.h"
 
 #include <pybind11/pybind11.h>
@@ -41,7 +43,7 @@ void translate(std::exception_ptr pointer)  // NOLINT(performance-unnecessary-va
         std::optional<ErrorDescription> error = describe_error_of_library(pointer);
         if (!error) error = describe_error(pointer);  // thrown on this side
         if (!error) throw;
-        raise(*error);
+        in_python([&error] { raise(*error); });
     }
 }
 

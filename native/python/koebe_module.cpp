@@ -10,6 +10,7 @@
 #include "core/topology.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 #include "linear/dense_spd.h"
 #include "parts/parts.h"
@@ -123,7 +124,7 @@ PYBIND11_MODULE(_koebe, m)
     m.attr("circle_tolerance") = circle_tolerance;
 
     translate_errors();
-    py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
+    watch_interpreter();
 
     py::enum_<Method>(m, "Method")
         .value("gk", Method::gk)
@@ -337,6 +338,10 @@ PYBIND11_MODULE(_koebe, m)
         const Triangulation cut = detached([mesh = std::move(mesh)] { return triangulate(mesh); }, small);
         return std::make_tuple(cut.triangles, py::array_t<Index>(cut.face.size(), cut.face.data()));
     });
+    m.def("parse_mesh", [](const std::string& bytes, const std::string& extension) {
+        const PolygonMesh mesh = detached([bytes, extension] { return parse_mesh(bytes, extension); });
+        return std::make_tuple(mesh.vertices, array_of(mesh.corners), array_of(mesh.face_begin));
+    });
     m.def("harmonic_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                              const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values,
                              bool uniform) {
@@ -453,6 +458,7 @@ PYBIND11_MODULE(_koebe, m)
               parts["weights"] = found.places.weights;
               parts["distances"] = found.places.distance;
               parts["points"] = found.points;
+              parts["warnings"] = to_object(to_json(found.warnings));
               return parts;
           });
     m.def("align_domains",

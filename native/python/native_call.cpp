@@ -1,5 +1,9 @@
 #include "native_call.h"
 
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+
 namespace koebe::python {
 namespace {
 
@@ -15,6 +19,7 @@ struct Calls {
     std::condition_variable changed;
     int running = 0;
     bool ending = false;
+    std::atomic<unsigned long> main_thread = 0;  ///< as Python's get_ident has it
 };
 
 /// Never taken down: a thread may come late.
@@ -37,40 +42,74 @@ bool is_ending()
     throw py::error_already_set();
 }
 
+/// Kept, since to ask for it runs Python, which may let another thread end the interpreter meanwhile.
+void note_main_thread()
+{
+    calls().main_thread = py::cast<unsigned long>(py::module_::import("threading").attr("main_thread")().attr("ident"));
+}
+
+/// Waits, at most 2 s, for the calls of all threads; no other begins. A thread whose call has ended may be in Python's
+/// hands only while it has the GIL: so the count is looked at with it.
+void end_calls()
+{
+    const auto end = Clock::now() + patience;
+    std::unique_lock lock(calls().mutex);
+    calls().ending = true;
+    while (calls().running > 0 && Clock::now() < end) {
+        lock.unlock();
+        {
+            const py::gil_scoped_release release;
+            std::unique_lock waiting(calls().mutex);
+            calls().changed.wait_until(waiting, end, [] { return calls().running == 0; });
+        }
+        lock.lock();
+    }
+}
+
 }  // namespace
 
-Call::Call()
+Call::Call() : is_on_main_thread_(PyThread_get_thread_ident() == calls().main_thread)
 {
-    const py::module_ threading = py::module_::import("threading");
-    is_on_main_thread_ = threading.attr("get_ident")().equal(threading.attr("main_thread")().attr("ident"));
     if (!is_on_main_thread_ && is_ending()) leave_thread();
-    const std::scoped_lock lock(calls().mutex);
-    ++calls().running;
+    {
+        const std::scoped_lock lock(calls().mutex);
+        ++calls().running;
+    }
+    state_ = PyEval_SaveThread();
 }
 
 Call::~Call()
 {
+    in_python([this] { PyEval_RestoreThread(state_); });
     const std::scoped_lock lock(calls().mutex);
     --calls().running;
     calls().changed.notify_all();
 }
+
+Call::WithGil::WithGil(Call& call) : call_(call)
+{
+    in_python([this] { PyEval_RestoreThread(call_.state_); });
+}
+
+Call::WithGil::~WithGil() { call_.state_ = PyEval_SaveThread(); }
 
 void Call::poll()
 {
     if (Clock::now() - polled_ < between_polls) return;
     polled_ = Clock::now();
     if (!is_on_main_thread_ && !is_ending()) return;
-    const py::gil_scoped_acquire gil;
+    const WithGil gil(*this);
     if (!is_on_main_thread_) leave_thread();
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (in_python(&PyErr_CheckSignals) != 0) throw py::error_already_set();
 }
 
-void end_calls()
+void watch_interpreter()
 {
-    const py::gil_scoped_release release;
-    std::unique_lock lock(calls().mutex);
-    calls().ending = true;
-    calls().changed.wait_for(lock, patience, [] { return calls().running == 0; });
+    note_main_thread();
+    py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
+    const py::module_ os = py::module_::import("os");
+    if (py::hasattr(os, "register_at_fork"))
+        os.attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(&note_main_thread));
 }
 
 }  // namespace koebe::python

@@ -5,15 +5,34 @@
 
 #include <pybind11/pybind11.h>
 
+#include <chrono>
+#include <exception>
+#include <thread>
 #include <type_traits>
 #include <utility>
 
 namespace koebe::python {
 
-/// Counts a call from Python. Once the interpreter ends, calls of other threads than the main one leave by SystemExit,
-/// and it waits for them: a thread that asks for the GIL after that is ended by Python amid its C++ frames.
+/// Runs what takes the GIL or runs Python. Once the interpreter has ended, Python ends a thread that asks for the GIL
+/// by an unwinding of its stack, which a destructor turns into std::terminate and a translator of errors swallows:
+/// there the thread stops here for good, as Python itself has it from 3.14 on. What `act` throws passes.
+template <class Act>
+auto in_python(Act act)
+{
+    try {
+        return act();
+    } catch (const std::exception&) {
+        throw;
+    } catch (...) {
+        while (true) std::this_thread::sleep_for(std::chrono::hours(1));
+    }
+}
+
+/// A call from Python: gives the GIL up for its lifetime, and counts. Once the interpreter ends, calls of other threads
+/// than the main one leave by SystemExit, and it waits for them.
 class Call {
 public:
+    /// To be made with the GIL.
     Call();
     ~Call();
     Call(const Call&) = delete;
@@ -23,13 +42,27 @@ public:
     /// throws what they raise, KeyboardInterrupt for one.
     void poll();
 
+    /// The GIL taken back for its lifetime, on the thread of the call.
+    class WithGil {
+    public:
+        explicit WithGil(Call& call);
+        ~WithGil();
+        WithGil(const WithGil&) = delete;
+        WithGil& operator=(const WithGil&) = delete;
+
+    private:
+        Call& call_;
+    };
+
 private:
     bool is_on_main_thread_;
     std::chrono::steady_clock::time_point polled_;
+    PyThreadState* state_;
 };
 
-/// Waits, at most 2 s, for the calls of all threads; no other begins. To be called by `atexit`.
-void end_calls();
+/// To be called once, when the module is loaded: which thread is the main one, and what to do when the interpreter
+/// ends.
+void watch_interpreter();
 
 /// Runs a computation that looks after its context without the GIL. Progress is called on this thread with it, and what
 /// it raises ends the computation.
@@ -39,12 +72,11 @@ auto without_gil(const pybind11::object& progress, const CancelToken& token, Com
     Call call;
     ProgressCallback callback;
     if (!progress.is_none())
-        callback = [&progress](double fraction, const std::string& stage) {
-            const pybind11::gil_scoped_acquire gil;
-            progress(fraction, stage);
+        callback = [&progress, &call](double fraction, const std::string& stage) {
+            const Call::WithGil gil(call);
+            in_python([&] { progress(fraction, stage); });
         };
     ExecutionContext context(callback, token, [&call] { call.poll(); });
-    const pybind11::gil_scoped_release release;
     return compute(context);
 }
 

@@ -1,11 +1,18 @@
 #include "transfer/correspondence.h"
 
 #include "core/errors.h"
+#include "core/tolerances.h"
 #include "quality/distortion.h"
 #include "shape/conformal_module.h"
 #include "surface/harmonic_map.h"
+#include "transfer/landmark_alignment.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <string>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -80,8 +87,93 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
 
 namespace {
 
+/// Where landmarks lie in the two domains, both laid over the source.
+struct LandmarkPlaces {
+    std::vector<SurfacePoint> on_target;
+    VectorXcd now, wanted;
+};
+
+LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface& target, const Moebius& map,
+                               const std::vector<Landmark>& landmarks)
+{
+    const auto count = static_cast<Eigen::Index>(landmarks.size());
+    LandmarkPlaces places{{}, VectorXcd(count), VectorXcd(count)};
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Landmark& landmark = landmarks[i];
+        const Eigen::RowVector2d on_target = landmark.target.of(target.uv, target.triangles),
+                                 on_source = landmark.source.of(source.uv, source.triangles);
+        places.on_target.push_back(landmark.target);
+        places.now[i] = map(Complex(on_target[0], on_target[1]));
+        places.wanted[i] = Complex(on_source[0], on_source[1]);
+    }
+    return places;
+}
+
+/// The alignment that is best for circles and landmarks together, as far as all matches of the loops can be tried: the
+/// nearest module alone may take one hole for another, and landmarks tell.
+DomainAlignment aligned_by_landmarks(const MappedSurface& source, const MappedSurface& target,
+                                     const std::vector<Landmark>& landmarks, const ExecutionContext& context)
+{
+    constexpr std::size_t most_loops = 6;  // 120 matches
+    const std::vector<Circle> circles = circles_of(source.loops), others = circles_of(target.loops);
+    DomainAlignment best = align_domains(circles, others, {}, context);
+    if (landmarks.empty() || circles.size() < 3 || circles.size() > most_loops) return best;
+    const auto squares = [&](const DomainAlignment& alignment) {
+        const LandmarkPlaces places = landmark_places(source, target, alignment.map, landmarks);
+        return (places.now - places.wanted).squaredNorm() / static_cast<double>(landmarks.size()) +
+               alignment.residual * alignment.residual;
+    };
+    double least = squares(best);
+    std::vector<int> match(circles.size());
+    std::iota(match.begin(), match.end(), 0);
+    do {
+        DomainAlignment next = align_domains(circles, others, match, context);
+        if (const double sum = squares(next); sum < least) {
+            least = sum;
+            best = std::move(next);
+        }
+    } while (std::next_permutation(match.begin() + 1, match.end()));
+    return best;
+}
+
+/// The target's domain laid over the source's, and the domain that counts as free of distortion.
+struct AlignedDomain {
+    PlanarPoints uv, undistorted;
+};
+
+/// With the symmetry that is best for the landmarks; where that turns faces over, which are too large for it, with as
+/// much of it as turns none, and the domain as it was counts.
+/// @param map of the circles; changed to what was taken
+AlignedDomain aligned_domain(const MappedSurface& target, const std::vector<Circle>& circles,
+                             const LandmarkPlaces& places, Moebius& map)
+{
+    constexpr int halvings = 10;
+    const Moebius plain = map, symmetry = nearest_symmetry(circles, places.now, places.wanted);
+    const VectorXcd uv = complex(target.uv);
+    const double length = std::abs(symmetry.a);
+    const auto with_share = [&](double share) {
+        const double a = std::tanh(share * std::atanh(length));
+        map = Moebius{length > 0.0 ? a / length * symmetry.a : Complex(0.0), symmetry.turn} * plain;
+        return planar(map(uv));
+    };
+    const auto folded = [&](const PlanarPoints& points) { return folded_faces(target.triangles, points).size(); };
+    const PlanarPoints whole = with_share(1.0);
+    if (length == 0.0) return {whole, whole};
+    const std::size_t most = folded(with_share(0.0));
+    if (folded(whole) <= most) {
+        with_share(1.0);
+        return {whole, whole};
+    }
+    double served = 0.0, failed = 1.0;
+    for (int i = 0; i < halvings; ++i) {
+        const double share = 0.5 * (served + failed);
+        (folded(with_share(share)) <= most ? served : failed) = share;
+    }
+    return {with_share(served), target.uv};
+}
+
 LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& target, const Correspondence& found,
-                              const PlanarPoints& aligned, const std::vector<Landmark>& landmarks,
+                              const PlanarPoints& aligned, const LandmarkPlaces& places,
                               const ExecutionContext& context)
 {
     std::vector<Circle> circles(target.loops.size());
@@ -89,14 +181,21 @@ LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& 
         const std::size_t own = k == 0 ? 0 : found.alignment.match[k];
         circles[own] = found.fitted ? source.loops[k].circle : found.alignment.map(target.loops[own].circle);
     }
-    std::vector<SurfacePoint> points;
-    VectorXcd places(static_cast<Eigen::Index>(landmarks.size()));
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
-        points.push_back(landmarks[i].target);
-        const Eigen::RowVector2d place = landmarks[i].source.of(source.uv, source.triangles);
-        places[static_cast<Eigen::Index>(i)] = Complex(place[0], place[1]);
-    }
-    return map_with_landmarks(target, circles, aligned, found.uv, points, places, context);
+    return map_with_landmarks(target, circles, aligned, found.uv, places.on_target, places.wanted, context);
+}
+
+/// Which of the source's holes the target's miss.
+Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& circles)
+{
+    char miss[32];
+    std::snprintf(miss, sizeof miss, "%.2g", alignment.largest);
+    Warning warning{WarningKind::not_fitted,
+                    std::string("the holes could not be bent onto each other without turning faces over: they miss "
+                                "each other by up to ") +
+                        miss + " in the unit disk"};
+    for (std::size_t k = 1; k < circles.size(); ++k)
+        if (alignment.misses[k] > circle_tolerance) warning.elements.push_back(static_cast<Index>(k));
+    return warning;
 }
 
 /// What the bending has done to the aligned domain.
@@ -106,10 +205,13 @@ void judge(Correspondence& result, const MappedSurface& target, const CutMesh& m
     Vertices flat = Vertices::Zero(uv.rows(), 3);
     const PlanarPoints before = mesh.extended(aligned, target.triangles);
     flat.leftCols<2>() = before;
-    result.beltrami = measure_distortion(flat, mesh.triangles, uv).beltrami;
     const std::vector<Index> lost = folded_faces(mesh.triangles, before), now = folded_faces(mesh.triangles, uv);
-    result.folded = static_cast<std::size_t>(
-        std::ranges::count_if(now, [&](Index f) { return !std::ranges::binary_search(lost, f); }));
+    const auto is_lost = [&](Index f) { return std::ranges::binary_search(lost, f); };
+    std::vector<Index> whole;
+    for (Index f = 0; f < static_cast<Index>(mesh.triangles.rows()); ++f)
+        if (!is_lost(f)) whole.push_back(f);
+    result.beltrami = measure_distortion(flat, mesh.triangles(whole, Eigen::all), uv).beltrami;
+    result.folded = static_cast<std::size_t>(std::ranges::count_if(now, [&](Index f) { return !is_lost(f); }));
 }
 
 /// Where the source's vertices lie.
@@ -139,9 +241,11 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     require_own_circles(target.loops);
     const std::vector<Circle> circles = circles_of(source.loops);
     Correspondence result;
-    result.alignment = align_domains(circles, circles_of(target.loops), options.match, context);
-    const VectorXcd aligned = result.alignment.map(complex(target.uv));
-    result.uv = planar(aligned);
+    result.alignment = options.match.empty() ? aligned_by_landmarks(source, target, options.landmarks, context)
+                                             : align_domains(circles, circles_of(target.loops), options.match, context);
+    LandmarkPlaces places = landmark_places(source, target, result.alignment.map, options.landmarks);
+    const AlignedDomain aligned = aligned_domain(target, circles, places, result.alignment.map);
+    result.uv = aligned.uv;
     if (options.fit_holes && circles.size() > 1) {
         try {
             std::optional<PlanarPoints> bent = with_fitted_holes(circles, target, result.alignment, result.uv, context);
@@ -151,17 +255,18 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
             throw;
         } catch (const SolverError&) {  // aligned only, as `fitted` says
         }
+        if (!result.fitted) result.warnings.push_back(not_fitted(result.alignment, circles));
     }
     CutMesh mesh{target.triangles, {}, {}, {}};
     PlanarPoints uv = result.uv;
     if (!options.landmarks.empty()) {
-        LandmarkMap map = bent_to_landmarks(source, target, result, planar(aligned), options.landmarks, context);
+        LandmarkMap map = bent_to_landmarks(source, target, result, aligned.undistorted, places, context);
         mesh = std::move(map.mesh);
         uv = std::move(map.uv);
         result.uv = uv.topRows(target.uv.rows());
     }
     context.checkpoint();
-    judge(result, target, mesh, planar(aligned), uv);
+    judge(result, target, mesh, aligned.undistorted, uv);
     look_up(result, source, target, mesh, uv);
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include "core/api.h"
 #include "core/execution.h"
+#include "core/warning.h"
 #include "pipeline/result.h"
 #include "shape/domain_alignment.h"
 #include "transfer/landmark_map.h"
@@ -25,8 +26,9 @@ struct Correspondence {
     PlanarPoints uv;         ///< (V_b, 2) the target's domain as it was laid over the source's
     Beltrami beltrami;       ///< of the bending, from the aligned domain: 0 without any; faces cut at landmarks count
     std::size_t folded = 0;  ///< faces that it has turned over
-    PlacesInTriangles places;  ///< (V_a) where the source's vertices lie in the target's triangles
-    Vertices points;           ///< (V_a, 3) the same in space: a point of the target for each vertex of the source
+    PlacesInTriangles places;       ///< (V_a) where the source's vertices lie in the target's triangles
+    std::vector<Warning> warnings;  ///< not_fitted
+    Vertices points;                ///< (V_a, 3) the same in space: a point of the target for each vertex of the source
 };
 
 /// The target's domain with its holes bent onto the source's circles, in steps: the rims are moved and scaled as their
@@ -39,9 +41,11 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
                                               const DomainAlignment& alignment, const PlanarPoints& uv,
                                               const ExecutionContext& context = {});
 
-/// Lays the target's circle domain over the source's (align_domains), bends its holes onto the source's, and then until
-/// its landmarks lie on the source's (map_with_landmarks), and looks up where the source's vertices lie in it. A vertex
-/// that lies outside, by the height of an arc over its edge at a rim, takes the nearest point: none is lost.
+/// Lays the target's circle domain over the source's (align_domains; of up to five holes landmarks choose the match),
+/// with the freedom that no circle or one hole leaves so that landmarks lie near each other (nearest_symmetry), bends
+/// its holes onto the source's, and then until its landmarks lie on the source's (map_with_landmarks), and looks up
+/// where the source's vertices lie in it. A vertex that lies outside, by the height of an arc over its edge at a rim,
+/// takes the nearest point: none is lost.
 /// @throws InputError as align_domains and map_with_landmarks; circles that are not the surfaces'
 /// (require_own_circles); SolverError, Cancelled
 KOEBE_API Correspondence correspond(const MappedSurface& source, const MappedSurface& target,

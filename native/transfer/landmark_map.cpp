@@ -21,6 +21,8 @@ using Mobility = FoldoverProblem::Mobility;
 constexpr double power = 2.0, slack = 1e-4;  // of the energy, dimensionless: the fourth power of |mu|
 constexpr int most_trials = 60;              // steps of one way, those that fail too
 constexpr double shortest_step = 1.0 / 256;  // of the whole way
+constexpr double unfolded_step = 1.0 / 16;   // of the whole way: where faces fold in one as short, they are turned back
+constexpr int most_unfoldings = 6;           // of a map: each takes as long as the last steps
 constexpr int steps_between = 4;             // of Newton, after each step of the way
 constexpr int steps_at_the_end = 60;
 constexpr double settled = 1e-7;             // relative decrease of the energy
@@ -66,8 +68,9 @@ public:
     {
         const DirichletSolver extension(bending_matrix(), fixed_);
         for (const double bow : bows)
-            if (go(extension, bow, context)) return std::move(map_);
-        if (unfold(extension, context)) return std::move(map_);
+            if (go(extension, bow, 0, context)) return std::move(map_);
+        if (go(extension, bows[0], most_unfoldings, context)) return std::move(map_);
+        if (go_at_once(extension, context)) return std::move(map_);
         throw SolverError("no map that is one to one was found: the landmarks stand in each other's way, or the mesh "
                           "is too coarse for them, most of all at " +
                               landmark_numbers(stuck_),
@@ -232,15 +235,17 @@ private:
             for (const Pin& pin : pins_) stuck_.push_back(pin.landmark);
     }
 
-    bool go(const DirichletSolver& extension, double bow, const ExecutionContext& context)
+    /// @param unfoldings how often the faces that fold in a short step may be turned back
+    bool go(const DirichletSolver& extension, double bow, int unfoldings, const ExecutionContext& context)
     {
         PlanarPoints now = start_;
+        if (unfoldings > 0) relax(now, steps_between, context);
         double reached = 0.0, step = 1.0;
         for (int trial = 0; trial < most_trials && reached < 1.0; ++trial) {
             context.checkpoint();
             const double share = std::min(step, 1.0 - reached);
             PlanarPoints next = step_to(extension, now, reached + share, bow);
-            if (is_one_to_one(next)) {
+            if (is_one_to_one(next) || (share <= unfolded_step && unfoldings-- > 0 && unfold(next, context))) {
                 now = std::move(next);
                 reached += share;
                 step = 2.0 * share;
@@ -258,14 +263,21 @@ private:
         return true;
     }
 
-    /// At once, and then the folded faces turned back.
-    bool unfold(const DirichletSolver& extension, const ExecutionContext& context)
+    /// Turns folded faces back, rims' vertices sliding.
+    bool unfold(PlanarPoints& now, const ExecutionContext& context)
     {
-        problem_.points = step_to(extension, start_, 1.0, 0.0);
-        if (!problem_.points.allFinite()) return false;
+        if (!now.allFinite()) return false;
+        problem_.points = now;
         minimize_foldover_free(problem_, context);
         if (!is_one_to_one(problem_.points)) return false;
-        map_.uv = problem_.points;
+        now = problem_.points;
+        return true;
+    }
+
+    bool go_at_once(const DirichletSolver& extension, const ExecutionContext& context)
+    {
+        map_.uv = step_to(extension, start_, 1.0, 0.0);
+        if (!unfold(map_.uv, context)) return false;
         relax(map_.uv, steps_at_the_end, context);
         return true;
     }

@@ -36,7 +36,8 @@ struct LandmarkMap {
 ///
 /// The landmarks go to their places in steps, the inside after them by the displacement of least squared Laplacian on
 /// the surface, and each step ends with Newton steps that turn no face over (minimize_foldover_free). Straight on, else
-/// on arcs to either side, at last by unfolding. Landmarks at vertices of rims slide to places on the same rim.
+/// on arcs to either side, at last at once; where a short step folds faces they are turned back, a few times. Landmarks
+/// at vertices of rims slide to places on the same rim.
 /// @param circles of the target's loops, in their order @param aligned (V, 2) the domain that is without distortion
 /// @param bent (V, 2) the same with its rims on the circles: the start
 /// @param places (n) of the landmarks in the plane

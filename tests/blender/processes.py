@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import bpy
+import pytest
 
 # Starts the add-on's package from a folder, under a name of its own, and loads the native module.
 LOAD = """
@@ -59,6 +60,20 @@ def finish(process, seconds=300):
     """Wait for it: exit code, standard output, standard error."""
     out, err = process.communicate(timeout=seconds)
     return process.returncode, out, err
+
+
+def own_lines(err):
+    """What batch.py has written to standard error, among Blender's own lines, which depend on the machine."""
+    return [line for line in err.splitlines() if line.startswith("koebe: ")]
+
+
+def open_terminal():
+    """Both ends of a pseudo-terminal; without one, as in a bare container, the test is skipped."""
+    try:
+        return os.openpty()
+    except OSError as error:
+        pytest.skip(f"no pseudo-terminal here: {error}")
+
 
 # Runs batch.py with one of its functions changed by {patch}, which has the module as `batch`.
 PATCHED = """

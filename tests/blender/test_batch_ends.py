@@ -145,7 +145,7 @@ def test_a_missing_name_is_2_with_a_hint_where_commas_are_in_the_way(batch):
     code, out, err = batch("--output", "out.blend", "--objects", "B, not C")
     assert code == 2 and """--objects '"B, not C"'""" in err, err
     code, out, err = batch("--output", "out.blend", "--objects", "x" * 230)
-    assert code == 2 and "x" * 230 in err and err.count("\n") == 1, err
+    assert code == 2 and ["x" * 230 in line for line in processes.own_lines(err)] == [True], err
 
 
 @pytest.mark.parametrize("outer", [99999, 0, 2**31 - 1])
@@ -153,7 +153,8 @@ def test_an_outer_vertex_that_is_on_no_face_is_2(batch, tmp_path, outer):
     vertices, faces = scenes.panel_arrays(**SMALL)
     scenes.add_object("Panel", [(0, 0, 0), *vertices], [[v + 1 for v in face] for face in faces])  # 0 is loose
     code, out, err = batch("--output", "out.blend", "--outer", outer)
-    assert code == 2 and f"--outer {outer}" in err and "Panel" in err and err.count("\n") == 1, err
+    (line,) = processes.own_lines(err)
+    assert code == 2 and f"--outer {outer}" in line and "Panel" in line, err
     assert outputs(tmp_path) == []
 
 

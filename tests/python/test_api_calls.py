@@ -338,12 +338,17 @@ def test_the_interpreter_ends_while_daemon_threads_call(target, delay):
 
 def test_a_callback_that_never_comes_back_holds_up_no_exit():
     run = run_script("""
-        came = threading.Event()
-        def sleep(fraction, stage):
-            came.set()
-            time.sleep(1000)
-        threading.Thread(target=lambda: koebe.uniformize(*SMALL, progress=sleep), daemon=True).start()
-        came.wait()
+        # That of 2 s and a little comes back while the interpreter ends, and asks for the GIL.
+        waiting = threading.Barrier(6)
+        def call(seconds):
+            first = [waiting.wait]
+            def sleep(fraction, stage):
+                while first: first.pop()()
+                time.sleep(seconds)
+            koebe.uniformize(*SMALL, progress=sleep)
+        for seconds in (2.02, 2.1, 2.2, 2.3, 1000):
+            threading.Thread(target=call, args=(seconds,), daemon=True).start()
+        waiting.wait()
         sys.exit(5)
     """)
     assert (run.returncode, run.stderr) == (5, "")

@@ -5,6 +5,7 @@ from fractions import Fraction
 import koebe
 import numpy as np
 import pytest
+from cli_support import obj_text
 from test_package import FACES, VERTICES
 
 COUNT = len(VERTICES)
@@ -50,8 +51,10 @@ BAD_FACES = {
     "a vertex three times": with_entry(FACES, 7, 3),
     "floats": FACES.astype(float),
     "bools": FACES.astype(bool),
-    "unsigned": FACES.astype(np.uint32),
-    "16 bits": FACES.astype(np.int16),
+    "beyond 32 bits, unsigned": with_entry(FACES.astype(np.uint64), (7, 1), 2**32 + 1),
+    "beyond 63 bits": with_entry(FACES.astype(np.uint64), (7, 1), 2**64 - 1),
+    "beyond the vertices, unsigned": with_entry(FACES.astype(np.uint32), (7, 1), 2**32 - 1),
+    "negative, of 16 bits": with_entry(FACES.astype(np.int16), (7, 1), -1),
     "objects": FACES.astype(object),
     "complex": FACES.astype(complex),
     "texts": FACES.astype(str),
@@ -71,7 +74,9 @@ BAD_VERTICES = {
     "NaN": with_entry(VERTICES, (5, 2), np.nan),
     "infinite": with_entry(VERTICES, (5, 0), np.inf),
     "minus infinity of 32 bits": with_entry(VERTICES.astype(np.float32), (5, 1), -np.inf),
-    "whole numbers": VERTICES.astype(int),
+    "whole numbers that no float can be": with_entry(VERTICES.astype(np.int64), (5, 1), 2**53 + 1),
+    "the most negative whole number": with_entry(VERTICES.astype(np.int64), (5, 1), -(2**63)),
+    "unsigned ones": with_entry(VERTICES.astype(np.uint64), (5, 1), 2**64 - 1),
     "bools": VERTICES.astype(bool),
     "16 bits": VERTICES.astype(np.float16),
     "more than 64 bits": VERTICES.astype(np.longdouble),
@@ -92,7 +97,7 @@ BAD_VERTICES = {
 @pytest.mark.parametrize("name", TAKE_A_SURFACE)
 def test_faces_that_are_none_are_refused_by_every_function(name):
     for what, faces in BAD_FACES.items():
-        with pytest.raises(koebe.InputError):
+        with pytest.raises((koebe.InputError, FileNotFoundError)):  # a text may be a file's path
             TAKE_A_SURFACE[name](VERTICES, faces)
             pytest.fail(f"{name} took {what}")
 
@@ -162,6 +167,15 @@ def test_every_form_of_the_arrays_gives_the_same_and_is_left_alone(name):
         assert np.array_equal(faces, before)
 
 
+def test_whole_numbers_of_any_width_are_faces_and_vertices():
+    grid = np.round(1000 * (VERTICES - VERTICES.min(axis=0))).astype(np.int64)
+    expected = koebe.uniformize(grid.astype(float), FACES).uv
+    assert len(VERTICES) < 2**15
+    for kind in ("int16", "uint16", "int32", "uint32", "int64", "uint64", ">u8"):
+        assert np.array_equal(koebe.uniformize(grid.astype(float), FACES.astype(kind)).uv, expected), kind
+        assert np.array_equal(koebe.uniformize(grid.astype(kind), FACES).uv, expected), kind
+
+
 def same(a, b):
     """Whether two results are equal to the last bit."""
     if isinstance(a, dict):
@@ -169,6 +183,53 @@ def same(a, b):
     if isinstance(a, (tuple, list)):
         return len(a) == len(b) and all(map(same, a, b))
     return np.array_equal(a, b)
+
+
+# ---------------------------------------------------------------- surfaces in one argument
+
+TAKE_A_WHOLE_SURFACE = {
+    **TAKE_A_SURFACE,
+    "boundary_loops": lambda v, f: koebe.boundary_loops(v if f is None else f),
+    "cut": lambda v, f: koebe.uniformize(v, f, cut=True),
+    "parts": koebe.parts,
+    "ring_map": koebe.ring_map,
+    "sphere_map": koebe.sphere_map,
+    "open_surface": lambda v, f: koebe.open_surface(v, f).pieces[0].vertices,
+    "Surface": lambda v, f: koebe.Surface(v, f).uniformize(v if f is None else None),
+}
+
+
+@pytest.mark.parametrize("name", set(TAKE_A_WHOLE_SURFACE) - {"disk_map"})
+def test_a_pair_and_a_file_are_surfaces_in_every_function(name, tmp_path):
+    def run(vertices, faces=None):
+        outcome = TAKE_A_WHOLE_SURFACE[name](vertices, faces)
+        return getattr(outcome, "uv", outcome)
+
+    file, expected = tmp_path / "in.obj", run(VERTICES, FACES)
+    file.write_text(obj_text(VERTICES, FACES))
+    for given in ((VERTICES, FACES), [VERTICES.tolist(), FACES.tolist()], file, str(file)):
+        assert same(run(given), expected), type(given)
+    for given, error in (
+        (tmp_path / "absent.obj", FileNotFoundError), (tmp_path / "in.blend", (koebe.InputError, FileNotFoundError)),
+        ((VERTICES, FACES, FACES), koebe.InputError), ((VERTICES, with_entry(FACES, 7, COUNT)), koebe.InputError),
+        ([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], koebe.InputError), ((VERTICES, None), koebe.InputError),
+    ):  # fmt: skip
+        with pytest.raises(error):
+            run(given)
+
+
+def test_a_file_keeps_its_polygons_and_another_formats_file_is_refused(tmp_path):
+    quads = tmp_path / "quads.OBJ"
+    quads.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n")
+    result = koebe.parts(quads)
+    assert result.surface[1].shape == (4, 3) and result.part.tolist() == [0] * 4
+    with pytest.raises(koebe.InputError, match="arrays or as a file"):
+        koebe.uniformize(quads).to_mesh()
+    (tmp_path / "in.blend").write_text("BLENDER")
+    with pytest.raises(koebe.InputError, match="blend"):
+        koebe.uniformize(tmp_path / "in.blend")
+    with pytest.raises(TypeError, match="own faces"):
+        koebe.uniformize(quads, FACES)
 
 
 # ---------------------------------------------------------------- options

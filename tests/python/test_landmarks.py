@@ -1,6 +1,7 @@
 """Landmarks of a correspondence: exact, one to one, as little distorted as can be, or a typed error."""
 
 import json
+import warnings
 
 import koebe
 import numpy as np
@@ -36,6 +37,32 @@ def test_where_the_conformal_map_sends_them_landmarks_bend_nothing():
     assert np.allclose(held.points, plain.points, atol=1e-3)
     itself = koebe.transfer(A, A, landmarks=[(int(v), int(v)) for v in inside(A)[::50]])
     assert itself.beltrami["max"] < 1e-9 and np.allclose(itself.points, A_VERTICES, atol=1e-6)
+
+
+def test_what_an_automorphism_can_do_bends_nothing():
+    disk, ring = mapped(16, ()), mapped(24, HOLES[:1])
+    rng = np.random.default_rng(1)
+    rim, hole = ([v for v in r.loops[k].tolist() if v not in r.off_circle[k]] for r, k in ((disk, 0), (ring, 1)))
+    middle = [int(v) for v in inside(disk) if np.linalg.norm(disk.uv[v]) < 0.8]
+    pairs = [[tuple(int(v) for v in rng.choice(middle, 2))] for _ in range(8)]
+    pairs += [[pair, (rim[3], rim[8])] for (pair,) in pairs[:3]]  # and a point of the rim
+    pairs += [[(rim[i], rim[j]) for i, j in ((3, 5), (20, 19), (40, 44))]]
+    for landmarks in pairs:
+        bent = koebe.transfer(disk, disk, landmarks=landmarks)
+        assert bent.beltrami["mean"] < 1e-9 and bent.flipped == 0, landmarks
+        for on_a, on_b in landmarks:
+            assert np.linalg.norm(bent.points[on_b] - disk.surface[0][on_a]) < 1e-9
+    assert koebe.transfer(ring, ring, landmarks=[(hole[0], hole[7])]).beltrami["mean"] < 1e-9
+
+
+def test_holes_that_could_not_be_fitted_are_a_warning():
+    wide, narrow = (mapped(24, holes, flat=True) for holes in (((0.5, 0.5, 0.45),), ((0.5, 0.5, 0.05),)))
+    with pytest.warns(RuntimeWarning, match="holes could not be bent"):
+        places = koebe.transfer(narrow, wide)
+    assert not places.fitted and [(w.kind, w.elements, w.of) for w in places.warnings] == [("not_fitted", [1], "loops")]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not koebe.transfer(narrow, wide, fit=False).warnings and not koebe.transfer(wide, narrow).warnings
 
 
 def moved(points, by=0.03):

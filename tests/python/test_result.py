@@ -40,6 +40,24 @@ def test_a_result_survives_a_file_and_a_pickle(result, tmp_path):
     assert not read.uv.flags.writeable
 
 
+def test_before_balance_is_the_distortion_of_the_map_without_it():
+    assert "flaps" in [warning.kind for warning in RESULT.warnings]  # they count too
+    before = koebe.uniformize(VERTICES, FACES, balance="area").area_distortion["before_balance"]
+    assert before == {name: RESULT.area_distortion[name] for name in before}
+
+
+@pytest.mark.parametrize("make", [koebe.sphere_map, koebe.ring_map, koebe.parts])
+def test_maps_to_other_domains_survive_a_file_too(make, tmp_path):
+    result = make(VERTICES, FACES)
+    result.save(tmp_path / "map.npz")
+    again = koebe.load(tmp_path / "map.npz")
+    assert type(again) is type(result) and set(dir(again)) == set(dir(result)) and again.to_dict() == result.to_dict()
+    for name, value in vars(result).items():
+        if isinstance(value, np.ndarray):
+            assert np.array_equal(getattr(again, name), value) and getattr(again, name).dtype == value.dtype, name
+    assert np.array_equal(again.surface[1], FACES) and not again.uv.flags.writeable
+
+
 def test_a_file_that_is_no_result(tmp_path):
     RESULT.save(tmp_path / "whole.npz")
     whole = (tmp_path / "whole.npz").read_bytes()

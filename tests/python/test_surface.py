@@ -36,6 +36,18 @@ def test_a_moved_map_has_the_module_of_a_fresh_one(options):
         assert again.options["method"] == options.get("method", "gk")
 
 
+@pytest.mark.parametrize("holes", [((0.5, 0.5, 0.2),), ((0.3, 0.3, 0.12), (0.7, 0.4, 0.1), (0.5, 0.75, 0.12))])
+def test_after_a_large_move_the_circles_are_those_of_a_map_by_itself(holes):
+    vertices, quads = perforated(14, holes)
+    triangles, noise = triangles_of(quads), np.random.default_rng(4).normal(size=vertices.shape)
+    surface = koebe.Surface(vertices, triangles)
+    outer = int(surface.uniformize().loops[0][0])
+    for amount in (0.3 / 14, -0.3 / 14):
+        moved = vertices + amount * noise
+        fresh = koebe.uniformize(moved, triangles, outer=outer)
+        assert koebe.module_distance(surface.uniformize(moved), fresh) < 1e-12
+
+
 def test_a_texture_stays_in_its_place():
     surface = koebe.Surface(VERTICES, TRIANGLES)
     first = surface.uniformize()

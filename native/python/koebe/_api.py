@@ -1,17 +1,20 @@
 """The public functions: arrays checked, options made native, results wrapped."""
 
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, overload
 
 import numpy as np
 
-from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
+from ._arrays import as_indices, as_loops, as_points, as_triangles
 from ._cut_result import CutResult
-from ._meshes import is_mesh, read_mesh
+from ._input import is_surface, polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, choice, flag, outer_loop, positive, share, sweep, token, vertex, whole
-from ._result import Source, UniformizeResult, with_origin
+from ._result import UniformizeResult, with_origin
 from .errors import InputError, OptionError, SolverError, TopologyError
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
 
 Progress = Callable[[float, str], Any]
 
@@ -62,13 +65,43 @@ def solver_options(
     return options
 
 
-@overload
-def uniformize(vertices: Any, triangles: Any = None, *, cut: Literal[True], **options: Any) -> CutResult: ...
+class UniformizeOptions(TypedDict, total=False):
+    """The options of `uniformize`, but for `cut`."""
+
+    method: str
+    engine: str
+    outer: str | int
+    tolerance: float
+    max_sweeps: int
+    balance: str
+    progress: Progress | None
+    cancel: "_koebe.CancelToken | None"
+    threads: int
+    polish: bool
+    center: int | None
+    point: int | None
+    importance: Any
+    partners: str
+    schedule: Sequence[Sequence[int]] | None
+    metric: str
+    annulus: str
+    record_steps: bool
+    most_lost: float
+
+
 @overload
 def uniformize(
-    vertices: Any, triangles: Any = None, *, cut: Literal[False] = False, **options: Any
+    vertices: Any, triangles: Any = None, *, cut: Literal[True], **options: "Unpack[UniformizeOptions]"
+) -> CutResult: ...
+@overload
+def uniformize(
+    vertices: Any, triangles: Any = None, *, cut: Literal[False] = False, **options: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult: ...
-def uniformize(  # type: ignore[misc]  # whose options the two above do not name
+@overload
+def uniformize(
+    vertices: Any, triangles: Any = None, *, cut: bool, **options: "Unpack[UniformizeOptions]"
+) -> UniformizeResult | CutResult: ...
+def uniformize(
     vertices: Any,
     triangles: Any = None,
     *,
@@ -95,10 +128,12 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
 ) -> UniformizeResult | CutResult:
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
-    vertices     (V, 3) float32 or float64, any unit, any order, read-only accepted, never modified
-    triangles    (F, 3) int32 or int64, counter-clockwise seen from outside
-    In place of both: a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh or a meshio Mesh, with triangles,
-    quadrilaterals or polygons; the result's to_mesh() gives the same kind back, with UVs and fields
+    vertices     (V, 3) float32, float64 or whole numbers, any unit, any order, read-only accepted, never modified
+    triangles    (F, 3) whole numbers of any width, counter-clockwise seen from outside
+    In place of both, here and wherever a surface is given: a pair (vertices, triangles); the path of a mesh file (OBJ,
+    OFF, PLY, STL), as text or PathLike; a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh, a meshio Mesh or a
+    nibabel GiftiImage. Files and meshes may have quadrilaterals and polygons; a mesh's to_mesh() of the result gives
+    the same kind back, with UVs and fields
     method       'gk': two loops a step (paper, section 4.4, second algorithm); 'ck': one loop a step, all others filled
                  (section 1.2); 'against-outer': one hole a step, the outer loop never filled (section 4.4, first one)
     engine       'condensed': boundary angles alone (default); 'mesh': the paper's patches as real triangles
@@ -179,41 +214,15 @@ def importance_of(values: Any, balance: str, count: int) -> np.ndarray:
     return array.astype(np.float64)
 
 
-def polygons_of(given: Any, source: Source) -> np.ndarray:
-    """(F,) int32: polygons' numbers as given, or as the mesh has them; empty where each triangle is one by itself."""
-    if given is None:
-        return np.zeros(0, np.int32) if source.polygon is None else source.polygon
-    numbers, count = np.asarray(given), len(source.triangles)
-    if numbers.shape != (count,) or numbers.dtype.kind not in "iu":
-        raise InputError(f"polygon must be ({count},) integers, not {numbers.shape} {numbers.dtype}")
-    return np.unique(numbers, return_inverse=True)[1].astype(np.int32)
-
-
-def surface_of(vertices: Any, triangles: Any, degenerate: bool = False) -> Source:
-    """The surface as arrays, of a mesh of another package too."""
-    if not is_mesh(vertices):
-        if triangles is None:
-            raise InputError("there are no triangles: give them too, or a mesh of PyVista, trimesh, meshio or nibabel")
-        return Source(*as_surface(vertices, triangles, degenerate=degenerate))
-    if triangles is not None:
-        raise TypeError("a mesh has its own faces: give no triangles")
-    polygons = read_mesh(vertices)
-    positions = as_points(np.asarray(polygons.vertices, dtype=np.float64), "vertices", 3)
-    corners = polygons.corners
-    if len(corners) and not 0 <= corners.min() <= corners.max() < len(positions):
-        raise InputError("faces of the mesh name a vertex that does not exist")
-    faces, polygon = _koebe.triangulate(positions, corners.astype(np.int32), polygons.begin.astype(np.int32))
-    return Source(*as_surface(positions, faces), vertices, polygons, polygon)
-
-
 def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[np.ndarray]:
     """Boundary loops as int32 arrays of vertices, in order with the surface on the left; lowest vertex first.
 
+    triangles       (F, 3), or a whole surface as of `uniformize`
     vertex_count    of the mesh; without it any number is a vertex
     Raises InputError, and TopologyError for a mesh that is not manifold, orientable and connected.
     """
     count = None if vertex_count is None else whole(vertex_count, "vertex_count", least=1)
-    faces = as_triangles(triangles, count)
+    faces = as_triangles(surface_of(triangles).triangles if is_surface(triangles) else triangles, count)
     if faces.max() < faces.size:
         return as_loops(_koebe.boundary_loops(faces, int(faces.max()) + 1))
     # Few of the numbers are used: their count shall decide on the memory, not the greatest.
@@ -227,15 +236,16 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[n
     return [used[loop] for loop in loops]
 
 
-def disk_map(vertices: Any, triangles: Any) -> np.ndarray:
+def disk_map(vertices: Any, triangles: Any = None) -> np.ndarray:
     """The Riemann map of a surface with one boundary loop by shrinking disks (paper, section 4.3).
 
     Returns (V, 2) float64 points of the closed unit disk.
     """
-    return _koebe.disk_map(*as_surface(vertices, triangles))
+    source = surface_of(vertices, triangles)
+    return _koebe.disk_map(source.vertices, source.triangles)
 
 
-def annulus_map(vertices: Any, triangles: Any, *, backend: str = "harmonic") -> tuple[np.ndarray, float]:
+def annulus_map(vertices: Any, triangles: Any = None, *, backend: str = "harmonic") -> tuple[np.ndarray, float]:
     """The map of a surface with two boundary loops to the annulus r < |z| < 1 (paper, section 4.2).
 
     backend   'harmonic': by a holomorphic 1-form. 'yamabe': by the discrete Yamabe flow to a flat cylinder, with
@@ -244,11 +254,12 @@ def annulus_map(vertices: Any, triangles: Any, *, backend: str = "harmonic") -> 
     Raises SolverError if the flow does not converge.
     """
     chosen = choice(backend, "backend", _koebe.AnnulusBackend)
-    return _koebe.annulus_map(*as_surface(vertices, triangles), chosen)
+    source = surface_of(vertices, triangles)
+    return _koebe.annulus_map(source.vertices, source.triangles, chosen)
 
 
 def fill_holes(
-    vertices: Any, triangles: Any, *, loops: Sequence[int] | None = None, fair: bool = False
+    vertices: Any, triangles: Any = None, *, loops: Sequence[int] | None = None, fair: bool = False
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fill boundary loops.
 
@@ -258,13 +269,13 @@ def fill_holes(
     Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
     Lengths are in the input's unit.
     """
-    positions, faces = as_surface(vertices, triangles)
-    ranks = None if loops is None else as_indices(loops, "loops", faces.size, "loops")
-    return _koebe.fill_holes(positions, faces, ranks, flag(fair, "fair"))
+    source = surface_of(vertices, triangles)
+    ranks = None if loops is None else as_indices(loops, "loops", source.triangles.size, "loops")
+    return _koebe.fill_holes(source.vertices, source.triangles, ranks, flag(fair, "fair"))
 
 
 def harmonic_map(
-    vertices: Any, triangles: Any, fixed: Any, values: Any, *, uniform: bool = False
+    vertices: Any, triangles: Any = None, fixed: Any = None, values: Any = None, *, uniform: bool = False
 ) -> np.ndarray:
     """The map into the plane of least Dirichlet energy with given values at some vertices (paper, equation 2).
 
@@ -274,22 +285,23 @@ def harmonic_map(
              flips [Tutte 1963]. False: the lengths in space count
     Returns (V, 2) float64, in the values' unit.
     """
-    positions, faces = as_surface(vertices, triangles)
-    chosen = as_indices(fixed, "fixed", len(positions), "vertices")
+    source = surface_of(vertices, triangles)
+    chosen = as_indices(fixed, "fixed", len(source.vertices), "vertices")
     if not len(chosen):
         raise InputError("there must be one fixed vertex at least")
     points = as_points(values, "values", 2, len(chosen))
-    return _koebe.harmonic_map(positions, faces, chosen, points, flag(uniform, "uniform"))
+    return _koebe.harmonic_map(source.vertices, source.triangles, chosen, points, flag(uniform, "uniform"))
 
 
-def distortion(vertices: Any, triangles: Any, uv: Any) -> dict[str, Any]:
+def distortion(vertices: Any, triangles: Any = None, uv: Any = None) -> dict[str, Any]:
     """Angle error, Beltrami coefficient, area distortion, conformal energy and flips of any UV map.
 
     uv   (V, 2) points of the unit disk, x + iy
     Angles are in degrees, the energy in areas of the disk, all else has no unit.
     """
-    positions, faces = as_surface(vertices, triangles)
-    report = _koebe.distortion(positions, faces, as_points(uv, "uv", 2, len(positions)))
+    source = surface_of(vertices, triangles)
+    points = as_points(uv, "uv", 2, len(source.vertices))
+    report = _koebe.distortion(source.vertices, source.triangles, points)
     if not _is_finite(report):
         raise SolverError("the distortion is beyond floating point: scale the surface, or the map, to about 1")
     return report

@@ -10,7 +10,8 @@ import numpy as np
 from .errors import InputError
 
 _REAL = (np.dtype(np.float32), np.dtype(np.float64))
-_WHOLE = (np.dtype(np.int32), np.dtype(np.int64))
+_WHOLE = tuple(np.dtype(f"{sign}int{bits}") for bits in (8, 16, 32, 64) for sign in ("", "u"))
+_EXACT = 2**53  # beyond it 64-bit floats leave whole numbers out
 # Half-edges, three to a face, are numbered by 32-bit integers too.
 _MOST_VERTICES = 2**31 - 2
 _MOST_FACES = _MOST_VERTICES // 3
@@ -19,7 +20,7 @@ _MOST_FACES = _MOST_VERTICES // 3
 def as_surface(vertices: Any, triangles: Any, *, degenerate: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Positions (V, 3) float64 and faces (F, 3) int32, C order; degenerate: faces may name a vertex twice.
 
-    Takes float32 or float64, int32 or int64, in any order and byte order, read-only too.
+    Takes float32, float64 or whole numbers of any width, in any order and byte order, read-only too.
     """
     positions = as_points(vertices, "vertices", 3)
     if not len(positions):
@@ -45,13 +46,14 @@ def as_triangles(triangles: Any, vertex_count: int | None = None, *, degenerate:
     return faces.astype(np.int32, copy=False)
 
 
-def as_points(
-    points: Any, name: str, dimension: int, count: int | None = None, dtypes: tuple[np.dtype, ...] = _REAL
-) -> np.ndarray:
+def as_points(points: Any, name: str, dimension: int, count: int | None = None) -> np.ndarray:
     """(n, dimension) float64, C order, finite; n = count, where that is given."""
-    array = _copy(points, name, dtypes, dimension)
+    array = _copy(points, name, _REAL + _WHOLE, dimension)
     if count is not None and len(array) != count:
         raise InputError(f"{name} has {len(array)} rows, not {count}")
+    if array.dtype.kind != "f":
+        beyond: np.ndarray = np.any((array > _EXACT) | (array < -_EXACT), axis=1)
+        _refuse(beyond, f"{name} have a whole number beyond 2^53 for a coordinate", "vertices")
     array = array.astype(np.float64, copy=False)
     _refuse(~np.isfinite(array).all(axis=1), f"{name} have a coordinate that is NaN or infinite", "vertices")
     return array
@@ -74,7 +76,7 @@ def as_circles(domain: Any) -> tuple[np.ndarray, np.ndarray]:
     if not (hasattr(domain, "centers") and hasattr(domain, "radii")):
         raise InputError(f"{type(domain).__name__} has no circles: give the result of uniformize")
     radii = as_numbers(domain.radii, "radii")
-    return as_points(domain.centers, "centers", 2, len(radii), _REAL + _WHOLE), radii
+    return as_points(domain.centers, "centers", 2, len(radii)), radii
 
 
 def as_numbers(numbers: Any, name: str) -> np.ndarray:
@@ -103,7 +105,8 @@ def _copy(values: Any, name: str, dtypes: tuple[np.dtype, ...], columns: int | N
         raise InputError(f"{name} must have shape {expected}, not {array.shape}")
     native = array.dtype.newbyteorder("=")
     if native not in dtypes:
-        raise InputError(f"{name} must be {' or '.join(d.name for d in dtypes)}, not {array.dtype}")
+        kinds = [d.name for d in dtypes if d.kind == "f"] + ["whole numbers"] * (dtypes[-1].kind == "u")
+        raise InputError(f"{name} must be {' or '.join(kinds)}, not {array.dtype}")
     return array.astype(native, copy=False)
 
 

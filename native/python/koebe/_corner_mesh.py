@@ -20,8 +20,8 @@ def mesh_with_corner_uv(source: Source, uv: np.ndarray, mapped: np.ndarray) -> A
     mapped   (F,) bool, the triangles that count in the fields
     Raises InputError if arrays were given, or if a polygon is cut apart.
     """
-    if source.polygons is None or source.polygon is None:
-        raise InputError("the surface came as arrays: there is no mesh to give back")
+    if source.mesh is None or source.polygons is None or source.polygon is None:
+        raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
     count = len(source.vertices)
     old, triangles, uv_of = _doubled(source.triangles, uv, count)
     mesh = mesh_with_vertices(source.mesh, source.polygons, old, _polygon_corners(source, triangles))

@@ -1,14 +1,11 @@
 """What uniformize(..., cut=True) gives: pieces with a map each, side by side in the unit square."""
 
 import copy
-import json
-import os
 from typing import Any
 
 import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
-from ._files import whole_file
 from ._result import MapReport, Seconds, Source, Warning
 
 
@@ -72,16 +69,8 @@ class CutResult(MapReport):
         """The command's JSON report as a new dict, with input_sha256 and options."""
         return copy.deepcopy(self._report)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write all of it to a file, which `koebe.load` reads: NumPy's .npz. The file is whole or absent.
-
-        Of a mesh of another package its arrays are kept, not the mesh.
-        """
-        with whole_file(path) as file:
-            np.savez_compressed(
-                file, report=np.array(json.dumps(self._report)), uv=self.uv, flipped_faces=self.flipped_faces,
-                vertices=self._source.vertices, triangles=self._source.triangles,
-            )  # fmt: skip
+    def _arrays(self) -> dict[str, Any]:
+        return {"uv": self.uv, "flipped_faces": self.flipped_faces}
 
     def __repr__(self) -> str:
         return (

@@ -33,6 +33,9 @@ class DomainMap(MapReport):
             array.flags.writeable = False
             setattr(self, name, array)
 
+    def _arrays(self) -> dict[str, Any]:
+        return {"uv": self.uv, "flipped_faces": self.flipped_faces}
+
     def _drawn(self) -> np.ndarray:
         """(F,) which faces have UVs that can be drawn."""
         return np.ones(len(self.uv), bool)

@@ -3,22 +3,40 @@
 import json
 import os
 import zipfile
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
 from ._cut_result import CutResult
+from ._domain_map import DomainMap
+from ._parts import PartsResult
 from ._result import Source, UniformizeResult
+from ._schottky import SchottkyMap
+from ._sphere import SphereMap
+from ._tiles import TileMap
 from .errors import InputError
 
+_DOMAIN_MAPS: dict[str, type[DomainMap]] = {kind.__name__: kind for kind in (SchottkyMap, SphereMap, TileMap)}
 
-def load(path: str | os.PathLike[str]) -> UniformizeResult | CutResult:
-    """The result that `save` has written. Raises InputError for a file that is none, OSError for one that cannot be
-    read."""
+
+def load(path: str | os.PathLike[str]) -> Any:
+    """The result that `save` has written, of its class: UniformizeResult, CutResult, PartsResult, SphereMap, ...
+
+    Raises InputError for a file that is none, OSError for one that cannot be read.
+    """
     try:
         with np.load(path, allow_pickle=False) as file:
             report, source = json.loads(str(file["report"])), Source(file["vertices"], file["triangles"])
-            if report.get("cut") is True:
-                return CutResult(report, file["uv"], file["flipped_faces"], source)
-            return UniformizeResult(report, file["uv"], file["flipped_faces"], list(file["step_maps"]), source)
-    except (KeyError, ValueError, TypeError, IndexError, EOFError, zipfile.BadZipFile) as error:
+            uv, flipped = file["uv"], file["flipped_faces"]
+            before = "CutResult" if report.get("cut") is True else "UniformizeResult"  # 0.1 did not write the kind
+            kind = str(file["kind"]) if "kind" in file else before
+            if kind == "UniformizeResult":
+                return UniformizeResult(report, uv, flipped, list(file["step_maps"]), source)
+            if kind == "CutResult":
+                return CutResult(report, uv, flipped, source)
+            if kind == "PartsResult":
+                return PartsResult(report, uv, file["part"], flipped, source)
+            return _DOMAIN_MAPS[kind](report, SimpleNamespace(**file), source)
+    except (KeyError, ValueError, TypeError, IndexError, AttributeError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(f"{os.fspath(path)} is no result of koebe: {error}") from None

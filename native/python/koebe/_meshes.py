@@ -231,7 +231,10 @@ def _polygons(vertices: Any, blocks: list[Any], cells: list[np.ndarray], cell_co
     for block in blocks:
         faces = [np.asarray(face) for face in block] if _is_ragged(block) else np.asarray(block)
         sizes.append(np.array([len(face) for face in faces], dtype=np.int64))
-        corners.append(np.concatenate(faces) if isinstance(faces, list) else faces.ravel())
+        named = np.concatenate(faces) if isinstance(faces, list) else faces.ravel()
+        if named.dtype.kind not in "iu":
+            raise InputError(f"faces of the mesh must name vertices by whole numbers, not {named.dtype}")
+        corners.append(named.astype(np.int64))  # 2^63 and more are negative then: no vertices either
     number = np.concatenate([np.zeros(0, np.int64), *cells])
     return _packed(vertices, np.concatenate(corners), np.concatenate(sizes), number, cell_count)
 
@@ -245,7 +248,7 @@ def _packed(vertices: Any, corners: np.ndarray, sizes: np.ndarray, cell: np.ndar
     if points.ndim == 2 and points.shape[1] == 2:  # meshio keeps planar meshes so
         points = np.column_stack([points, np.zeros(len(points), points.dtype)])
     begin = np.concatenate([[0], np.cumsum(sizes)])
-    return Polygons(points, np.asarray(corners).astype(np.int64), begin, cell, cell_count)
+    return Polygons(points, corners, begin, cell, cell_count)
 
 
 def _unpadded(padded: Any) -> tuple[np.ndarray, np.ndarray]:

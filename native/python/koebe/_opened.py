@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._api import polygons_of, surface_of
+from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, token
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ._api import polygons_of, surface_of
+from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, flag, positive, share, token
-from ._result import MapReport, Warning
+from ._result import MapReport, Source, Warning
 from .errors import InputError
 
 
@@ -43,14 +43,25 @@ class PartsResult(MapReport):
     seconds: float
     maps: float
 
-    def __init__(self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray) -> None:
+    def __init__(
+        self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray, source: Source
+    ) -> None:
         self._report = report
+        self._source = source
         vars(self).update({name: value for name, value in report.items() if name != "input"})
         self.uv = uv.reshape(-1, 3, 2)
         self.uv.flags.writeable = False
         self.part = part
         self.flipped_faces = flipped_faces
         self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        return self._source.vertices, self._source.triangles
+
+    def _arrays(self) -> dict[str, Any]:
+        return {"uv": self.uv, "part": self.part, "flipped_faces": self.flipped_faces}
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict."""
@@ -107,7 +118,7 @@ def parts(
     )
     report = native.report()
     report["options"] = {"price": chosen, "cut": whole, "round_cuts": is_round, "most_lost": loss}
-    return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32))
+    return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32), source)
 
 
 def _edges(slits: Any, count: int) -> np.ndarray:

@@ -2,8 +2,6 @@
 
 import copy
 import hashlib
-import json
-import os
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -13,7 +11,7 @@ import numpy as np
 
 from ._arrays import as_loops
 from ._fields import disk_to_uv, face_angle_error_deg, log_scale
-from ._files import whole_file
+from ._files import Saved
 from ._meshes import Polygons, mesh_with_fields
 from ._native import _koebe
 from .errors import InputError
@@ -90,7 +88,8 @@ class _AreaBeforeBalance(TypedDict, total=False):
 
 
 class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
-    """before_balance is the same without `balance`."""
+    """before_balance is the same of the map before `balance`, on its outer loop: that of a call without it, unless that
+    one has faces to turn back."""
 
 
 class Step(TypedDict):
@@ -134,7 +133,8 @@ class Seconds(TypedDict):
 
 @dataclass(frozen=True)
 class Source:
-    """The surface that was mapped: its arrays, and the mesh of another package that they came from, if they did."""
+    """The surface that was mapped: its arrays, the polygons they were cut from, and the mesh of another package that
+    these are of, if there are any."""
 
     vertices: np.ndarray
     triangles: np.ndarray
@@ -152,7 +152,7 @@ def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any])
     return {"version": report["version"], "input": report["input"], **origin, **report}
 
 
-class MapReport:
+class MapReport(Saved):
     """What every map reports, whatever its domain.
 
     converged        False: the map is not done, and a warning says why
@@ -278,8 +278,8 @@ class UniformizeResult(MapReport):
         """The mesh that was given, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and
         koebe_angle_error (degrees) at the faces. Raises InputError if arrays were given."""
         source = self._source
-        if source.polygons is None or source.polygon is None:
-            raise InputError("the surface came as arrays: there is no mesh to give back")
+        if source.mesh is None or source.polygons is None or source.polygon is None:
+            raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
         faces, known = len(source.polygons.cell), np.isfinite(self.face_angle_error_deg)
         number, error = source.polygon[known], self.face_angle_error_deg[known]
         with np.errstate(invalid="ignore"):
@@ -290,17 +290,11 @@ class UniformizeResult(MapReport):
         """The command's JSON report as a new dict, with input_sha256 and options."""
         return copy.deepcopy(self._report)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write all of it to a file, which `koebe.load` reads: NumPy's .npz. The file is whole or absent.
-
-        Of a mesh of another package its arrays are kept, not the mesh.
-        """
-        steps = np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2))
-        with whole_file(path) as file:
-            np.savez_compressed(
-                file, report=np.array(json.dumps(self._report)), uv=self.uv, flipped_faces=self.flipped_faces,
-                step_maps=steps, vertices=self._source.vertices, triangles=self._source.triangles,
-            )  # fmt: skip
+    def _arrays(self) -> dict[str, Any]:
+        return {
+            "uv": self.uv, "flipped_faces": self.flipped_faces,
+            "step_maps": np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2)),
+        }  # fmt: skip
 
     def __repr__(self) -> str:
         return (

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from ._api import polygons_of, surface_of
 from ._domain_map import DomainMap
+from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, choice, positive, share, token, whole
 from ._result import Source

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from ._api import polygons_of, surface_of
 from ._domain_map import DomainMap
+from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, choice, positive, share, token, whole
 from ._result import Source
@@ -51,6 +51,9 @@ class SphereMap(DomainMap):
         super().__init__(report, native, source)
         caps = np.array([[*loop["center"], loop["radius"]] for loop in self.loops], float).reshape(-1, 4)
         self._set_arrays(points=native.points, caps=caps)
+
+    def _arrays(self) -> dict[str, Any]:
+        return {**super()._arrays(), "points": self.points}
 
     def _drawn(self) -> np.ndarray:
         drawn = super()._drawn()

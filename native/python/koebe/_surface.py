@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from ._api import Progress, importance_of, solver_options, surface_of
+from ._api import Progress, importance_of, solver_options
 from ._arrays import as_points
-from ._meshes import is_mesh, read_mesh
+from ._input import is_surface, surface_of
 from ._native import _koebe
 from ._options import callback, token
 from ._result import Source, UniformizeResult, with_origin
@@ -17,9 +17,10 @@ class Surface:
     """A surface that is mapped again and again: an animation, a sculpting stroke, scans of one topology.
 
     Topology, the order of elimination and the outer loop are found once; each map begins at the angles that the last
-    ones forecast. It is the map that uniformize gives for the same positions and outer loop, within the tolerance and
-    up to an automorphism of the disk: of the freedom that the options leave, as much as there is goes into laying the
-    loops over those of the first map, so that a texture stays in its place.
+    ones forecast. Up to an automorphism of the disk its circles are those that uniformize gives for the same positions
+    and outer loop: after a large move to rounding; after a small one, for which the last triangulation is kept, up to
+    what the mesh resolves (docs/labs.md has figures). Of the freedom that the options leave, as much as there is goes
+    into laying the loops over those of the first map, so that a texture stays in its place.
 
     vertices, triangles, or a mesh of another package, and the options: as for uniformize. With outer='auto' or
     'longest' the first positions choose the outer loop, with balance='area' the first map does.
@@ -65,8 +66,7 @@ class Surface:
     ) -> UniformizeResult:
         """The map with the vertices elsewhere.
 
-        vertices   (V, 3) new positions; where the surface was made of a mesh of another package, also such a mesh with
-                   the same faces; None: those the surface was made of
+        vertices   (V, 3) new positions, or a whole surface with the same faces; None: those the surface was made of
         progress, cancel   as for uniformize. After a cancel or an error the next map takes as long as a first one
         Calls of several threads wait for each other. Raises InputError, SolverError, Cancelled, or MemoryError.
         """
@@ -81,13 +81,20 @@ class Surface:
 
     def _moved(self, vertices: Any) -> Source:
         kept = self._source
-        if not is_mesh(vertices):
+        if not is_surface(vertices):
             return Source(as_points(vertices, "vertices", 3, len(kept.vertices)), kept.triangles)
-        polygons = read_mesh(vertices)
-        if kept.polygons is None or not np.array_equal(polygons.corners, kept.polygons.corners):
+        moved = surface_of(vertices)
+        if len(moved.vertices) != len(kept.vertices) or not all(map(np.array_equal, _faces(moved), _faces(kept))):
             raise InputError("the mesh has other faces than the surface")
-        points = as_points(np.asarray(polygons.vertices, dtype=np.float64), "vertices", 3, len(kept.vertices))
-        return Source(points, kept.triangles, vertices, polygons, kept.polygon)
+        polygon = moved.polygon if kept.polygon is None else kept.polygon
+        return Source(moved.vertices, kept.triangles, moved.mesh, moved.polygons, polygon)
 
     def __repr__(self) -> str:
         return f"<koebe.Surface {len(self._source.vertices)} vertices, {len(self._source.triangles)} faces>"
+
+
+def _faces(source: Source) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices at the corners of the polygons, and where each polygon begins."""
+    if source.polygons is not None:
+        return source.polygons.corners, source.polygons.begin
+    return source.triangles.ravel(), np.arange(0, source.triangles.size + 1, 3)

@@ -1,16 +1,18 @@
 """Points of one surface on another, through their circle domains."""
 
+import dataclasses
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Integral
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from ._arrays import as_indices, as_numbers
 from ._native import _koebe
 from ._options import flag, vertex
-from ._result import Beltrami, UniformizeResult
+from ._result import Beltrami, UniformizeResult, Warning
 from ._shapes import DomainAlignment, mapped_surface
 from .errors import InputError
 
@@ -29,6 +31,7 @@ class Correspondence:
                 map is linear in the pieces
     beltrami    |mu| of the bending of a's aligned domain, mean and max over the faces, dimensionless: 0 without any
     flipped     faces that the bending has turned over: 0
+    warnings    list of Warning: 'not_fitted' where fit=True and the holes could not be bent onto each other
     """
 
     faces: np.ndarray
@@ -41,6 +44,7 @@ class Correspondence:
     beltrami: Beltrami
     flipped: int
     triangles: np.ndarray
+    warnings: list[Warning] = dataclasses.field(default_factory=list)
 
     def __repr__(self) -> str:
         return (
@@ -57,6 +61,26 @@ class Correspondence:
         return np.einsum("vk,vk...->v...", self.weights, values[self.triangles[self.faces]])
 
 
+@overload
+def transfer(
+    a: UniformizeResult,
+    b: UniformizeResult,
+    field: None = None,
+    *,
+    match: Sequence[int] | None = None,
+    fit: bool = True,
+    landmarks: Sequence[tuple[Any, Any]] | None = None,
+) -> Correspondence: ...
+@overload
+def transfer(
+    a: UniformizeResult,
+    b: UniformizeResult,
+    field: Any,
+    *,
+    match: Sequence[int] | None = None,
+    fit: bool = True,
+    landmarks: Sequence[tuple[Any, Any]] | None = None,
+) -> np.ndarray: ...
 def transfer(
     a: UniformizeResult,
     b: UniformizeResult,
@@ -65,7 +89,7 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
-) -> Any:
+) -> Correspondence | np.ndarray:
     """What surface a has at the points that correspond to the vertices of surface b, with as many loops.
 
     a's circle domain is laid over b's by the automorphism of the disk that brings the holes nearest (align_domains).
@@ -73,11 +97,14 @@ def transfer(
     face turns over, but it is quasi-conformal where the holes differ.
     field      (V_a,) or (V_a, k) at a's vertices: its values at b's vertices, (V_b,) or (V_b, k) float64, are returned
                None: the Correspondence itself
-    match      a's loop for each of b's, 0 for 0; None: as match_loops finds them
+    match      a's loop for each of b's, 0 for 0; None: as match_loops finds them, or, with landmarks and up to five
+               holes, as it brings circles and landmarks nearest
     landmarks  pairs (on a, on b) that shall correspond: each a vertex, or a point (x, y, z), in the surface's unit,
                which stands for the nearest of the surface. Then the domain is bent further, circles to circles. Of the
                maps that take landmarks to landmarks exactly and turn no face over it is the one with the least fourth
                power of |mu| over the surface. On a rim landmarks are vertices of both
+    Holes that could not be bent onto each other are a RuntimeWarning too. Without a hole, or with one, landmarks also
+    choose the automorphism of the disk: the one that brings them nearest.
     Raises InputError, also where circles are not those of the surface and for landmarks that exclude each other, and
     SolverError where no such map was found: `elements` are the landmarks, by their places in the list.
     """
@@ -91,6 +118,9 @@ def transfer(
     on_a, on_b = (_places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
     found = _koebe.correspond(mapped_surface(b), mapped_surface(a), chosen, flag(fit, "fit"), on_b, on_a)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
+    found["warnings"] = [Warning(warning) for warning in found["warnings"]]
+    for warning in found["warnings"]:
+        warnings.warn(str(warning), RuntimeWarning, stacklevel=2)
     places = Correspondence(**found, triangles=a.surface[1])
     return places if field is None else places.carry(field)
 

@@ -1,0 +1,32 @@
+"""Calls that a type checker takes, and calls that it refuses. `make lint` reads this file; nothing runs it.
+
+An ignore that no error needs is itself an error there (warn_unused_ignores).
+"""
+
+from pathlib import Path
+from typing import Any
+
+import koebe
+import numpy as np
+
+
+def taken(vertices: np.ndarray, triangles: np.ndarray, is_cut: bool, kept: dict[str, Any]) -> None:
+    one: koebe.UniformizeResult = koebe.uniformize(vertices, triangles, method="ck", tolerance=1e-4, outer=3)
+    cut: koebe.CutResult = koebe.uniformize((vertices, triangles), cut=True, balance="area", importance=vertices[:, 0])
+    either: koebe.UniformizeResult | koebe.CutResult = koebe.uniformize("face.obj", cut=is_cut)
+    koebe.uniformize(*one.surface, **kept)
+    koebe.parts(Path("face.obj"), price=0.01)
+    koebe.Surface(vertices, triangles, method="ck").uniformize(vertices)
+    places: koebe.Correspondence = koebe.transfer(one, one, landmarks=[(0, 0)])
+    field: np.ndarray = koebe.transfer(one, one, one.log_scale)
+    print(cut, either, places, field)
+
+
+def refused(vertices: np.ndarray, triangles: np.ndarray) -> None:
+    koebe.uniformize(vertices, triangles, methd="gk")  # type: ignore[call-overload]
+    koebe.uniformize(vertices, triangles, cut=True, methd="gk")  # type: ignore[call-overload]
+    koebe.uniformize(vertices, triangles, tolerance="small")  # type: ignore[call-overload]
+    koebe.uniformize(vertices, triangles, method=1)  # type: ignore[call-overload]
+    koebe.uniformize(vertices, triangles, cut="yes")  # type: ignore[call-overload]
+    koebe.parts(vertices, triangles, prize=0.01)  # type: ignore[call-arg]
+    koebe.sphere_map(vertices, triangles, max_sweeps=2.5)  # type: ignore[arg-type]
