@@ -43,8 +43,17 @@ def _set_mesh_engine(
 
 
 def solver_options(
-    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any,
-    center: Any, point: Any, most_lost: Any,
+    method: Any,
+    engine: Any,
+    outer: Any,
+    tolerance: Any,
+    max_sweeps: Any,
+    balance: Any,
+    threads: Any,
+    polish: Any,
+    center: Any,
+    point: Any,
+    most_lost: Any,
 ) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = choice(method, "method", _koebe.Method)
@@ -263,9 +272,7 @@ def fill_holes(
     return _koebe.fill_holes(positions, faces, ranks, flag(fair, "fair"))
 
 
-def harmonic_map(
-    vertices: Any, triangles: Any, fixed: Any, values: Any, *, uniform: bool = False
-) -> np.ndarray:
+def harmonic_map(vertices: Any, triangles: Any, fixed: Any, values: Any, *, uniform: bool = False) -> np.ndarray:
     """The map into the plane of least Dirichlet energy with given values at some vertices (paper, equation 2).
 
     fixed    (B,) vertices whose values are given
