@@ -52,7 +52,7 @@ def broken_circles(center, radius):
 
 
 def untrue(report, vertices, triangles, corners, left_out=()):
-    """Figures of a report that the stored UVs (F, 3, 2) of the corners do not have. Triangles as the map turned them."""
+    """Figures of a report that the stored UVs (F, 3, 2) of the corners do not have. Triangles as the map has them."""
     report = report if isinstance(report, dict) else report.to_dict()
     known = verdict(vertices, triangles, corners, left_out)
     found = [name for name in ("flipped", "below_resolution") if report[name] != known[name]]

@@ -96,7 +96,7 @@ FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptio
     return in_two.parts.size() > 1 && fewer(in_two.flaws, as_one.flaws) ? std::move(in_two) : std::move(as_one);
 }
 
-double angle_errors(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
+double summed_angle_error(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
 {
     return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
 }
@@ -106,7 +106,7 @@ double angle_error(const std::vector<FlatPart>& parts)
 {
     double sum = 0.0, faces = 0.0;
     for (const FlatPart& part : parts) {
-        sum += angle_errors(part.vertices, part.surface.triangles, part.points);
+        sum += summed_angle_error(part.vertices, part.surface.triangles, part.points);
         faces += static_cast<double>(part.faces.size());
     }
     return sum / faces;
@@ -119,7 +119,7 @@ bool hopeless_as_one(const Part& root, double error)
     if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > most_uneven * root.mesh.area) return true;
     PlanarPoints points(map.positions.size(), 2);
     points << map.positions.real(), map.positions.imag();
-    const double own = angle_errors(root.mesh.vertices, root.mesh.surface.triangles, points);
+    const double own = summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, points);
     return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
 }
 
@@ -171,7 +171,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     FlatPart one = flat_as_mapped(mesh, uv);
     const Flaws flaws = repair(one, mesh.areas, context);
     if (flaws.any() && !fewer(flaws, parts.flaws)) return {};
-    const double own = angle_errors(one.vertices, one.surface.triangles, one.points);
+    const double own = summed_angle_error(one.vertices, one.surface.triangles, one.points);
     if (!parts.flaws.any() && own >= error * static_cast<double>(one.faces.size())) return {};
     return one;
 }

@@ -18,7 +18,7 @@ void take_verdict(const LossPolicy& policy, MapReport& report)
                            {WarningKind::lost_area,
                             (policy.done ? "" : "not done: ") + std::string(share) +
                                 " % of the surface's area is lost, " + counted(distortion.flipped.size(), "triangle") +
-                                " without area as 32-bit UVs",
+                                " without area or turned over as 32-bit UVs",
                             distortion.flipped, policy.advice});
 }
 

@@ -70,7 +70,7 @@ def assert_sphere(sphere, triangles):
     areas = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     areas[sphere.turned] *= -1
     assert np.array_equal(np.flatnonzero(areas <= 0), sphere.layout["flipped"])
-    assert np.array_equal(sphere.flipped_faces, sphere.layout["flipped"]) and len(sphere.flipped_faces) == sphere.flipped
+    assert sphere.layout["flipped"] == sphere.flipped_faces.tolist() and len(sphere.flipped_faces) == sphere.flipped
     if not sphere.converged:
         assert sphere.warnings
         return

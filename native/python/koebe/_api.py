@@ -46,8 +46,17 @@ def _set_mesh_engine(
 
 
 def solver_options(
-    method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any,
-    center: Any, point: Any, most_lost: Any,
+    method: Any,
+    engine: Any,
+    outer: Any,
+    tolerance: Any,
+    max_sweeps: Any,
+    balance: Any,
+    threads: Any,
+    polish: Any,
+    center: Any,
+    point: Any,
+    most_lost: Any,
 ) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = choice(method, "method", _koebe.Method)

@@ -113,8 +113,7 @@ def parts(
     numbers = polygons_of(polygon, source)
     edges = np.zeros((0, 2), np.int32) if slits is None else _edges(slits, len(source.vertices))
     native = _koebe.parts(
-        source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), is_round, loss,
-        progress, cancel
+        source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), is_round, loss, progress, cancel
     )
     report = native.report()
     report["options"] = {"price": chosen, "cut": whole, "round_cuts": is_round, "most_lost": loss}

@@ -156,7 +156,7 @@ class MapReport(Saved):
     """What every map reports, whatever its domain.
 
     converged        False: the map is not done, and a warning says why
-    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say; of the map in 64 bits
+    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say, in 64 bits
     angle_error_stored_deg    the angle error of the UVs as stored, in 32-bit floats. Faces without area count too: a
                      corner at a side without length as a right angle
     lost_area        share of the surface's area in faces without a positive area as stored

@@ -45,8 +45,7 @@ class Surface:
         importance: Any = None,
     ) -> None:
         options = solver_options(
-            method, "condensed", outer, tolerance, max_sweeps, balance, threads, polish, center, point,
-            most_lost,
+            method, "condensed", outer, tolerance, max_sweeps, balance, threads, polish, center, point, most_lost
         )
         self._source = surface_of(vertices, triangles)
         options.importance = importance_of(importance, balance, len(self._source.vertices))

@@ -80,7 +80,8 @@ def torus_map(
     options.polygon = polygons_of(polygon, source)
     native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
-    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "most_lost": options.most_lost}
+    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
+                         "most_lost": options.most_lost}  # fmt: skip
     return TileMap(report, native, source)
 
 
