@@ -104,6 +104,14 @@ std::string map_line(const MapRequest& request, const std::string& first_words, 
     return line + warning_count(warnings) + "\n";
 }
 
+void add_losses(const std::string& file, const std::vector<Warning>& losses, std::vector<Warning>& warnings)
+{
+    for (Warning loss : losses) {
+        loss.sentence = file + loss.sentence;
+        warnings.push_back(std::move(loss));
+    }
+}
+
 MapKind<UniformizeResult> disk_map(const MapRequest& request)
 {
     MapKind<UniformizeResult> kind;

@@ -32,7 +32,8 @@ struct MapKind {
     std::function<Result(const MeshInput&, ExecutionContext&)> compute;
     /// What of the file is not kept, or replaced.
     std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
-    std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_sphere;  ///< of a request with such a file
+    /// Of a request with such a file; likewise.
+    std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_sphere;
     std::function<std::string(const MeshInput&, const Result&)> draw;
     std::function<nlohmann::ordered_json(const Result&)> report;
     std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
@@ -51,6 +52,9 @@ std::string rounded(const char* format, double number);
 std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,
                      double seconds, bool converged, const std::vector<Warning>& warnings);
 
+/// Adds what a file that is written does not keep. @param file which of the files, before the sentence
+void add_losses(const std::string& file, const std::vector<Warning>& losses, std::vector<Warning>& warnings);
+
 /// All files are complete before the first gets its name.
 template <typename Result>
 void write_map(const MapRequest& request, const MapKind<Result>& kind, const MeshInput& input, Result& result,
@@ -63,9 +67,9 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
     const auto begin_write = Clock::now();
     const ThreadShare threads(request.options.threads);
     std::vector<AtomicFile> files;
-    const std::vector<Warning> losses = kind.write_mesh(files.emplace_back(request.output), input, result);
-    result.warnings.insert(result.warnings.end(), losses.begin(), losses.end());
-    if (!request.sphere.empty()) kind.write_sphere(files.emplace_back(request.sphere), input, result);
+    add_losses("", kind.write_mesh(files.emplace_back(request.output), input, result), result.warnings);
+    if (!request.sphere.empty())
+        add_losses("--sphere: ", kind.write_sphere(files.emplace_back(request.sphere), input, result), result.warnings);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(kind.draw(input, result));
     result.seconds.write = since(begin_write);
     result.seconds.total = since(begin);

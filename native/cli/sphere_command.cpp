@@ -59,7 +59,8 @@ int run_sphere(const SphereRequest& request)
         return write_sphere_mesh(file, request.format, input.polygons, input, result, false);
     };
     kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result, true);
+        return write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result,
+                                 true);
     };
     kind.draw = [](const MeshInput& input, const SphereResult& result) {
         return sphere_svg(input.triangulation.triangles, result);

@@ -251,7 +251,7 @@ private:
         if (change_.moved || words_.empty() || Corner(words_[0]).normal.empty()) return false;
         for (const std::string_view word : words_) {
             Index number = 0;
-            to_number(Corner(word).normal, number);
+            if (!to_number(Corner(word).normal, number)) number = 0;
             const std::int64_t normal = number < 0 ? static_cast<std::int64_t>(at_.normals) + 1 + number : number;
             if (normal < 1 || normal > static_cast<std::int64_t>(whole_.total_.normals)) {
                 ++faces_without_normals;

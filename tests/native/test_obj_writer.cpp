@@ -113,7 +113,7 @@ TEST(ObjWriter, KeepsTheFilesTextButForTextureCoordinates)
         "# Koebe UV 0.0.1\n# made \\\nmtllib a.mtl\no one\nv 0.50 0 0 1 0 0 # red\nvt 1 \\\n 1\nv 1 0 0\n v 0 1e0 0\n"
         "vn 0 0 1\nusemtl skin\n\ns 1\nf 1/1/1 2/1/-1 \\\n 3/1/1 # first\nvt 0 0\nv 1 1 0\nvn 0 1 0\no two\nf -1/1 2 "
         "3\n"
-        "f 4//2 -2//-1 2//2\nf 1//3 2//1 3//1\nl 1/1 2/1/1 \\\n 3\nwhatever 1/2/3\nf 1 2 4";
+        "f 4//2 -2//-1 2//2\nf 1//1x 2//1 3//1\nl 1/1 2/1/1 \\\n 3\nwhatever 1/2/3\nf 1 2 4";
     EXPECT_EQ(rewritten(text), "# made \\\nmtllib a.mtl\no one\nv 0.50 0 0 1 0 0 # red\nv 1 0 0\n v 0 1e0 0\n"
                                "vn 0 0 1\nusemtl skin\n\ns 1\nvt 0.5 0.5\nvt 0.5 0.5\nvt 0.5 0.5\nvt 0.5 0.5\n"
                                "f 1/1/1 2/2/1 3/3/1 # first\nv 1 1 0\nvn 0 1 0\no two\nf 4/4 2/2 3/3\n"
