@@ -7,7 +7,7 @@ bl_info = {
     "name": "Koebe UV",
     "description": "Conformal UV maps with every hole a perfect circle",
     "author": "The Koebe UV developers",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "3D View and UV Editor > Sidebar > Koebe; U menu; UV menu",
     "category": "UV",

@@ -104,18 +104,12 @@ std::string map_line(const MapRequest& request, const std::string& first_words, 
     return line + warning_count(warnings) + "\n";
 }
 
-void show_warnings(const std::vector<Warning>& warnings)
-{
-    if (!is_error_shown()) return;
-    for (const Warning& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
-}
-
 MapKind<UniformizeResult> disk_map(const MapRequest& request)
 {
     MapKind<UniformizeResult> kind;
     kind.write_mesh = [format = request.format](AtomicFile& file, const MeshInput& input,
                                                 const UniformizeResult& result) {
-        write_with_uvs(file, format, input.polygons, result.uv);
+        return write_with_uvs(file, format, input.polygons, result.uv, {input.file});
     };
     kind.draw = [](const MeshInput& input, const UniformizeResult& result) { return to_svg(result, input.polygons); };
     kind.report = [](const UniformizeResult& result) { return to_json(result); };

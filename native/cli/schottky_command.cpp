@@ -39,8 +39,8 @@ int run_schottky(const SchottkyRequest& request)
         return result;
     };
     kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SchottkyResult& result) {
-        write_with_corner_uvs(file, request.format, input.polygons,
-                              polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+        return write_with_corner_uvs(file, request.format, input.polygons,
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
     };
     kind.draw = [](const MeshInput&, const SchottkyResult& result) { return schottky_svg(result); };
     kind.report = [](const SchottkyResult& result) { return to_json(result); };

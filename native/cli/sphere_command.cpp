@@ -31,10 +31,11 @@ PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
     return mesh;
 }
 
-void write_sphere_mesh(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh, const MeshInput& input,
-                       const SphereResult& result)
+std::vector<Warning> write_sphere_mesh(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
+                                       const MeshInput& input, const SphereResult& result, bool moved)
 {
-    write_with_corner_uvs(file, format, mesh, polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+    const PlanarPoints uvs = polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
+    return write_with_corner_uvs(file, format, mesh, uvs, {input.file, moved});
 }
 
 int run_sphere(const SphereRequest& request)
@@ -55,10 +56,10 @@ int run_sphere(const SphereRequest& request)
         return result;
     };
     kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        write_sphere_mesh(file, request.format, input.polygons, input, result);
+        return write_sphere_mesh(file, request.format, input.polygons, input, result, false);
     };
     kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result);
+        write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result, true);
     };
     kind.draw = [](const MeshInput& input, const SphereResult& result) {
         return sphere_svg(input.triangulation.triangles, result);

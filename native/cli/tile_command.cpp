@@ -48,8 +48,8 @@ int run(const Request& request, TileFunction map)
         return result;
     };
     kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const TileResult& result) {
-        write_with_corner_uvs(file, request.format, input.polygons,
-                              polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+        return write_with_corner_uvs(file, request.format, input.polygons,
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
     };
     kind.draw = [](const MeshInput&, const TileResult& result) { return tile_svg(result); };
     kind.report = [](const TileResult& result) { return to_json(result); };

@@ -26,6 +26,8 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::closing_gap: return "closing_gap";
     case WarningKind::flow_flips: return "flow_flips";
     case WarningKind::no_hole: return "no_hole";
+    case WarningKind::replaced_uvs: return "replaced_uvs";
+    case WarningKind::not_kept: return "not_kept";
     case WarningKind::cut: return "cut";
     case WarningKind::pieces: return "pieces";
     case WarningKind::left_out: return "left_out";

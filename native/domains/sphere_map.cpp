@@ -4,13 +4,13 @@
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
+#include "core/stopwatch.h"
 #include "domains/closed_sphere.h"
 #include "domains/opened_sphere.h"
 #include "domains/sphere_check.h"
 #include "domains/sphere_layout.h"
 #include "domains/sphere_repair.h"
 #include "domains/spherical_balance.h"
-#include "domains/stopwatch.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "pipeline/take_verdict.h"
@@ -381,7 +381,9 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     result.sweeps = map.sweeps;
     result.changes = map.changes;
     warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
-    take_verdict({.most_lost = options.most_lost}, result);
+    take_verdict(
+        {.most_lost = options.most_lost, .advice = "Finer faces, the other layout or parts (koebe parts) lose less"},
+        result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();

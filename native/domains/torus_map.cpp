@@ -1,5 +1,5 @@
 #include "core/detachable_run.h"
-#include "domains/stopwatch.h"
+#include "core/stopwatch.h"
 #include "domains/tile_map.h"
 #include "domains/tile_result.h"
 #include "domains/torus_circles.h"
