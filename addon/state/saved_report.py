@@ -13,8 +13,9 @@ from .run_report import KoebeIslandReport, KoebeLoopReport, KoebeReport, report_
 VERSION = 1
 # What only undo needs, which no file keeps.
 NOT_SAVED = ("rna_type", "loops", "corners", "history")
-# Texts that are lists of whole numbers, or lists of such, as JSON.
-NUMBERS = ("flipped_faces", "torn_faces", "cuts", "cut_edges", "vertices")
+# Texts that are lists of whole numbers, as JSON; of cuts lists of such lists.
+NUMBERS = ("flipped_faces", "torn_faces", "cut_edges", "vertices")
+CUTS = "cuts"
 ELEMENTS = ("vertices", "edges", "faces")
 LARGEST = 2**31 - 1
 
@@ -42,6 +43,7 @@ def unpack(text: str, report: KoebeReport) -> None:
             _fill(entry, values)
             for of_loop in _list(values, "loops"):
                 _fill(entry.loops.add(), of_loop)
+                _require(len(entry.loops[-1].vertices) > len("[]"))
         _require(_is_whole(content.get("active")))
         report.active = content["active"]
     except (ValueError, RecursionError):  # of JSON too
@@ -73,6 +75,9 @@ def _fill(group: KoebeIslandReport | KoebeLoopReport, values: Any) -> None:
             _require(FITS[prop.type](value))
         if name in NUMBERS and value:
             _require(_are_numbers(json.loads(value)))
+        if name == CUTS and value:
+            found = json.loads(value)
+            _require(isinstance(found, list) and all(map(_are_numbers, found)))
         if name == "offenders" and value:
             found = json.loads(value)
             _require(isinstance(found, list) and len(found) == 2 and found[0] in ELEMENTS and _are_numbers(found[1]))
@@ -100,9 +105,8 @@ def _is_number(value: Any) -> bool:
 
 
 def _are_numbers(value: Any) -> bool:
-    """Whether it is a list of whole numbers, or of such lists."""
-    return isinstance(value, list) and all(_is_whole(one) or (isinstance(one, list) and all(map(_is_whole, one)))
-                                           for one in value)  # fmt: skip
+    """Whether it is a list of whole numbers."""
+    return isinstance(value, list) and all(map(_is_whole, value))
 
 
 FITS = {

@@ -102,12 +102,12 @@ def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
     assert done.returncode == 0, done.stderr
     assert f"Ball: 1 sphere, {layout}, 1 cap, " in done.stdout
     assert bpy.ops.uv.koebe_sphere(layer="Own", layout=layout) == {"FINISHED"}
-    expected = scenes.corner_uv(obj.data, "Own").copy()
+    expected, flipped = scenes.corner_uv(obj.data, "Own").copy(), balls.last_run().flipped
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
     assert np.array_equal(scenes.corner_uv(bpy.data.objects["Ball"].data, "Own"), expected)
     (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
     assert entry["domain"] == "sphere" and entry["layout"]["kind"] == layout and entry["converged"] is True
-    assert entry["flipped"] == 0 and len(entry["loops"]) == 1 and 0 < entry["loops"][0]["radius"] < 1
+    assert entry["flipped"] == flipped and len(entry["loops"]) == 1 and 0 < entry["loops"][0]["radius"] < 1
 
 
 @pytest.mark.parametrize("normalization", ["area", "circles"])
@@ -155,7 +155,7 @@ def test_parts_are_those_of_the_operator(batch, tmp_path):
     ("--sequence FRAMES --frames 3:1", "--frames: the last frame is before the first one"),
     ("--sequence SHAPE_KEYS --play", "--play needs --sequence FRAMES"),
     ("--evenness 0.5", "--evenness needs --parts"),
-    ("--parts --evenness 2", "--evenness: 2.0 is not in [0, 1]"),
+    ("--parts --evenness 2", "--evenness: 2.0 is not from 0 to 1"),
     ("--parts --tolerance 1e-3", "--tolerance is not of --parts"),
     ("--parts --domain torus", "--domain is not of --parts"),
     ("--parts --sequence FRAMES", "--parts is not of --sequence"),
@@ -256,6 +256,21 @@ def test_not_converged_is_4_and_written(batch, tmp_path):
     assert content["objects"][0]["converged"] is False
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
     assert "Koebe" in bpy.data.objects["Panel"].data.uv_layers
+
+
+def test_what_is_lost_is_4_with_its_share_and_keeps_its_layer(batch, tmp_path):
+    points, faces = tori.with_finger(*map(np.asarray, handles.plate_arrays()), 30, length=60)
+    scenes.add_object("Limb", points, faces)
+    done = batch("--output", "out.blend", "--report", "out.json", "--domain", "schottky")
+    assert done.returncode == 4, done.stderr
+    assert "% of its area is lost" in done.stderr and "--parts serves here" in done.stderr
+    content = json.loads((tmp_path / "out.json").read_text())
+    (entry,) = content["objects"]
+    assert content["exit_code"] == 4 and entry["converged"] is False and entry["lost_area"] > 0.01
+    assert entry["error"]["kind"] == "lost_area" and entry["flipped"] == entry["error"]["count"] > 0
+    assert entry["angle_error_stored_deg"]["mean"] > 0.0
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert not bpy.data.objects["Limb"].data.uv_layers
 
 
 def test_the_output_may_replace_the_input_and_leaves_no_backup(batch, tmp_path):

@@ -366,6 +366,7 @@ def test_content_that_is_no_report_is_passed_over(addon):
         "", "{", "null", "[1]", "7", text[: len(text) // 2], json.dumps({**content, "version": 2}),
         json.dumps({"version": 1}), changed("flipped", "many"), changed("flipped", 2**40), changed("mapped", 1),
         changed("flipped_faces", "[1, -2]"), changed("flipped_faces", "{}"), changed("cuts", "[[1, 2.5]]"),
+        changed("flipped_faces", "[[1]]"), changed("cuts", "[1]"), changed("loops", [{"vertices": "[]"}]),
         changed("offenders", '["faces"]'), changed("loops", [{"uv_center": [1.0]}]), changed("loops", [3]),
         changed("object_name", None), changed("flipped", 0, active="first"), "[" * 10**5,
     ):  # fmt: skip

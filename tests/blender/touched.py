@@ -82,8 +82,10 @@ class Touched:
         return seams or (self._uniformize(owner, what) and not self._selects(owner, what))
 
     def _sequence(self, owner, what):
-        """A layer or an attribute for each shape."""
+        """A layer or an attribute for each shape, and what plays the attributes."""
         report = (owner, what) == ("file", "report") or self._selects(owner, what)
+        if self._options.get("play", True) and (owner == "names of node_groups" or what == "modifiers"):
+            return owner == "names of node_groups" or owner in self._users
         return report or (owner in self._meshes and (what == "uv layers" or self._layer in what))
 
     def _checker(self, owner, what):
