@@ -1,5 +1,6 @@
 #include "domains/sphere_map.h"
 
+#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
@@ -12,6 +13,7 @@
 #include "domains/spherical_balance.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
+#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
 #include "surface/laplacian.h"
 
@@ -52,6 +54,7 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
     map_options.outer = OuterLoop::longest;
     map_options.tolerance = options.tolerance;
     map_options.max_sweeps = options.max_sweeps;
+    map_options.most_lost = 1.0;  // the sphere has its own verdict
     const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
     PlaneMap map;
     map.z.resize(domain.surface.vertex_count);
@@ -201,7 +204,7 @@ Vertices directions_of(const PeriodicSurface& domain, const VectorXd& weights)
 }
 
 /// Every face flat, with corners of its own: the triangle between its corners on the sphere.
-Distortion distortion_on_sphere(const PeriodicSurface& domain, const Vertices& points)
+ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Vertices& points)
 {
     const Triangles& triangles = domain.surface.triangles;
     Triangles apart(triangles.rows(), 3);
@@ -274,11 +277,7 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
     else if (!balanced)
         result.warnings.push_back({WarningKind::not_converged,
                                    "no even spread over the sphere was found: half of the surface shrinks to a point"});
-    if (!sphere.off_circle.empty())
-        result.warnings.push_back({WarningKind::off_circle,
-                                   counted(sphere.off_circle.size(), "vertex") +
-                                       " of loops moved off their circles, as faces would be turned over",
-                                   named(domain, sphere.off_circle)});
+    warn_off_circle(named(domain, sphere.off_circle), result.warnings);
     if (!faults.lost_holes.empty())
         result.warnings.push_back({WarningKind::lost_circles,
                                    counted(faults.lost_holes.size(), "loop") + " too deep for 64-bit coordinates",
@@ -372,13 +371,17 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     for (const Index f : result.turned) turned[f] = 1;
     result.uv = sphere_layout(triangles, result.points, turned, options.polygon, options.layout, result.layout);
     result.loops = loops_on_sphere(domain, map, sphere);
-    result.distortion = distortion_on_sphere(domain, sphere.points);
-    result.distortion.flipped = faults.flipped;
-    result.distortion.below_resolution = faults.below_resolution;
+    result.distortion = {distortion_on_sphere(domain, sphere.points),
+                         judge_corners(vertices, triangles, result.uv, result.turned)};
+    result.layout.flipped = result.distortion.flipped;
+    result.layout.below_resolution = result.distortion.below_resolution;
+    result.flipped_on_sphere = faults.flipped;
+    result.below_sphere_resolution = faults.below_resolution;
     result.converged = map.converged && !faults.any() && (balance.balanced || drawn || opened);
     result.sweeps = map.sweeps;
     result.changes = map.changes;
     warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
+    take_verdict({.most_lost = options.most_lost}, result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();

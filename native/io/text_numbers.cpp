@@ -36,6 +36,12 @@ const char* end_of_word(const char* here, const char* last)
     return here;
 }
 
+bool is_joined_with_next(std::string_view line)
+{
+    const std::size_t last = line.find_last_not_of(blanks);
+    return last != line.npos && line[last] == '\\' && line.find('#') == line.npos;
+}
+
 /// Neither from_chars takes a plus sign.
 std::string_view without_plus(std::string_view word)
 {
@@ -67,6 +73,17 @@ bool TextLines::next_line()
         rest_.remove_prefix(rest_.front() == '\n' ? 1 : std::min(rest_.find('\n'), rest_.size() - 1) + 1);
     begun_ = !rest_.empty();
     return begun_;
+}
+
+bool TextLines::next_statement()
+{
+    for (bool joined = begun_; joined;) {
+        if (rest_.starts_with('\n')) break;  // nearly always
+        const std::string_view line = rest_of_line();
+        joined = line.size() < rest_.size() && is_joined_with_next(line);
+        if (joined) rest_.remove_prefix(line.size() + 1);
+    }
+    return next_line();
 }
 
 std::string_view TextLines::next_word()

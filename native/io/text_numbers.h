@@ -21,6 +21,15 @@ public:
     /// Leaves what is left of this line, and goes to the next. @return false after the last
     bool next_line();
 
+    /// The same; lines that a backslash joins with this one are left too. One in a comment joins nothing.
+    bool next_statement();
+
+    /// Where the text goes on.
+    const char* here() const { return rest_.data(); }
+
+    /// What is left of this line, without its end; it stays.
+    std::string_view rest_of_line() const { return rest_.substr(0, rest_.find('\n')); }
+
     /// The next word of this line; empty at its end.
     std::string_view next_word();
 

@@ -53,7 +53,7 @@ private:
     {
         if (std::abs(a) > most_radius) return;
         const VectorXd u = sample_.u.array() - pole_distance(sample_.centers, a).array().log();
-        const double overflow = u.allFinite() ? rough_overflow(u, sample_.areas) : 6.0 * sample_.areas.sum();
+        const double overflow = u.allFinite() ? rough_overflow(u, sample_.areas) : lost_cost * sample_.areas.sum();
         if (overflow >= least_) return;
         least_ = overflow;
         best_ = a;

@@ -10,6 +10,7 @@
 #include "pipeline/cut_warnings.h"
 #include "pipeline/disk_packing.h"
 #include "pipeline/domain.h"
+#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
 
 #include <Eigen/Geometry>
@@ -111,6 +112,7 @@ private:
     UniformizeOptions options_for(std::size_t i) const
     {
         UniformizeOptions own = options_;
+        own.most_lost = 1.0;  // the verdict is on all pieces where they lie
         own.center = center_.piece == i ? center_.local : -1;
         own.point = point_.piece == i ? point_.local : -1;
         if (own.outer == OuterLoop::vertex) {
@@ -273,15 +275,18 @@ CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& 
         result.pieces[i].place = places[i];
         PieceMapper::rename(opened.pieces[i], result.pieces[i].map);
     }
-    result.distortion = sheet.distortion();
     result.uv = sheet.corners(result.face_count);
     draw_left_out(opened.left_out, triangles, result.uv);
     result.cuts = std::move(opened.cuts);
     result.left_out = std::move(opened.left_out);
+    std::vector<Index> left_out;
+    for (const LeftOutFace& out : result.left_out) left_out.push_back(out.face);
+    result.distortion = {sheet.distortion(), judge_corners(vertices, triangles, result.uv, result.turned, left_out)};
     result.handles = opened.handles;
     result.converged =
         result.converged && result.distortion.flipped.size() == result.distortion.below_resolution.size();
     result.warnings = cut_warnings(result);
+    take_verdict({.most_lost = options.most_lost, .done = true}, result);
     result.seconds.topology += opening;
     result.seconds.total = seconds_since(begin);
     result.peak_memory_mb = peak_memory_mb();

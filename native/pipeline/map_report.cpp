@@ -1,9 +1,7 @@
 #include "pipeline/map_report.h"
 
 #include "circles/circle_fit.h"
-#include "core/thread_share.h"
-#include "core/tolerances.h"
-#include "quality/stored_uv.h"
+#include "circles/off_circle.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,21 +9,15 @@
 namespace koebe {
 namespace {
 
-/// Flipped faces as a reader of the result finds them, who takes areas from the first corner of the input's faces.
-void report_flips(const Domain& whole, const PlanarPoints& uv, Distortion& distortion)
+/// As a reader of the result finds it, who takes areas from the first corner of the input's faces.
+Verdict verdict_on(const Domain& whole, const PlanarPoints& uv)
 {
-    distortion.flipped.clear();
-    distortion.below_resolution.clear();
-    const Triangles& triangles = whole.surface.triangles;
-    for (const Index f : found_in_pieces(static_cast<Index>(triangles.rows()), [&](Index i) {
-             return StoredFace(triangles, uv, i, whole.first_corners[i]).flipped();
-         })) {
-        const StoredFace face(triangles, uv, f, whole.first_corners[f]);
-        distortion.flipped.push_back(whole.original_faces[f]);
-        if (face.below_resolution()) distortion.below_resolution.push_back(whole.original_faces[f]);
+    Verdict verdict = judge_disk(whole.vertices, whole.surface.triangles, uv, whole.first_corners);
+    for (std::vector<Index>* faces : {&verdict.flipped, &verdict.below_resolution}) {
+        for (Index& f : *faces) f = whole.original_faces[f];
+        std::sort(faces->begin(), faces->end());
     }
-    std::sort(distortion.flipped.begin(), distortion.flipped.end());
-    std::sort(distortion.below_resolution.begin(), distortion.below_resolution.end());
+    return verdict;
 }
 
 LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
@@ -40,8 +32,7 @@ LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
     for (const Index v : whole.loops[k]) {
         const Complex point(map.uv(v, 0), map.uv(v, 1));
         report.vertices.push_back(whole.original[v]);
-        if (std::ranges::binary_search(map.off_circle, v) ||
-            !(std::abs(std::abs(point - report.circle.center) - report.circle.radius) <= circle_tolerance))
+        if (std::ranges::binary_search(map.off_circle, v) || is_off_circle(report.circle, point))
             report.off_circle.push_back(whole.original[v]);
         else
             points[count++] = point;
@@ -59,8 +50,8 @@ void report_map(const Domain& whole, const CircleMap& map, UniformizeResult& res
 {
     result.loops.clear();
     for (std::size_t k = 0; k < whole.loops.size(); ++k) result.loops.push_back(report_loop(whole, map, k));
-    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
-    report_flips(whole, map.uv, result.distortion);
+    result.distortion = {measure_distortion(whole.vertices, whole.surface.triangles, map.uv),
+                         verdict_on(whole, map.uv)};
     result.uv = PlanarPoints::Zero(result.vertex_count, 2);
     result.uv(whole.original, Eigen::all) = map.uv;
 }

@@ -20,6 +20,7 @@
 #include "pipeline/normalization.h"
 #include "pipeline/outer_loop.h"
 #include "pipeline/problem.h"
+#include "pipeline/take_verdict.h"
 
 #include <algorithm>
 #include <cmath>
@@ -229,6 +230,7 @@ UniformizeResult map_problem(const std::function<Problem&()>& prepare, const Uni
         result.warnings.push_back(
             faults.warning("no one-to-one map was found: ", whole.original, whole.original_faces));
     }
+    take_verdict({.most_lost = options.most_lost, .done = true}, result);
     result.seconds.finish += stage.lap();
     result.seconds.total = total.lap();
     result.peak_memory_mb = peak_memory_mb();

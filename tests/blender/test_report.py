@@ -2,12 +2,17 @@
 
 import contextlib
 import errno
+import json
 import os
 
+import balls
 import bpy
+import fingerprint
+import handles
 import numpy as np
 import pytest
 import scenes
+import tori
 from test_bad_meshes import FAN, selected
 from test_islands import add_seamed_panel
 
@@ -197,3 +202,95 @@ def test_an_error_about_many_objects_is_a_few_lines_and_the_report_has_all():
     lines = str(caught.value).strip().splitlines()
     assert len(lines) <= 8 and max(map(len, lines)) < 160 and "34 more" in lines[-1]
     assert [entry.object_name for entry in islands()] == [cube.name for cube in cubes]
+
+
+@pytest.mark.parametrize("run", ["parts", "sphere", "schottky", "torus", "ring"])
+def test_warnings_count_and_name_the_faces_of_the_mesh(run, capfd):
+    """The solver has two triangles for each quadrilateral."""
+    make = {"schottky": handles.plate_arrays, "torus": tori.torus_arrays,
+            "ring": tori.tube_arrays}.get(run, balls.ball_arrays)  # fmt: skip
+    vertices, faces = make()
+    turned = (40, 41, 42)
+    faces = [list(face)[::-1] if number in turned else face for number, face in enumerate(faces)]
+    scenes.select(scenes.add_object("Turned", vertices, faces))
+    assert getattr(bpy.ops.uv, f"koebe_{run}")() == {"FINISHED"}
+    said = "3 faces turned to the orientation of the others; the first face is 40"
+    assert said in islands()[0].message and said in capfd.readouterr().out
+
+
+def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
+    island = addon("maps.parts").Numbers(np.arange(20) // 2, np.arange(100, 120))
+    in_mesh = addon("maps.wording").in_mesh
+
+    def said(kind, elements, text):
+        made = in_mesh(island, koebe._result.Warning(kind=kind, elements=elements, text=text))
+        return made["elements"], made["text"]
+
+    assert said("flipped", [6, 7, 9], "3 faces flipped, 2 of them too small; the first face is 6") == (
+        [3, 4], "2 faces flipped, 2 triangles of them too small; the first face is 3")  # fmt: skip
+    assert said("below_resolution", [0, 1], "2 faces around vertex 7, nearest to loop 1, 1 face of them to no area") == (
+        [0], "1 face around vertex 107, nearest to loop 1, 1 triangle of them to no area")  # fmt: skip
+    assert said("off_circle", [4, 5], "2 vertices taken off the circle; the first vertex is 4") == (
+        [104, 105], "2 vertices taken off the circle; the first vertex is 104")  # fmt: skip
+    assert said("flaps", [1], "1 part of 1 face in all, the first behind the edge 3-12, hang on 4 loops") == (
+        [0], "1 part of 1 face in all, the first behind the edge 103-112, hang on 4 loops")  # fmt: skip
+
+
+# ---------------------------------------------------------------- in the file
+
+
+def saved_and_opened(path):
+    """The report's values before, and after another file was open."""
+    before = fingerprint.group(bpy.context.window_manager.koebe_uv)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=False)
+    assert not islands()  # that of a file which has none
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    after = fingerprint.group(bpy.context.window_manager.koebe_uv)
+    for report in (before, after):
+        for entry in report["islands"]:
+            del entry["history"], entry["corners"]
+    return before, after
+
+
+@pytest.mark.parametrize("run", ["uniformize", "parts", "schottky", "moebius"])
+def test_the_report_comes_back_with_the_file(tmp_path, run):
+    obj = handles.add_plate(holes=handles.HOLES) if run == "schottky" else scenes.add_panel()
+    scenes.select(obj, scenes.add_cube("Bad") if run == "uniformize" else obj)
+    if run == "moebius":
+        bpy.ops.uv.koebe_uniformize()
+        bpy.ops.uv.koebe_moebius(rim=1)
+    else:
+        getattr(bpy.ops.uv, f"koebe_{run}")(**({"cut": False} if run == "uniformize" else {}))
+    before, after = saved_and_opened(tmp_path / "file.blend")
+    assert after == before and len(before["islands"]) == 1 + (run == "uniformize")
+    if run != "parts":
+        bpy.context.window_manager.koebe_uv.active = 0
+        assert bpy.ops.uv.koebe_select_loop(loop=1) == {"FINISHED"}
+    if run == "moebius":
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert bpy.ops.uv.koebe_moebius(rotation=0.5) == {"FINISHED"}
+        assert islands()[0].moved == "moved by hand"
+
+
+def test_content_that_is_no_report_is_passed_over(addon):
+    saved, report = addon("state.saved_report"), bpy.context.window_manager.koebe_uv
+    scenes.add_panel()
+    bpy.ops.uv.koebe_uniformize()
+    text = saved.packed(report)
+    content = json.loads(text)
+
+    def changed(name, value, **others):
+        return json.dumps({**content, "islands": [{**content["islands"][0], name: value}], **others})
+
+    for damaged in (
+        "", "{", "null", "[1]", "7", text[: len(text) // 2], json.dumps({**content, "version": 2}),
+        json.dumps({"version": 1}), changed("flipped", "many"), changed("flipped", 2**40), changed("mapped", 1),
+        changed("flipped_faces", "[1, -2]"), changed("flipped_faces", "{}"), changed("cuts", "[[1, 2.5]]"),
+        changed("offenders", '["faces"]'), changed("loops", [{"uv_center": [1.0]}]), changed("loops", [3]),
+        changed("object_name", None), changed("flipped", 0, active="first"), "[" * 10**5,
+    ):  # fmt: skip
+        saved.unpack(damaged, report)
+        assert not report.islands and report.active == 0, damaged[:200]
+    saved.unpack(changed("unknown", 3), report)
+    assert len(report.islands) == 1 and saved.packed(report) == text

@@ -59,7 +59,7 @@ def assert_sphere(sphere, triangles):
     assert np.isfinite(sphere.points).all() and np.isfinite(sphere.uv).all() and np.isfinite(sphere.caps).all()
     assert np.abs(np.linalg.norm(sphere.points, axis=1) - 1).max() < 1e-12
     turned_over = np.flatnonzero(signs(sphere.points, faces) <= 0)
-    assert np.array_equal(turned_over, sphere.flipped_faces) and len(turned_over) == sphere.flipped
+    assert len(turned_over) == sphere.on_sphere["flipped"]
     for loop, cap in zip(sphere.loops, sphere.caps, strict=True):
         on = np.setdiff1d(loop["vertices"], loop["off_circle"])
         assert np.abs(sphere.points[on] @ cap[:3] - np.cos(cap[3])).max(initial=0) < 1e-14
@@ -70,10 +70,11 @@ def assert_sphere(sphere, triangles):
     areas = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     areas[sphere.turned] *= -1
     assert np.array_equal(np.flatnonzero(areas <= 0), sphere.layout["flipped"])
+    assert np.array_equal(sphere.flipped_faces, sphere.layout["flipped"]) and len(sphere.flipped_faces) == sphere.flipped
     if not sphere.converged:
         assert sphere.warnings
         return
-    assert sphere.flipped == sphere.below_resolution
+    assert sphere.on_sphere["flipped"] == sphere.on_sphere["below_resolution"]
     covered = solid_angles(*sphere.points[faces].transpose(1, 0, 2)).sum()
     for loop in sphere.loops:  # signed, round any point: a multiple of 4 pi apart
         ring = sphere.points[loop["vertices"]]
