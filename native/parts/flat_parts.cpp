@@ -1,8 +1,8 @@
 #include "parts/flat_parts.h"
 
 #include "core/connectivity.h"
-#include "core/side_by_side.h"
 #include "core/errors.h"
+#include "core/side_by_side.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
@@ -15,14 +15,14 @@
 namespace koebe {
 namespace {
 
-constexpr double square_side = 1.25;    // of the square that parts of area 1 are packed into, about
-constexpr double most_lost = 0.005;     // of a part's area, in faces without area as stored
-constexpr double lost_anyway = 1e-5;    // of the surface's area: not worth a cut
-constexpr int most_halvings = 6;        // of one part
-constexpr double most_uneven = 2.0;     // overflow over area: of one map that can be painted on
-constexpr double worth_mapping = 1.2;   // of the parts' angle error: more than that repairs do not take off one map's
-constexpr double small_error = 1.0;     // degrees: nobody sees less
-constexpr std::size_t few_faces = 8;    // a part of fewer is not cut
+constexpr double square_side = 1.25;   // of the square that parts of area 1 are packed into, about
+constexpr double most_lost = 0.005;    // of a part's area, in faces without area as stored
+constexpr double lost_anyway = 1e-5;   // of the surface's area: not worth a cut
+constexpr int most_halvings = 6;       // of one part
+constexpr double most_uneven = 2.0;    // overflow over area: of one map that can be painted on
+constexpr double worth_mapping = 1.2;  // of the parts' angle error: more than that repairs do not take off one map's
+constexpr double small_error = 1.0;    // degrees: nobody sees less
+constexpr std::size_t few_faces = 8;   // a part of fewer is not cut
 
 /// @param slit (3F) half-edges of the whole
 void prefer_slits(PartMesh& part, const std::vector<char>& slit)
@@ -95,7 +95,7 @@ FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptio
     return in_two.parts.size() > 1 && fewer(in_two.flaws, as_one.flaws) ? std::move(in_two) : std::move(as_one);
 }
 
-double angle_errors(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
+double sum_of_angle_errors(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
 {
     return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
 }
@@ -105,7 +105,7 @@ double angle_error(const std::vector<FlatPart>& parts)
 {
     double sum = 0.0, faces = 0.0;
     for (const FlatPart& part : parts) {
-        sum += angle_errors(part.vertices, part.surface.triangles, part.points);
+        sum += sum_of_angle_errors(part.vertices, part.surface.triangles, part.points);
         faces += static_cast<double>(part.faces.size());
     }
     return sum / faces;
@@ -118,7 +118,7 @@ bool hopeless_as_one(const Part& root, double error)
     if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > most_uneven * root.mesh.area) return true;
     PlanarPoints points(map.positions.size(), 2);
     points << map.positions.real(), map.positions.imag();
-    const double own = angle_errors(root.mesh.vertices, root.mesh.surface.triangles, points);
+    const double own = sum_of_angle_errors(root.mesh.vertices, root.mesh.surface.triangles, points);
     return own > worth_mapping * error * static_cast<double>(root.mesh.faces.size());
 }
 
@@ -170,7 +170,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     FlatPart one = flat_as_mapped(mesh, uv);
     const Flaws flaws = repair(one, mesh.areas, context);
     if (flaws.any() && !fewer(flaws, parts.flaws)) return {};
-    const double own = angle_errors(one.vertices, one.surface.triangles, one.points);
+    const double own = sum_of_angle_errors(one.vertices, one.surface.triangles, one.points);
     if (!parts.flaws.any() && own >= error * static_cast<double>(one.faces.size())) return {};
     return one;
 }
