@@ -10,7 +10,8 @@ The last form maps a library: every file by a Blender of its own, what is done a
 command `koebe batch --blender`, which the native module brings, and has its exit codes.
 
 Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage, 3 the file cannot be read or an
-object cannot be mapped (no OUT), 4 not converged, or too much of the area lost (OUT is written; what is lost keeps its UVs), 130 interrupted (nothing is written).
+object cannot be mapped (no OUT), 4 not converged, or too much of the area lost (OUT is written, what is lost keeps its
+UVs), 130 interrupted (nothing is written).
 OUT and the report are written to temporary files and renamed: each is whole or absent. There is a report with 0, 3 and
 4, and where the native module is missing. With 3 its `error` says why.
 """
@@ -68,8 +69,8 @@ import bpy  # noqa: E402
 from koebe_uv_batch.blender.errors import TransferError  # noqa: E402
 from koebe_uv_batch.blender.mesh_object import MeshObject  # noqa: E402
 from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, Request, parse  # noqa: E402
-from koebe_uv_batch.headless.flags import in_flags  # noqa: E402
 from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
+from koebe_uv_batch.headless.flags import in_flags  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
 from koebe_uv_batch.jobs.domain_job import SchottkyJob, SphereJob  # noqa: E402

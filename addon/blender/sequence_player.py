@@ -58,7 +58,8 @@ class _Builder:
     """Nodes in a row, each made with what it is fed."""
 
     def __init__(self) -> None:
-        self.tree: Any = bpy.data.node_groups.new(NAME, "GeometryNodeTree")
+        groups: Any = bpy.data.node_groups
+        self.tree: Any = groups.new(NAME, "GeometryNodeTree")
 
     def node(self, kind: str, output: str | None, fed: dict[str | int, Any] | None = None, **values: Any) -> Any:
         """A node's output of that name, or None; `fed` are values or outputs by the names or numbers of inputs."""
@@ -128,7 +129,7 @@ def _attribute_name(build: _Builder, prefix: str, frames: range) -> Any:
         "FunctionNodeSliceString", "String",
         {"String": build.replaced(f"{zeros}#", "#", digits), "Position": position, "Length": width},
     )  # fmt: skip
-    mark = next(chr(code) for code in range(ord("#"), ord("~")) if chr(code) not in prefix)  # which has 63 bytes at most
+    mark = next(chr(code) for code in range(ord("#"), ord("~")) if chr(code) not in prefix)  # of 63 bytes at most
     pattern = build.node(
         "GeometryNodeSwitch", "Output", {"Switch": is_negative, "False": f"{prefix}{mark}", "True": f"{prefix}-{mark}"},
         input_type="STRING",

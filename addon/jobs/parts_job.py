@@ -44,11 +44,11 @@ class PartsJob(Job):
             done += share
         self.outcomes = outcomes
 
-    def line(self, outcome: PartsOutcome) -> str:  # type: ignore[override]
+    def line(self, outcome: PartsOutcome) -> str:
         """One line on an object."""
         return outcome.line()
 
-    def entries(self, outcome: PartsOutcome) -> list[dict[str, Any]]:  # type: ignore[override]
+    def entries(self, outcome: PartsOutcome) -> list[dict[str, Any]]:
         """The entry of the JSON report."""
         return [json_report.parts_entry(outcome)]
 

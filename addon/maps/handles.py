@@ -95,7 +95,8 @@ def _map(
     try:
         result = koebe.schottky_map(
             island.vertices, island.triangles, normalization=choice.normalization, tolerance=choice.tolerance,
-            max_sweeps=choice.max_sweeps, most_lost=choice.most_lost, polygon=island.triangle_face, progress=progress, cancel=cancel,
+            max_sweeps=choice.max_sweeps, most_lost=choice.most_lost, polygon=island.triangle_face,
+            progress=progress, cancel=cancel,
         )  # fmt: skip
     except koebe.TopologyError as error:
         if kind_of(error) != "genus":

@@ -20,8 +20,8 @@ from .options import Options
 from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task
 from .packing import Placement, fit_placement, pack_disks
 from .side_by_side import Unit, side_by_side
-from .surface import Island
 from .stored import SERVES, judge, lost_text, turned_of
+from .surface import Island
 from .symmetry import make_symmetric
 from .triangles import areas, flipped_triangles, signed_areas
 from .tube import unroll

@@ -187,9 +187,11 @@ class Numbers(Protocol):
 
 # Where a warning's sentence counts faces or vertices, or names a vertex; a loop keeps its number.
 _COUNTS = re.compile(r"\b(\d+) (face|vertex)(?:s|\b)|\b(\d+) vertices\b|\b(\d+)(?= of them too small\b)")
-_NAMES = re.compile(r"(?<=\bvertex )\d+|(?<=\bedge )\d+(?=-)|(?<=\d-)\d+|(?<=the circle, the first )\d+|"
-                    r"(?<=a place, the first is )\d+|(?<=the disk, the first is )\d+|(?<=at vertices, the first is )\d+")
-_FIRST = re.compile(r"(?<=the first face is )\d+|(?<=the first vertex is )\d+")  # fmt: skip
+_NAMES = re.compile(
+    r"(?<=\bvertex )\d+|(?<=\bedge )\d+(?=-)|(?<=\d-)\d+|(?<=the circle, the first )\d+|"
+    r"(?<=a place, the first is )\d+|(?<=the disk, the first is )\d+|(?<=at vertices, the first is )\d+"
+)
+_FIRST = re.compile(r"(?<=the first face is )\d+|(?<=the first vertex is )\d+")
 
 
 def in_mesh(numbers: Numbers, warning: "koebe.Warning") -> dict[str, Any]:

@@ -195,7 +195,7 @@ class UniformizeProperties:
 
 
 OPTION_NAMES = tuple(UniformizeProperties.__annotations__)
-ACCURACY_NAMES = ("method", "engine", "tolerance", "max_sweeps", "most_lost")  # what most runs leave alone, and so comes last
+ACCURACY_NAMES = ("method", "engine", "tolerance", "max_sweeps", "most_lost")  # which most runs leave alone
 
 
 def option(name: str) -> Any:

@@ -189,7 +189,8 @@ def record_parts(
     with _new_report(run, context, refused) as report:
         for outcome in outcomes:
             if outcome.failed or outcome.not_written:
-                _record_failure(report, outcome.name, failure_line(outcome), " ".join(getattr(outcome.error, "offer", ())))
+                offer = " ".join(getattr(outcome.error, "offer", ()))
+                _record_failure(report, outcome.name, failure_line(outcome), offer)
             for result in outcome.mapped:
                 entry = report.islands.add()
                 entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)

@@ -119,7 +119,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     put_in_place(whole, map);
     // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
     const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
-    report_map(whole, map, result);
+    report_map(vertices, triangles, whole, map, result);
 
     if (!result.converged) result.warnings.push_back({WarningKind::not_converged, "not converged: " + flow.reason});
     if (flow.packing_change > worth_a_warning)

@@ -381,7 +381,9 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     result.sweeps = map.sweeps;
     result.changes = map.changes;
     warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
-    take_verdict({.most_lost = options.most_lost}, result);
+    take_verdict(
+        {.most_lost = options.most_lost, .advice = "Finer faces, the other layout or parts (koebe parts) lose less"},
+        result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();

@@ -34,7 +34,7 @@ FileLosses losses_of_all(const MeshFile& filed, bool with_uvs)
     return losses;
 }
 
-std::vector<Warning> warnings_of(const FileLosses& losses)
+std::vector<Warning> loss_warnings(const FileLosses& losses)
 {
     std::vector<Warning> warnings;
     if (losses.texture_coordinates)

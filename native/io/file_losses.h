@@ -19,6 +19,6 @@ struct FileLosses {
 FileLosses losses_of_all(const MeshFile& filed, bool with_uvs);
 
 /// @param moved whether the vertices lie elsewhere
-std::vector<Warning> warnings_of(const FileLosses& losses);
+std::vector<Warning> loss_warnings(const FileLosses& losses);
 
 }  // namespace koebe::io

@@ -39,7 +39,7 @@ FiledPly ply_of(const FiledMesh& filed)
 /// @param losses where the format is kept
 std::vector<Warning> warnings_after(const FiledMesh& filed, WrittenFormat format, const io::FileLosses& losses)
 {
-    return warnings_of(has_format(filed, format) ? losses : io::losses_of_all(filed.file, true));
+    return loss_warnings(has_format(filed, format) ? losses : io::losses_of_all(filed.file, true));
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ std::vector<Warning> write_with_patches(AtomicFile& file, WrittenFormat format, 
             names.push_back("patch_" + std::to_string(k));
         write_obj_with_groups(file, mesh, group, names, obj_of(filed), turned);
     }
-    return kept ? std::vector<Warning>{} : warnings_of(io::losses_of_all(filed.file, false));
+    return kept ? std::vector<Warning>{} : loss_warnings(io::losses_of_all(filed.file, false));
 }
 
 }  // namespace koebe

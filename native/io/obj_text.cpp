@@ -11,7 +11,6 @@ namespace koebe::io {
 namespace {
 
 constexpr std::string_view own_comment = "# Koebe UV ";  // of an earlier run; the writer adds its own
-constexpr std::string_view blanks = " \t\r\v\f";
 
 /// What a statement is about, as bits.
 enum Content : unsigned {
@@ -44,10 +43,9 @@ std::vector<std::string_view> pieces_of_text(std::string_view text)
     while (!text.empty()) {
         std::size_t end = std::min(least_bytes, text.size());
         for (bool joined = true; joined && end < text.size();) {
+            const std::size_t begin = text.rfind('\n', end - 1) + 1;
             end = std::min(text.find('\n', end), text.size() - 1) + 1;
-            const std::string_view lines = text.substr(0, end - 1);
-            const std::size_t last = lines.find_last_not_of(blanks);
-            joined = last != lines.npos && lines[last] == '\\';
+            joined = joins_next_line(text.substr(begin, end - 1 - begin));
         }
         pieces.push_back(text.substr(0, end));
         text.remove_prefix(end);

@@ -36,12 +36,6 @@ const char* end_of_word(const char* here, const char* last)
     return here;
 }
 
-bool is_joined_with_next(std::string_view line)
-{
-    const std::size_t last = line.find_last_not_of(blanks);
-    return last != line.npos && line[last] == '\\' && line.find('#') == line.npos;
-}
-
 /// Neither from_chars takes a plus sign.
 std::string_view without_plus(std::string_view word)
 {
@@ -67,6 +61,12 @@ bool to_number(std::string_view word, Index& number)
     return !word.empty() && end == last && error == std::errc();
 }
 
+bool joins_next_line(std::string_view line)
+{
+    const std::size_t last = line.find_last_not_of(blanks);
+    return last != line.npos && line[last] == '\\' && line.find('#') == line.npos;
+}
+
 bool TextLines::next_line()
 {
     if (begun_ && !rest_.empty())
@@ -80,7 +80,7 @@ bool TextLines::next_statement()
     for (bool joined = begun_; joined;) {
         if (rest_.starts_with('\n')) break;  // nearly always
         const std::string_view line = rest_of_line();
-        joined = line.size() < rest_.size() && is_joined_with_next(line);
+        joined = line.size() < rest_.size() && joins_next_line(line);
         if (joined) rest_.remove_prefix(line.size() + 1);
     }
     return next_line();

@@ -15,14 +15,15 @@
 namespace koebe {
 namespace {
 
-constexpr double square_side = 1.25;   // of the square that parts of area 1 are packed into, about
-constexpr double most_lost = 0.005;    // of a part's area, in faces without area as stored
-constexpr double lost_anyway = 1e-5;   // of the surface's area: not worth a cut
-constexpr int most_halvings = 6;       // of one part
-constexpr double most_uneven = 2.0;    // overflow over area: of one map that can be painted on
-constexpr double worth_mapping = 1.2;  // of the parts' angle error: more than that repairs do not take off one map's
-constexpr double small_error = 1.0;    // degrees: nobody sees less
-constexpr std::size_t few_faces = 8;   // a part of fewer is not cut
+constexpr double square_side = 1.25;     // of the square that parts of area 1 are packed into, about
+constexpr double most_lost = 0.005;      // of a part's area, in faces without area as stored
+constexpr double lost_anyway = 1e-5;     // of the surface's area: not worth a cut
+constexpr int most_halvings = 6;         // of one part
+constexpr double most_uneven = 2.0;      // overflow over area: of one map that can be painted on
+constexpr double worth_repairing = 1.2;  // of the parts' angle error: more than that repairs do not take off one map's
+constexpr double small_error = 1.0;      // degrees: nobody sees less
+constexpr double large_error = 10.0;     // degrees: of a surface so crumpled that a map not repaired tells little of it
+constexpr std::size_t few_faces = 8;     // a part of fewer is not cut
 
 /// @param slit (3F) half-edges of the whole
 void prefer_slits(PartMesh& part, const std::vector<char>& slit)
@@ -119,7 +120,7 @@ bool hopeless_as_one(const Part& root, double error)
     PlanarPoints points(map.positions.size(), 2);
     points << map.positions.real(), map.positions.imag();
     const double own = sum_of_angle_errors(root.mesh.vertices, root.mesh.surface.triangles, points);
-    return own > worth_mapping * error * static_cast<double>(root.mesh.faces.size());
+    return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
                                       ExecutionContext& context)
 {
     const double error = angle_error(parts.parts);
-    const bool is_cut = root != nullptr && parts.parts.size() > 1;
+    const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < large_error;
     if (!parts.flaws.any() && (error < small_error || (is_cut && hopeless_as_one(*root, error)))) return {};
     std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
     std::iota(faces.begin(), faces.end(), 0);

@@ -9,17 +9,6 @@
 namespace koebe {
 namespace {
 
-/// As a reader of the result finds it, who takes areas from the first corner of the input's faces.
-Verdict verdict_on(const Domain& whole, const PlanarPoints& uv)
-{
-    Verdict verdict = judge_disk(whole.vertices, whole.surface.triangles, uv, whole.first_corners);
-    for (std::vector<Index>* faces : {&verdict.flipped, &verdict.below_resolution}) {
-        for (Index& f : *faces) f = whole.original_faces[f];
-        std::sort(faces->begin(), faces->end());
-    }
-    return verdict;
-}
-
 LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
 {
     LoopReport report;
@@ -46,14 +35,15 @@ LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
 
 }  // namespace
 
-void report_map(const Domain& whole, const CircleMap& map, UniformizeResult& result)
+void report_map(const Vertices& vertices, const Triangles& triangles, const Domain& whole, const CircleMap& map,
+                UniformizeResult& result)
 {
     result.loops.clear();
     for (std::size_t k = 0; k < whole.loops.size(); ++k) result.loops.push_back(report_loop(whole, map, k));
-    result.distortion = {measure_distortion(whole.vertices, whole.surface.triangles, map.uv),
-                         verdict_on(whole, map.uv)};
     result.uv = PlanarPoints::Zero(result.vertex_count, 2);
     result.uv(whole.original, Eigen::all) = map.uv;
+    result.distortion = {measure_distortion(whole.vertices, whole.surface.triangles, map.uv),
+                         judge_disk(vertices, triangles, result.uv, whole.surface.reoriented)};
 }
 
 }  // namespace koebe

@@ -131,7 +131,8 @@ void rename(std::vector<Index>& numbers, const std::vector<Index>& names)
 
 }  // namespace
 
-UniformizeResult map_problem(const std::function<Problem&()>& prepare, const UniformizeOptions& options,
+UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangles,
+                             const std::function<Problem&()>& prepare, const UniformizeOptions& options,
                              ExecutionContext& context)
 {
     UniformizeResult result;
@@ -211,7 +212,7 @@ UniformizeResult map_problem(const std::function<Problem&()>& prepare, const Uni
             measure_distortion(whole.vertices, whole.surface.triangles, map->uv).angle_error_deg;
         polish(whole, *map, faults, context);
     }
-    report_map(whole, *map, result);
+    report_map(vertices, triangles, whole, *map, result);
     if (!options.vertex_names.empty()) rename(problem.whole.original, options.vertex_names);
     if (!options.face_names.empty()) rename(problem.whole.original_faces, options.face_names);
     append(result.warnings, circle_warnings(*map));
@@ -242,8 +243,9 @@ UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& tria
                                  ExecutionContext& context)
 {
     Problem problem;
-    return map_problem([&]() -> Problem& { return problem = prepare_problem(vertices, triangles, options); }, options,
-                       context);
+    return map_problem(
+        vertices, triangles, [&]() -> Problem& { return problem = prepare_problem(vertices, triangles, options); },
+        options, context);
 }
 
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,

@@ -9,24 +9,16 @@
 namespace koebe {
 namespace {
 
-/// A face in the order in which a reader goes round it.
-struct ReadFace {
-    StoredFace stored;
-    std::array<int, 3> corners;
-    bool mapped = true;
-};
-
 /// What some faces add to the verdict.
 struct VerdictSums {
     AngleSums angles;
     double area = 0.0, lost = 0.0;
     std::vector<Index> flipped, below_resolution;
 
-    void add(Index f, const ReadFace& face, const FlatTriangle& flat)
+    void add(Index f, const StoredFace& stored, bool mapped, const FlatTriangle& flat)
     {
-        const StoredFace& stored = face.stored;
         area += flat.area();
-        if (!face.mapped) {
+        if (!mapped) {
             if (!(stored.area() != 0.0)) lost += flat.area();
             return;
         }
@@ -48,19 +40,23 @@ std::vector<char> mask_of(const std::vector<Index>& faces, Eigen::Index count)
     return mask;
 }
 
-/// @param read the ReadFace of a face
-template <class Read>
-Verdict judge_faces(const Vertices& vertices, const Triangles& triangles, const Read& read)
+/// @param point the StoredPoint of a face's corner
+template <class Point>
+Verdict judge_faces(const Vertices& vertices, const Triangles& triangles, const Point& point,
+                    const std::vector<Index>& turned, const std::vector<Index>& left_out)
 {
     constexpr std::size_t at_a_time = 65536;
     const std::size_t faces = static_cast<std::size_t>(triangles.rows());
     const FlatFaces flat(vertices, triangles);
+    const std::vector<char> is_turned = mask_of(turned, triangles.rows()), is_out = mask_of(left_out, triangles.rows());
     std::vector<VerdictSums> parts((faces + at_a_time - 1) / at_a_time);
     in_pieces(faces, at_a_time, [&](std::size_t begin, std::size_t end) {
         VerdictSums sums;
         for (std::size_t f = begin; f < end; ++f) {
-            const ReadFace face = read(static_cast<Index>(f));
-            sums.add(static_cast<Index>(f), face, flat(static_cast<Eigen::Index>(f), face.corners));
+            const Index own = static_cast<Index>(f);
+            const std::array<int, 3> order = is_turned[f] != 0 ? std::array{0, 2, 1} : std::array{0, 1, 2};
+            const StoredFace stored(point(own, order[0]), point(own, order[1]), point(own, order[2]));
+            sums.add(own, stored, is_out[f] == 0, flat(own, order));
         }
         parts[begin / at_a_time] = std::move(sums);
     });
@@ -84,23 +80,17 @@ Verdict judge_faces(const Vertices& vertices, const Triangles& triangles, const 
 Verdict judge_corners(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
                       const std::vector<Index>& turned, const std::vector<Index>& left_out)
 {
-    const std::vector<char> is_turned = mask_of(turned, triangles.rows()), is_out = mask_of(left_out, triangles.rows());
-    return judge_faces(vertices, triangles, [&](Index f) {
-        const std::array<int, 3> corners = is_turned[f] != 0 ? std::array{0, 2, 1} : std::array{0, 1, 2};
-        const auto point = [&](int k) {
-            return StoredPoint{as_stored(uv(3 * f + k, 0)), as_stored(uv(3 * f + k, 1))};
-        };
-        return ReadFace{{point(corners[0]), point(corners[1]), point(corners[2])}, corners, is_out[f] == 0};
-    });
+    const auto point = [&](Index f, int k) {
+        return StoredPoint{as_stored(uv(3 * f + k, 0)), as_stored(uv(3 * f + k, 1))};
+    };
+    return judge_faces(vertices, triangles, point, turned, left_out);
 }
 
 Verdict judge_disk(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points,
-                   const std::vector<char>& first_corners)
+                   const std::vector<Index>& turned)
 {
-    return judge_faces(vertices, triangles, [&](Index f) {
-        const int first = first_corners.empty() ? 0 : first_corners[static_cast<std::size_t>(f)];
-        return ReadFace{StoredFace(triangles, points, f, first), {first, (first + 1) % 3, (first + 2) % 3}};
-    });
+    const auto point = [&](Index f, int k) { return stored_point(points, triangles(f, k)); };
+    return judge_faces(vertices, triangles, point, turned, {});
 }
 
 std::vector<Index> flipped_faces(const Triangles& triangles, const PlanarPoints& points)

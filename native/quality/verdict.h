@@ -33,9 +33,9 @@ KOEBE_API Verdict judge_corners(const Vertices& vertices, const Triangles& trian
                                 const std::vector<Index>& turned = {}, const std::vector<Index>& left_out = {});
 
 /// The same of a map of the vertices into the unit disk, u = (1 + x) / 2, v = (1 + y) / 2.
-/// @param points (V, 2) @param first_corners (F) of each face the corner that a reader starts from; empty: the first
+/// @param points (V, 2) @param turned as of judge_corners
 KOEBE_API Verdict judge_disk(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points,
-                             const std::vector<char>& first_corners = {});
+                             const std::vector<Index>& turned = {});
 
 /// The flipped faces of a map of the vertices into the unit disk.
 std::vector<Index> flipped_faces(const Triangles& triangles, const PlanarPoints& points);

@@ -228,12 +228,91 @@ def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
 
     assert said("flipped", [6, 7, 9], "3 faces flipped, 2 of them too small; the first face is 6") == (
         [3, 4], "2 faces flipped, 2 triangles of them too small; the first face is 3")  # fmt: skip
-    assert said("below_resolution", [0, 1], "2 faces around vertex 7, nearest to loop 1, 1 face of them to no area") == (
-        [0], "1 face around vertex 107, nearest to loop 1, 1 triangle of them to no area")  # fmt: skip
+    assert said("below_resolution", [0, 1], "2 faces around vertex 7, near loop 1, 1 face of them to no area") == (
+        [0], "1 face around vertex 107, near loop 1, 1 triangle of them to no area")  # fmt: skip
     assert said("off_circle", [4, 5], "2 vertices taken off the circle; the first vertex is 4") == (
         [104, 105], "2 vertices taken off the circle; the first vertex is 104")  # fmt: skip
     assert said("flaps", [1], "1 part of 1 face in all, the first behind the edge 3-12, hang on 4 loops") == (
         [0], "1 part of 1 face in all, the first behind the edge 103-112, hang on 4 loops")  # fmt: skip
+
+
+# ---------------------------------------------------------------- what is lost
+
+
+def fingered(run):
+    """An object of the right kind, with a limb so long that its end has no area in one map's UVs."""
+    points, faces = {"schottky": handles.plate_arrays, "torus": tori.torus_arrays, "ring": tori.tube_arrays}.get(
+        run, balls.ball_arrays)()  # fmt: skip
+    points, faces = tori.with_finger(np.asarray(points), [list(face) for face in faces], 60, length=60)
+    obj = scenes.add_object("Limb", points, faces)
+    scenes.select(obj)
+    return obj
+
+
+@pytest.mark.parametrize("run", ["schottky", "torus", "ring", "sphere"])
+def test_a_map_that_loses_a_limb_is_not_done(run):
+    obj = fingered(run)
+    operator = getattr(bpy.ops.uv, f"koebe_{run}")
+    before = fingerprint.fingerprint()
+    with pytest.raises(RuntimeError, match=r"Limb: \d+(\.\d+)? % of its area is lost.*Unwrap to Parts"):
+        operator()
+    assert fingerprint.differences(before, fingerprint.fingerprint()) == ["file: report"]
+    (entry,) = islands()
+    assert not entry.mapped and entry.offer == "parts"
+    lost = json.loads(entry.offenders)[1]
+    assert operator(most_lost=1.0, checker=False) == {"FINISHED"}
+    areas = shoelace(obj)
+    assert set(np.flatnonzero(areas <= 0.0)) <= set(lost) and islands()[0].flipped >= len(lost) > 0
+
+
+def shoelace(obj):
+    """UV areas of the faces, twice over."""
+    uv = scenes.corner_uv(obj.data, "Koebe").astype(float)
+    return np.array([
+        sum(uv[i][0] * uv[j][1] - uv[j][0] * uv[i][1] for i, j in zip(loops, [*loops[1:], loops[0]]))
+        for loops in (list(face.loop_indices) for face in obj.data.polygons)
+    ])  # fmt: skip
+
+
+def test_one_map_of_a_limb_is_written_and_says_first_what_is_lost(capfd):
+    obj = fingered("ring")
+    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert islands()[0].message.split(" ", 1)[1].startswith("% of its area is lost: ")
+    out = capfd.readouterr().out
+    assert out.index("Warning: Limb: LOST ") < out.index("of its area is lost") and "Koebe" in obj.data.uv_layers
+
+
+def test_parts_that_lose_too_much_are_not_done(koebe, monkeypatch):
+    scenes.select(scenes.add_cube())
+    parts = koebe.parts
+
+    def losing(*arguments, **options):
+        result = parts(*arguments, **options)
+        result.lost_area, result.flipped_faces = 0.5, np.arange(6, dtype=np.int32)
+        return result
+
+    monkeypatch.setattr(koebe, "parts", losing)
+    before = fingerprint.fingerprint()
+    with pytest.raises(RuntimeError, match="50 % of its area is lost.*Koebe Uniformize serves here"):
+        bpy.ops.uv.koebe_parts()
+    assert fingerprint.differences(before, fingerprint.fingerprint()) == ["file: report"]
+    assert islands()[0].offer == "uniformize" and not islands()[0].mapped
+
+
+def test_figures_are_those_of_the_stored_uvs(koebe):
+    """Of many islands in one square, each of which is small there."""
+    vertices, faces = scenes.panel_arrays()
+    count, copies = len(vertices), 150
+    points = np.concatenate([np.asarray(vertices) + (3.0 * k, 0, 0) for k in range(copies)])
+    obj = scenes.add_object("Many", points, [[v + k * count for v in face] for k in range(copies) for face in faces])
+    scenes.select(obj)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    corner_vertex, corners = scenes.triangles(obj.data)
+    chosen = (corner_vertex < count).all(axis=1)
+    uv = scenes.corner_uv(obj.data, "Koebe")[corners[chosen]].reshape(-1, 2).astype(float)
+    apart = np.arange(len(uv), dtype=np.int32).reshape(-1, 3)
+    expected = koebe.distortion(points[corner_vertex[chosen].ravel()], apart, 2.0 * uv - 1.0)
+    assert islands()[0].angle_error == pytest.approx(expected["angle_error_stored_deg"]["mean"], rel=1e-5)
 
 
 # ---------------------------------------------------------------- in the file

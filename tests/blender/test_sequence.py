@@ -406,7 +406,7 @@ def test_where_nothing_changes_one_map_is_written_and_that_is_said(capfd, moves)
         bpy.context.scene.frame_set(7)
     assert unwrap() == {"FINISHED"}
     assert "nothing moves" in capfd.readouterr().out
-    assert [name for name in obj.data.attributes.keys() if name.startswith("Koebe_")] == ["Koebe_0001"]
+    assert [one.name for one in obj.data.attributes if one.name.startswith("Koebe_")] == ["Koebe_0001"]
     assert not obj.modifiers and len(entries()) == 1
     corner = scenes.read(obj.data.loops, "vertex_index", np.int32)
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), vectors(obj, "Koebe_0001")[corner, :2])

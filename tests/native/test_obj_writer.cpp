@@ -134,11 +134,11 @@ TEST(ObjWriter, TextsOfManyPiecesKeepTheirStatements)
     }
     for (Index i = 0; i < count; ++i) expected += "vt 0.5 0.5\n";
     for (Index i = 3; i <= count; ++i) {
-        const std::string a = std::to_string(i), b = std::to_string(i - 1), c = std::to_string(i - 2);
-        text += "usemtl " + a + "\nf " + a + "/1/-1 -2/1/" + a + " \\\n" + c + "//" + c + "\nvn 1 0 0\n";
-        expected += "usemtl " + a + "\nf " + a + '/' + a + '/' + std::to_string(count + i - 3) + ' ';
+        const std::string a = std::to_string(i), c = std::to_string(i - 2);
+        text += "f " + a + "/1/-1 -2/1/" + a + " \\\n" + c + "//" + c + "\nusemtl " + a + "\nvn 1 0 0\n";
+        expected += "f " + a + '/' + a + '/' + std::to_string(count + i - 3) + ' ';
         expected += std::to_string(count - 1) + '/' + std::to_string(count - 1) + '/' + a + ' ';
-        expected += c + '/' + c + '/' + c + "\nvn 1 0 0\n";
+        expected += c + '/' + c + '/' + c + "\nusemtl " + a + "\nvn 1 0 0\n";
     }
     for (const int threads : {1, 3}) {
         const ThreadShare share(threads);
