@@ -36,7 +36,7 @@ Content content_of(std::string_view keyword)
 }
 
 /// Pieces of whole statements.
-std::vector<std::string_view> pieces_of(std::string_view text)
+std::vector<std::string_view> pieces_of_text(std::string_view text)
 {
     constexpr std::size_t least_bytes = std::size_t{1} << 20;
     std::vector<std::string_view> pieces;
@@ -275,7 +275,7 @@ private:
 
 ObjText::ObjText(std::string_view text)
 {
-    const std::vector<std::string_view> texts = pieces_of(text);
+    const std::vector<std::string_view> texts = pieces_of_text(text);
     std::vector<Scan> scans(texts.size());
     in_pieces(texts.size(), 1, [&](std::size_t i, std::size_t) { scans[i] = Scan(texts[i]); });
     unsigned contents = nothing;

@@ -54,7 +54,7 @@ std::vector<int> grown(const CutSurface& whole, std::vector<int> label)
 }
 
 /// (F) connected pieces of one label.
-std::vector<Index> pieces_of(const CutSurface& whole, const std::vector<int>& label, std::vector<double>& area)
+std::vector<Index> pieces_by_label(const CutSurface& whole, const std::vector<int>& label, std::vector<double>& area)
 {
     std::vector<Index> piece(label.size(), -1), queue;
     area.clear();
@@ -98,7 +98,7 @@ void join_pieces(const CutSurface& whole, std::vector<int>& label, int count)
 {
     for (std::size_t round = 0; round < label.size(); ++round) {
         std::vector<double> area;
-        const std::vector<Index> piece = pieces_of(whole, label, area);
+        const std::vector<Index> piece = pieces_by_label(whole, label, area);
         std::vector<Index> largest(count, -1);
         std::vector<int> label_of(area.size());
         for (std::size_t f = 0; f < label.size(); ++f) label_of[piece[f]] = label[f];
