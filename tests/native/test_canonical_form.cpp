@@ -129,7 +129,7 @@ TEST(CanonicalMesh, takes_any_mesh_there_and_back_whatever_its_numbers_and_place
     // Two components, one with every third face turned over; a face twice, and one that names a vertex twice.
     const Mesh one = uneven_mesh();
     Mesh both{Vertices(2 * one.vertices.rows(), 3), Triangles(2 * one.triangles.rows() + 2, 3)};
-    both.vertices << one.vertices, 0.1 * one.vertices.rowwise() + Eigen::RowVector3d(5.0, 1.0, 0.0);
+    both.vertices << one.vertices, (0.1 * one.vertices).rowwise() + Eigen::RowVector3d(5.0, 1.0, 0.0);
     both.triangles << one.triangles, one.triangles.array() + static_cast<Index>(one.vertices.rows()),
         one.triangles.row(7), one.triangles.row(8);
     both.triangles(both.triangles.rows() - 1, 2) = both.triangles(both.triangles.rows() - 1, 0);
