@@ -9,7 +9,6 @@
 // The unit of time is what any linear conformal map costs at least: assemble the cotan Laplacian, order it by AMD,
 // factor it (supernodal) and solve for two columns.
 #include "circle_domain.h"
-#include "cli/fast_kernels.h"
 #include "core/topology.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
@@ -126,7 +125,6 @@ double circle_error(const Input& input, const UniformizeResult& result)
 
 int main(int argc, char** argv)
 {
-    cli::restart_with_fast_kernels(argv);
     if (argc != 5) {
         std::cerr << "usage: koebe_bench MESH RUNS condensed|mesh gk|ck\n";
         return 2;

@@ -9,7 +9,6 @@
 // relative error of an inversive distance, which no Moebius map changes, against the circles after the same step of the
 // last sweep (the limits of the steps of a sweep differ by the discretization), "exact_error" against the domain's own.
 #include "circle_domain.h"
-#include "cli/fast_kernels.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 #include "pipeline/uniformize.h"
@@ -146,7 +145,6 @@ nlohmann::ordered_json steps_on_file(const std::string& path, const std::string&
 
 int main(int argc, char** argv)
 {
-    cli::restart_with_fast_kernels(argv);
     const std::vector<std::string> words(argv + 1, argv + argc);
     try {
         if (words.size() == 4 && words[0] == "surface")

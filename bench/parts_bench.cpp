@@ -5,7 +5,6 @@
 // MESH is a file; TIMES:FILE for each of its faces cut in four so many times; islands:COUNT for so many
 // small plates, whose one map is that with cuts.
 // Seconds are of the clock and, in brackets, of the processor, the least of the runs.
-#include "cli/fast_kernels.h"
 #include "core/errors.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
@@ -147,7 +146,6 @@ void compare(const std::string& name, int runs)
 
 int main(int argc, char** argv)
 {
-    cli::restart_with_fast_kernels(argv);
     if (argc < 3) {
         std::fputs("usage: parts_bench RUNS MESH...\n", stderr);
         return 2;

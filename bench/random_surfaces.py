@@ -352,3 +352,78 @@ def make(kind, seed):
     rng = np.random.default_rng([sorted(KINDS).index(kind), seed])
     points, faces = KINDS[kind](rng)
     return bordered_part(points, faces) if len(faces) else None
+
+
+# ---------------------------------------------------------------- for the other domains
+
+
+def closed(rng):
+    """A sphere with all its faces, now and then with limbs."""
+    points = rng.normal(size=(int(rng.choice([6, 8, 13, 20, 50, 150, 400])), 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    faces = convex_hull(points)
+    if rng.random() < 0.5:
+        points = points * rng.choice([1, 3, 10], 3)
+    for _ in range(rng.integers(3)):
+        points[rng.integers(len(points))] *= rng.choice([2, 5])
+    return points, faces
+
+
+def tori(rng, holes=True):
+    """A torus of uneven rings, now and then with holes."""
+    around, along = (int(n) for n in rng.integers(5, 24, 2))
+    i, j = (part.ravel() for part in np.meshgrid(np.arange(around), np.arange(along), indexing="ij"))
+    u = 2 * np.pi * (i + 0.3 * rng.random(i.shape)) / around
+    v = 2 * np.pi * (j + 0.3 * rng.random(i.shape)) / along
+    radius = rng.choice([1.5, 3, 8]) + np.cos(v) * (1 + 0.2 * np.sin(3 * u))
+    points = np.column_stack([radius * np.cos(u), radius * np.sin(u), np.sin(v)])
+    a, b = i * along + j, i * along + (j + 1) % along
+    c, d = (i + 1) % around * along + (j + 1) % along, (i + 1) % around * along + j
+    faces = np.concatenate([np.column_stack([a, d, b]), np.column_stack([d, c, b])])
+    return points, without_some(faces, rng) if holes and rng.random() < 0.5 else faces
+
+
+def doubled(rng):
+    """Two sheets, their loops joined by walls: a handle for each loop but one; now and then with holes."""
+    x, y = np.meshgrid(np.arange(15.0), np.arange(15.0))
+    plane = np.column_stack([x.ravel(), y.ravel()]) + 0.2 * rng.random((225, 2))
+    faces = delaunay(plane)
+    spots = 7 + 4 * np.array([[-1, -1], [1, -1], [-1, 1], [1, 1]])[rng.permutation(4)[: rng.integers(1, 4)]]
+    away = np.linalg.norm(plane[faces].mean(axis=1)[:, None] - spots[None], axis=2).min(axis=1)
+    above, faces = bordered_part(np.column_stack([plane, 0 * plane[:, 0]]), faces[away > 1.6])
+    below = above.copy()
+    above[:, 2] += 1 + 0.5 * rng.random(len(above))
+    below[:, 2] -= 1 + 0.5 * rng.random(len(below))
+    there = {(face[k], face[(k + 1) % 3]) for face in faces.tolist() for k in range(3)}
+    a, b = np.array(sorted(edge for edge in there if edge[::-1] not in there)).T
+    n = len(above)
+    walls = np.concatenate([np.column_stack([b, a, a + n]), np.column_stack([a + n, b + n, b])])
+    faces = np.concatenate([faces, faces[:, ::-1] + n, walls])
+    return np.concatenate([above, below]), without_some(faces, rng) if rng.random() < 0.4 else faces
+
+
+def strewn(rng):
+    """Two components, each of another kind, perhaps of very different sizes; some faces turned over, some twice."""
+    one, other = (closed, tori, doubled, sphere, grid)[rng.integers(5)](rng), (closed, sphere, tube)[rng.integers(3)](rng)
+    (points, faces), (more, hung) = one, other
+    shift = [3 * np.ptp(points), 0, 0]
+    points = np.concatenate([points, more * rng.choice([1e-3, 1, 10]) + shift])
+    faces = np.concatenate([faces, hung + len(one[0])])
+    if rng.random() < 0.3:
+        over = rng.random(len(faces)) < 0.1
+        faces[over] = faces[over][:, ::-1]
+    if rng.random() < 0.3:
+        faces = np.concatenate([faces, faces[rng.integers(len(faces), size=3)]])
+    return points, faces
+
+
+WHOLE_KINDS = {kind.__name__: kind for kind in (closed, tori, doubled, strewn)}  # not to be cut down to a bordered part
+
+
+def make_whole(kind, seed):
+    """A surface of these, or one of KINDS, by its number."""
+    if kind in KINDS:
+        return make(kind, seed)
+    rng = np.random.default_rng([len(KINDS) + sorted(WHOLE_KINDS).index(kind), seed])
+    points, faces = WHOLE_KINDS[kind](rng)
+    return np.array(points, float), np.array(faces, np.int32)

@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What becomes of random surfaces (`make reliability`): out/reliability/, and the tables of docs/reliability.md.
 
-    bench/reliability.py [--surfaces N] [--kinds KIND,...] [--write]
+    bench/reliability.py [--surfaces N] [--kinds KIND,...] [--commands NAME,...] [--write]
 
-Of each kind of random_surfaces.py N surfaces are mapped, with options that change from one to the next. Every answer is
-checked here by code that shares nothing with the library; then every fourth surface comes again renumbered, turned and
-scaled, every tenth with one thread and with several calls at once. A kind runs in a process of its own, so that a crash
-is counted, not suffered. --write puts the tables into docs/figures.json and the page. Exit 1 if an answer was wrong.
+Of each kind of random_surfaces.py N surfaces are mapped by each command that takes it (commands.py), the one map with
+options that change from one to the next. Every answer is checked here by code that shares nothing with the library;
+then every fourth surface comes again renumbered, turned and scaled, every tenth with one thread and with several calls
+at once, and all of them with each set of dense kernels that the processor can run. A kind runs in a process of its own,
+so that a crash is counted, not suffered. --write puts the tables into docs/figures.json and the page. Exit 1 if an
+answer was wrong.
 """
 
 import argparse
+import hashlib
 import itertools
 import json
 import os
@@ -25,9 +28,9 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "build" / "python"))
 
+import commands  # noqa: E402
 import koebe  # noqa: E402
 import numpy as np  # noqa: E402
-import promises  # noqa: E402
 import random_surfaces  # noqa: E402
 
 OUT = ROOT / "out" / "reliability"
@@ -36,88 +39,69 @@ SMALL = 400  # faces; larger ones are mapped as by default, since the mesh engin
 SAME = 1e-6  # of the unit disk, up to a rotation
 OUTCOMES = ("right", "error", "not converged", "wrong")
 VARIANTS = ("renumbered", "turned", "scaled")
+KERNELS = ("sse2", "avx2")  # beside those that fit the processor; a larger set than it has is that one
 EVERY_CHANGED, EVERY_REPEATED = 4, 10  # surfaces
 AT_ONCE = 8  # calls
 LIMIT = 60.0  # seconds a surface may take on the mean of its kind
-
-
-def mapped(vertices, triangles, **options):
-    """The result, or the name of the typed error."""
-    try:
-        return koebe.uniformize(vertices, triangles, **options)
-    except koebe.KoebeError as error:
-        return type(error).__name__
-
-
-def variants(vertices, triangles, rng):
-    """The same surface renumbered, turned and moved, scaled: name, vertices, triangles, its number of each vertex."""
-    number = rng.permutation(len(vertices))
-    shuffled = np.empty_like(vertices)
-    shuffled[number] = vertices
-    faces = number[triangles[rng.permutation(len(triangles))]]
-    faces = np.array([np.roll(face, rng.integers(3)) for face in faces], np.int32)
-    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
-    turn *= np.sign(np.linalg.det(turn))
-    own = np.arange(len(vertices))
-    yield "renumbered", shuffled, faces, number
-    yield "turned", vertices @ turn.T + np.ptp(vertices) * rng.normal(size=3), triangles, own
-    yield "scaled", vertices * rng.choice([0.3, 1e-5, 777.7]), triangles, own
-
-
-def difference(one, other, number):
-    """The largest distance of two maps of one surface, after the best rotation; infinite if one of them is an error."""
-    if isinstance(one, str) or isinstance(other, str):
-        return 0.0 if isinstance(one, str) and one == other else np.inf
-    a, b = one.uv @ [1, 1j], other.uv[number] @ [1, 1j]
-    turn = np.vdot(a, b)
-    return float(np.abs(a * (turn / abs(turn) if abs(turn) > 0 else 1) - b).max())
 
 
 def bits(result):
     """All that may not change by a bit."""
     if isinstance(result, str):
         return result
-    return result.uv.tobytes(), result.centers.tobytes(), result.radii.tobytes()
+    arrays = (result.uv, getattr(result, "centers", None), getattr(result, "radii", None))
+    return hashlib.sha256(b"".join(a.tobytes() for a in arrays if a is not None)).hexdigest()
 
 
-def examine(kind, seed):
-    """One surface: what came of it."""
-    surface = random_surfaces.make(kind, seed)
+def examine(command, kind, seed, again=True):
+    """One surface: what came of it. @param again whether it comes again in other ways"""
+    surface = commands.surface(command, kind, seed)
     if surface is None:
         return {"outcome": "nothing"}
     vertices, triangles = surface
-    options = OPTIONS[seed % len(OPTIONS)] if len(triangles) <= SMALL else {}
-    result = mapped(vertices, triangles, **options)
-    found = {"faces": len(triangles), "seed": seed, "options": options}
+    options = OPTIONS[seed % len(OPTIONS)] if command == "uniformize" and len(triangles) <= SMALL else {}
+    result = commands.answer(command, vertices, triangles, **options)
+    found = {"faces": len(triangles), "seed": seed, "options": options, "digest": bits(result)}
     if isinstance(result, str):
         found |= {"outcome": "error", "error": result}
     else:
-        broken = promises.broken(triangles, result)
+        broken = commands.COMMANDS[command].broken(triangles, result)
+        converged = getattr(result, "converged", True)
+        found |= {"outcome": "wrong" if broken else "right" if converged else "not converged", "broken": broken}
+    if command == "uniformize" and not isinstance(result, str):
         found |= {
-            "outcome": "wrong" if broken else "right" if result.converged else "not converged",
-            "broken": broken,
             "loop_vertices": sum(map(len, result.loops)),
             "off_circle": sum(map(len, result.off_circle)),
             "below": result.below_resolution,
         }
-    if seed % EVERY_CHANGED == 0:
+    if again and seed % EVERY_CHANGED == 0:
         found["change"] = {
-            name: difference(result, mapped(*again, **options), number)
-            for name, *again, number in variants(vertices, triangles, np.random.default_rng(seed))
+            other.name: commands.difference(
+                command, result, commands.answer(command, other.vertices, other.triangles, **options), other
+            )
+            for other in commands.variants(vertices, triangles, np.random.default_rng(seed))
         }
-    if seed % EVERY_REPEATED == 0:
+    if again and command == "uniformize" and seed % EVERY_REPEATED == 0:
         with ThreadPoolExecutor(AT_ONCE) as pool:
-            calls = [pool.submit(mapped, vertices, triangles, threads=1 + k % 2, **options) for k in range(AT_ONCE)]
+            calls = [
+                pool.submit(commands.answer, command, vertices, triangles, threads=1 + k % 2, **options)
+                for k in range(AT_ONCE)
+            ]
         found["bits"] = all(bits(call.result()) == bits(result) for call in calls)
     return found
 
 
-def survey(kind, count):
-    """All surfaces of a kind, each process going on behind the surface that ended the one before."""
+def survey(command, kind, count, kernels=None):
+    """All surfaces of a kind, each process going on behind the surface that ended the one before.
+
+    kernels    a set of dense kernels, with which each surface comes once; None: those that fit, in all ways
+    """
     rows = []
+    environment = {**os.environ, "KOEBE_KERNELS": kernels} if kernels else None
     while len(rows) < count:
         words = [sys.executable, __file__, "--kinds", kind, "--from", str(len(rows)), "--surfaces", str(count)]
-        with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as process:
+        words += ["--commands", command] + ["--once"] * bool(kernels)
+        with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as process:
             watch = threading.Timer(LIMIT * (count - len(rows)), process.kill)
             watch.start()
             rows += [json.loads(line) for line in process.stdout]
@@ -127,6 +111,27 @@ def survey(kind, count):
             row = {"outcome": "wrong", "broken": [how], "seed": len(rows), "options": {}, "faces": 0}
             rows.append(row)
     return rows
+
+
+def surveys(command, kinds, count, pool):
+    """All surfaces of some kinds, of each whether other kernels give other bits."""
+    sets = (None, *KERNELS)
+    jobs = [pool.submit(survey, command, kind, count, kernels) for kind in kinds for kernels in sets]
+    found = {}
+    for k, kind in enumerate(kinds):
+        rows, *others = (job.result() for job in jobs[k * len(sets) : (k + 1) * len(sets)])
+        for row, *same in zip(rows, *others):
+            if "digest" in row:
+                row["kernels"] = all(other.get("digest") == row["digest"] for other in same)
+        found[kind] = rows
+    return found
+
+
+def by_command(rows):
+    """Counts of some rows, as they stand in the table of commands."""
+    whole = summary(rows)
+    compared = [row["kernels"] for row in rows if "kernels" in row]
+    return [*whole[:5], *whole[6:9], f"{compared.count(False)} of {len(compared)}"]
 
 
 def summary(rows):
@@ -151,6 +156,7 @@ HEAD = [
     "kind", "surfaces", "right", "error", "not converged", "wrong", "off circle",
     "other map when renumbered", "turned", "scaled", "other bits",
 ]  # fmt: skip
+COMMANDS_HEAD = ["command", *HEAD[1:6], *HEAD[7:10], "other bits by other kernels"]
 
 
 def cancel_delays(tries=12):
@@ -186,7 +192,9 @@ def cancel_delays(tries=12):
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--surfaces", type=int, default=100, help="of each kind")
-    parser.add_argument("--kinds", default=",".join(random_surfaces.KINDS))
+    parser.add_argument("--kinds", default="", help="of random_surfaces.py; none: all that a command takes")
+    parser.add_argument("--commands", default=",".join(commands.COMMANDS))
+    parser.add_argument("--once", action="store_true", help="with --from: in no other way again")
     parser.add_argument("--from", dest="first", type=int, help="print each surface from this one on, as JSON")
     parser.add_argument("--write", action="store_true", help="into docs/")
     return parser.parse_args()
@@ -194,44 +202,53 @@ def parse():
 
 def main():
     options = parse()
-    kinds = options.kinds.split(",")
+    kinds = [kind for kind in options.kinds.split(",") if kind]
+    names = options.commands.split(",")
     if options.first is not None:
         for kind, seed in itertools.product(kinds, range(options.first, options.surfaces)):
-            print(json.dumps(examine(kind, seed)), flush=True)
+            print(json.dumps(examine(names[0], kind, seed, not options.once)), flush=True)
         return 0
     OUT.mkdir(parents=True, exist_ok=True)
-    found, table = {}, {}
+    found, table, by_name = {}, {}, {}
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        for kind, rows in zip(kinds, pool.map(lambda kind: survey(kind, options.surfaces), kinds)):
-            found[kind], table[kind] = rows, summary(rows)
-            print("|", kind, "|", " | ".join(table[kind]), "|", flush=True)
-    table["all"] = summary([row for rows in found.values() for row in rows])
-    print("| all |", " | ".join(table["all"]), "|")
-    bad = [(kind, row) for kind, rows in found.items() for row in rows if not kept(row)]
-    for kind, row in bad[:40]:
-        changes = {name: change for name, change in row.get("change", {}).items() if change > SAME}
-        print(f"{kind} {row['seed']}, {row['faces']} faces, {row['options']}: {row.get('broken') or ''} {changes}")
+        for name in names:
+            own = [kind for kind in kinds or commands.COMMANDS[name].kinds if kind in commands.COMMANDS[name].kinds]
+            found[name] = surveys(name, own, options.surfaces, pool)
+            by_name[name] = by_command([row for rows in found[name].values() for row in rows])
+            print("|", name, "|", " | ".join(by_name[name]), "|", flush=True)
+    if "uniformize" in found:
+        table = {kind: summary(rows) for kind, rows in found["uniformize"].items()}
+        table["all"] = summary([row for rows in found["uniformize"].values() for row in rows])
+        for kind, row in table.items():
+            print("|", kind, "|", " | ".join(row), "|")
+    every = [(name, kind, row) for name in found for kind in found[name] for row in found[name][kind]]
+    bad = [(name, kind, row) for name, kind, row in every if not kept(row)]
+    for name, kind, row in bad[:40]:
+        changes = {way: change for way, change in row.get("change", {}).items() if change > SAME}
+        changes |= {"kernels": "other bits"} if row.get("kernels") is False else {}
+        print(f"{name} {kind} {row['seed']}, {row['faces']} faces, {row['options']}: {row.get('broken') or ''} {changes}")
     (OUT / "surfaces.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
     faces, delays = cancel_delays()
     cancel = [f"{faces:,}", str(len(delays)), f"{np.median(delays):.3f}", f"{max(delays):.3f}"] if delays else []
     print(f"cancel: {cancel}")
     if options.write:
-        write(table, cancel)
-    return int(any(row["outcome"] == "wrong" for rows in found.values() for row in rows))
+        write(table, by_name, cancel)
+    return int(any(row["outcome"] == "wrong" for _, _, row in every))
 
 
 def kept(row):
     """Whether nothing is to be told of a surface."""
     same = all(change <= SAME for change in row.get("change", {}).values())
-    return row["outcome"] != "wrong" and same and row.get("bits") is not False
+    return row["outcome"] != "wrong" and same and row.get("bits", True) and row.get("kernels", True)
 
 
-def write(table, cancel):
+def write(table, by_name, cancel):
     """The tables into docs/figures.json and the page."""
     import doc_figures
 
     figures = doc_figures.load()
     figures["reliability"] = {"command": "make reliability", "head": HEAD, "rows": table}
+    figures["commands"] = {"command": "make reliability", "head": COMMANDS_HEAD, "rows": by_name}
     head = ["a surface of", "faces", "cancels", "median s", "longest s"]
     figures["cancel"] = {"command": "make reliability", "head": head, "rows": {"a plate, four holes": cancel}}
     doc_figures.save(figures)

@@ -1,9 +1,9 @@
 #include "cli/dense_buffers.h"
 
 #include "cli/exit_code.h"
-#include "cli/fast_kernels.h"
 #include "cli/scarce_memory.h"
 
+#include <climits>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -60,6 +60,13 @@ bool is_limited(int resource)
 {
     rlimit limit{};
     return ::getrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+/// Starts this program again with the environment as it is now; returns only where that cannot be.
+void restart(char** arguments)
+{
+    char program[PATH_MAX] = {};  // by its own name, which is what the process is then called
+    if (readlink("/proc/self/exe", program, sizeof program - 1) > 0) execv(program, arguments);
 }
 
 bool has_threads_without_room()

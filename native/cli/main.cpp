@@ -2,13 +2,11 @@
 
 #if !defined(KOEBE_OWN_KERNELS)
 #include "cli/dense_buffers.h"
-#include "cli/fast_kernels.h"
 #endif
 
 int main(int argc, char** argv)
 {
 #if !defined(KOEBE_OWN_KERNELS)
-    koebe::cli::restart_with_fast_kernels(argv);
     koebe::cli::restart_without_dense_threads(argv);
     koebe::cli::take_dense_buffer();
 #endif

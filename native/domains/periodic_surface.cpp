@@ -193,7 +193,7 @@ std::size_t loop_with(const PeriodicSurface& domain, Index vertex, std::size_t t
         }
     }
     if (best < loops.size()) return best;
-    throw InputError("vertex " + std::to_string(vertex) + " lies on no boundary loop", ElementKind::vertices, {vertex});
+    throw InputError("the vertex of a rim lies on no boundary loop", ElementKind::vertices, {vertex});
 }
 
 }  // namespace
@@ -263,8 +263,7 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
     const std::size_t second = loop_with(domain, inner, first);
     if (first == none) first = loop_with(domain, outer, second);
     if (first == second)
-        throw InputError("vertices " + std::to_string(outer) + " and " + std::to_string(inner) +
-                             " lie on one loop: the two rims of a ring are different ones",
+        throw InputError("the vertices of both rims lie on one loop: the two rims of a ring are different ones",
                          ElementKind::vertices, {outer, inner});
     order_loops(domain, {first, second});
     domain.first_hole = 2;

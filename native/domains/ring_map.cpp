@@ -1,6 +1,5 @@
 #include "circles/moebius.h"
 #include "core/connectivity.h"
-#include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/stopwatch.h"
 #include "core/tolerances.h"
@@ -413,9 +412,7 @@ const char* to_string(RingHoles holes) noexcept
 TileResult ring_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                     ExecutionContext& context)
 {
-    return run_detachable<TileResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return ring_map_here(vertices, triangles, options, own);
-    });
+    return canonical_tile(vertices, triangles, options, context, ring_map_here);
 }
 
 }  // namespace koebe

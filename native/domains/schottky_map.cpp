@@ -13,6 +13,7 @@
 #include "domains/glued_state.h"
 #include "domains/schottky_tile.h"
 #include "linear/dense_spd.h"
+#include "pipeline/canonical_mesh.h"
 #include "pipeline/take_verdict.h"
 #include "quality/stored_uv.h"
 #include "surface/intrinsic_metric.h"
@@ -405,6 +406,16 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
     return result;
 }
 
+void name_result(const CanonicalMesh& mesh, SchottkyResult& result)
+{
+    mesh.name_corners(result.uv);
+    for (SchottkyHole& hole : result.holes) mesh.name_loop(hole.vertices);
+    for (SchottkyHandle& handle : result.handles) mesh.name_path(handle.cut);
+    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
+        mesh.name_faces(*faces);
+    mesh.name_all(result.warnings);
+}
+
 }  // namespace
 
 const char* to_string(SchottkyNormalization normalization) noexcept
@@ -416,7 +427,12 @@ SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles
                             ExecutionContext& context)
 {
     return run_detachable<SchottkyResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return schottky_map_here(vertices, triangles, options, own);
+        const auto work = [&](const CanonicalMesh& mesh) {
+            SchottkyOptions here = options;
+            here.polygon = mesh.of_faces(options.polygon);
+            return schottky_map_here(mesh.vertices, mesh.triangles, here, own);
+        };
+        return in_canonical_form(vertices, triangles, work, name_result);
     });
 }
 

@@ -13,6 +13,7 @@
 #include "domains/spherical_balance.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
+#include "pipeline/canonical_mesh.h"
 #include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
 #include "surface/laplacian.h"
@@ -310,9 +311,11 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
     result.warnings.push_back(std::move(warning));
 }
 
-SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangles, const SphereOptions& options,
-                             ExecutionContext& context)
+/// @param options with the polygons of the canonical mesh
+SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& options, ExecutionContext& context)
 {
+    const Vertices& vertices = mesh.vertices;
+    const Triangles& triangles = mesh.triangles;
     const SerialDenseKernels serial;
     const Stopwatch total;
     Stopwatch stage;
@@ -352,7 +355,7 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
             sphere = std::move(*other);
             opened = true;
         }
-    const Eigen::Matrix3d turn = best_rotation(sphere.points, directions_of(domain, weights), weights);
+    const Eigen::Matrix3d turn = mesh.turn * best_rotation(sphere.points, directions_of(domain, weights), weights);
     sphere.points = sphere.points * turn.transpose();
     for (Eigen::Index v = 0; v < sphere.points.rows(); ++v) sphere.points.row(v).normalize();
     for (Cap& cap : sphere.caps) cap.center = (turn * cap.center).normalized();
@@ -391,6 +394,23 @@ SphereResult sphere_map_here(const Vertices& vertices, const Triangles& triangle
     return result;
 }
 
+void name_result(const CanonicalMesh& mesh, SphereResult& result)
+{
+    const Vertices points = std::move(result.points);
+    result.points.resize(points.rows(), 3);
+    for (Eigen::Index v = 0; v < points.rows(); ++v) result.points.row(mesh.original_vertices[v]) = points.row(v);
+    mesh.name_corners(result.uv);
+    for (SphereLoop& loop : result.loops) {
+        mesh.name_loop(loop.vertices);
+        mesh.name_vertices(loop.off_circle);
+    }
+    for (auto* faces :
+         {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution, &result.layout.crossing,
+          &result.layout.torn, &result.layout.flipped, &result.layout.below_resolution})
+        mesh.name_faces(*faces);
+    mesh.name_all(result.warnings);
+}
+
 }  // namespace
 
 const char* to_string(SphereLayout layout) noexcept
@@ -402,7 +422,12 @@ SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, co
                         ExecutionContext& context)
 {
     return run_detachable<SphereResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return sphere_map_here(vertices, triangles, options, own);
+        const auto work = [&](const CanonicalMesh& mesh) {
+            SphereOptions here = options;
+            here.polygon = mesh.of_faces(options.polygon);
+            return sphere_map_here(mesh, here, own);
+        };
+        return in_canonical_form(vertices, triangles, work, name_result);
     });
 }
 

@@ -3,7 +3,9 @@
 #include "circles/off_circle.h"
 #include "core/connectivity.h"
 #include "core/counted.h"
+#include "core/detachable_run.h"
 #include "core/peak_memory.h"
+#include "pipeline/canonical_mesh.h"
 
 #include <Eigen/Geometry>
 
@@ -131,7 +133,34 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
     result.warnings.push_back(std::move(warning));
 }
 
+void name_result(const CanonicalMesh& mesh, TileResult& result)
+{
+    mesh.name_corners(result.uv);
+    for (TileLoop& loop : result.loops) {
+        mesh.name_loop(loop.vertices);
+        mesh.name_vertices(loop.off_circle);
+    }
+    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
+        mesh.name_faces(*faces);
+    mesh.name_all(result.warnings);
+}
+
 }  // namespace
+
+TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                          ExecutionContext& context, TileMap* map)
+{
+    return run_detachable<TileResult>(context, [vertices, triangles, options, map](ExecutionContext& own) {
+        const auto work = [&](const CanonicalMesh& mesh) {
+            TileOptions here = options;
+            here.outer = mesh.vertex(options.outer);
+            here.inner = mesh.vertex(options.inner);
+            here.polygon = mesh.of_faces(options.polygon);
+            return map(mesh.vertices, mesh.triangles, here, own);
+        };
+        return in_canonical_form(vertices, triangles, work, name_result);
+    });
+}
 
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
                        HoleShape holes, FlatMap& map, ExecutionContext& context)

@@ -11,4 +11,12 @@ namespace koebe {
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
                        HoleShape holes, FlatMap& map, ExecutionContext& context);
 
+/// A map to a torus or a cylinder.
+using TileMap = TileResult(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                           ExecutionContext& context);
+
+/// The map made on the canonical mesh, off this thread, so that it follows from the shape alone.
+TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                          ExecutionContext& context, TileMap* map);
+
 }  // namespace koebe

@@ -1,4 +1,3 @@
-#include "core/detachable_run.h"
 #include "core/stopwatch.h"
 #include "domains/tile_map.h"
 #include "domains/tile_result.h"
@@ -42,9 +41,7 @@ TileResult torus_map_here(const Vertices& vertices, const Triangles& triangles, 
 TileResult torus_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                      ExecutionContext& context)
 {
-    return run_detachable<TileResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return torus_map_here(vertices, triangles, options, own);
-    });
+    return canonical_tile(vertices, triangles, options, context, torus_map_here);
 }
 
 }  // namespace koebe

@@ -5,9 +5,6 @@
 #include "core/types.h"
 
 #include <cholmod.h>
-#if defined(KOEBE_CHOLMOD_HAS_OPENMP)
-#include <omp.h>
-#endif
 
 #include <functional>
 #include <memory>
@@ -15,26 +12,6 @@
 #include <string>
 
 namespace koebe::detail {
-
-/// For its lifetime OpenMP regions of this thread run in it alone. CHOLMOD opens one with four threads around every
-/// supernode, however many cores there are: on two cores that took 20 to 40 % of the factorization. The dense kernels
-/// have threads of their own (SerialDenseKernels).
-class SerialRegions {
-public:
-#if defined(KOEBE_CHOLMOD_HAS_OPENMP)
-    SerialRegions() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-    ~SerialRegions() { omp_set_max_active_levels(before_); }
-#else
-    SerialRegions() = default;
-#endif
-    SerialRegions(const SerialRegions&) = delete;
-    SerialRegions& operator=(const SerialRegions&) = delete;
-
-#if defined(KOEBE_CHOLMOD_HAS_OPENMP)
-private:
-    int before_;
-#endif
-};
 
 /// A started workspace; settings are CHOLMOD's own but for supernodal L L' and silence.
 class CholmodCommon {
@@ -68,18 +45,13 @@ private:
 };
 
 using Factor = std::unique_ptr<cholmod_factor, std::function<void(cholmod_factor*)>>;
-using Dense = std::unique_ptr<cholmod_dense, std::function<void(cholmod_dense*)>>;
 
 inline Factor own(cholmod_factor* factor, CholmodCommon& common)
 {
     return {factor, [&common](cholmod_factor* f) { cholmod_free_factor(&f, common.get()); }};
 }
-inline Dense own(cholmod_dense* dense, CholmodCommon& common)
-{
-    return {dense, [&common](cholmod_dense* d) { cholmod_free_dense(&d, common.get()); }};
-}
 
-/// Views without copying; CHOLMOD takes them as const in all but type.
+/// A view without copying; CHOLMOD takes it as const in all but type.
 inline cholmod_sparse view(const SparseMatrix& matrix, int symmetry)
 {
     cholmod_sparse result{};
@@ -95,18 +67,6 @@ inline cholmod_sparse view(const SparseMatrix& matrix, int symmetry)
     result.dtype = CHOLMOD_DOUBLE;
     result.sorted = 1;
     result.packed = 1;
-    return result;
-}
-inline cholmod_dense view(const MatrixXd& matrix)
-{
-    cholmod_dense result{};
-    result.nrow = matrix.rows();
-    result.ncol = matrix.cols();
-    result.nzmax = matrix.size();
-    result.d = matrix.rows();
-    result.x = const_cast<double*>(matrix.data());
-    result.xtype = CHOLMOD_REAL;
-    result.dtype = CHOLMOD_DOUBLE;
     return result;
 }
 

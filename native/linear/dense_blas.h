@@ -1,18 +1,14 @@
-// The dense kernels by name. For the .cpp files of this folder only.
+// The dense kernels by their names in BLAS and LAPACK. For the .cpp files of this folder only.
 #pragma once
 
-extern "C" {
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
-void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
-            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
-void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
-            const int* lda, const double* beta, double* c, const int* ldc);
-void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k, const double* alpha,
-            const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
-            const int* ldc);
-}
+#include "bundle/kernels/dense_kernels.h"
 
 namespace koebe::detail {
+
+#define KOEBE_FORWARD(name, parameters, arguments)                                                                     \
+    inline void name##_ parameters { kernels::chosen().name arguments; }
+KOEBE_DENSE_KERNELS(KOEBE_FORWARD)
+#undef KOEBE_FORWARD
 
 /// C = beta C + alpha A B', the lower trapezoid alone: the first n rows of A and C are a lower triangle.
 /// @param a (m, k) @param b (n, k), the first rows of A @param c (m, n)

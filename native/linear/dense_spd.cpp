@@ -1,26 +1,22 @@
 #include "linear/dense_spd.h"
 
 #include "core/errors.h"
+#include "linear/dense_blas.h"
 
 #include <algorithm>
 #include <string>
 
-extern "C" {
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
-void dtrtri_(const char* uplo, const char* diag, const int* n, double* a, const int* lda, int* info);
-void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
-             const int* ldb, int* info);
-void dtrmm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
-            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
-void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
-            const int* lda, const double* beta, double* c, const int* ldc);
 #if !defined(KOEBE_OWN_KERNELS)
+extern "C" {
 void openblas_set_num_threads(int threads);
 int openblas_get_num_threads();
-#endif
 }
+#endif
 
 namespace koebe {
+
+using namespace detail;
+
 namespace {
 
 void factorize(MatrixXd& matrix)
@@ -107,11 +103,21 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
     return product;
 }
 
+namespace {
+
+void fix_product_blocks() { Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20); }
+
+}  // namespace
+
 #if defined(KOEBE_OWN_KERNELS)  // which know no threads
-OneDenseThread::OneDenseThread() : before_(1) {}
+OneDenseThread::OneDenseThread() : before_(1) { fix_product_blocks(); }
 OneDenseThread::~OneDenseThread() = default;
 #else
-OneDenseThread::OneDenseThread() : before_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
+OneDenseThread::OneDenseThread() : before_(openblas_get_num_threads())
+{
+    openblas_set_num_threads(1);
+    fix_product_blocks();
+}
 
 OneDenseThread::~OneDenseThread() { openblas_set_num_threads(before_); }
 #endif

@@ -24,7 +24,8 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& a);
 /// The product L L' of a lower triangular matrix (its strict upper part is not read).
 MatrixXd lower_times_transpose(const MatrixXd& lower);
 
-/// OpenBLAS on one thread.
+/// OpenBLAS on one thread; and Eigen's products in blocks of one size, which it takes from the processor's caches else:
+/// sums would have another order on another processor.
 class KOEBE_API OneDenseThread {
 public:
     OneDenseThread();

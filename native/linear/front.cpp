@@ -49,4 +49,30 @@ void eliminate(double* columns, Index height, Index width, double* rest)
     });
 }
 
+void substitute_forward(const double* block, Index height, Index width, Index first, MatrixXd& x, MatrixXd& update)
+{
+    const int count = static_cast<int>(x.cols()), stride = static_cast<int>(x.rows()), below = height - width;
+    const double one = 1.0, minus_one = -1.0, zero = 0.0;
+    double* own = &x(first, 0);
+    update = MatrixXd(below, count);  // resize() would free it twice where there is no more memory
+    dtrsm_("L", "L", "N", "N", &width, &count, &one, block, &height, own, &stride);
+    if (below > 0)
+        dgemm_("N", "N", &below, &count, &width, &minus_one, block + width, &height, own, &stride, &zero, update.data(),
+               &below);
+}
+
+void substitute_backward(const double* block, Index height, Index width, Index first, const Index* rows, MatrixXd& x)
+{
+    const int count = static_cast<int>(x.cols()), stride = static_cast<int>(x.rows()), below = height - width;
+    const double one = 1.0, minus_one = -1.0;
+    double* own = &x(first, 0);
+    if (below > 0) {
+        MatrixXd above(below, count);
+        for (Index r = 0; r < below; ++r) above.row(r) = x.row(rows[r]);
+        dgemm_("T", "N", &width, &count, &below, &minus_one, block + width, &height, above.data(), &below, &one, own,
+               &stride);
+    }
+    dtrsm_("L", "L", "T", "N", &width, &count, &one, block, &height, own, &stride);
+}
+
 }  // namespace koebe::detail

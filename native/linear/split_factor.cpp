@@ -1,7 +1,6 @@
 #include "linear/split_factor.h"
 
 #include "core/thread_share.h"
-#include "linear/dense_blas.h"
 #include "linear/dissection.h"
 #include "linear/front.h"
 #include "linear/kernel_buffer.h"
@@ -240,20 +239,13 @@ void SplitFactor::solve_lower(MatrixXd& x) const
 
 void SplitFactor::solve_lower(const SplitPart& part, MatrixXd& x, MatrixXd& interface) const
 {
-    const int count = static_cast<int>(x.cols()), stride = static_cast<int>(x.rows());
-    const double one = 1.0, minus_one = -1.0, zero = 0.0;
     MatrixXd update;
     for (Index s = part.first_supernode; s < part.last_supernode; ++s) {
-        const int width = layout_.width(s), height = layout_.height(s), below = height - width;
-        const double* block = values_.data() + layout_.value_begin[s];
-        double* own = &x(layout_.first[s], 0);
-        dtrsm_("L", "L", "N", "N", &width, &count, &one, block, &height, own, &stride);
-        if (below == 0) continue;
-        update = MatrixXd(below, count);  // resize() would free it twice where there is no more memory
-        dgemm_("N", "N", &below, &count, &width, &minus_one, block + width, &height, own, &stride, &zero, update.data(),
-               &below);
+        const Index width = layout_.width(s);
+        substitute_forward(values_.data() + layout_.value_begin[s], layout_.height(s), width, layout_.first[s], x,
+                           update);
         const Index* rows = layout_.rows_of(s) + width;
-        for (Index r = 0; r < below; ++r)
+        for (Index r = 0; r < static_cast<Index>(update.rows()); ++r)
             if (rows[r] < part.end)
                 x.row(rows[r]) += update.row(r);
             else
@@ -272,22 +264,9 @@ void SplitFactor::solve_upper(MatrixXd& x) const
 
 void SplitFactor::solve_upper(const SplitPart& part, MatrixXd& x) const
 {
-    const int count = static_cast<int>(x.cols()), stride = static_cast<int>(x.rows());
-    const double one = 1.0, minus_one = -1.0;
-    MatrixXd above;
-    for (Index s = part.last_supernode; s-- > part.first_supernode;) {
-        const int width = layout_.width(s), height = layout_.height(s), below = height - width;
-        const double* block = values_.data() + layout_.value_begin[s];
-        double* own = &x(layout_.first[s], 0);
-        if (below > 0) {
-            above = MatrixXd(below, count);
-            const Index* rows = layout_.rows_of(s) + width;
-            for (Index r = 0; r < below; ++r) above.row(r) = x.row(rows[r]);
-            dgemm_("T", "N", &width, &count, &below, &minus_one, block + width, &height, above.data(), &below, &one,
-                   own, &stride);
-        }
-        dtrsm_("L", "L", "T", "N", &width, &count, &one, block, &height, own, &stride);
-    }
+    for (Index s = part.last_supernode; s-- > part.first_supernode;)
+        substitute_backward(values_.data() + layout_.value_begin[s], layout_.height(s), layout_.width(s),
+                            layout_.first[s], layout_.rows_of(s) + layout_.width(s), x);
 }
 
 }  // namespace koebe::detail

@@ -1,5 +1,7 @@
 #include "linear/supernodal_factor.h"
 
+#include "linear/front.h"
+
 #include <algorithm>
 
 namespace koebe::detail {
@@ -52,30 +54,33 @@ MatrixXd SupernodalFactor::solve(int system, const MatrixXd& right_hand_side)
 {
     MatrixXd result(right_hand_side.rows(), right_hand_side.cols());
     if (result.size() == 0) return result;
-    if (split) {
-        const bool permuted = system == CHOLMOD_A;
-        MatrixXd x(right_hand_side.rows(), right_hand_side.cols());
-        if (permuted)
-            for (Index j = 0; j < size(); ++j) x.row(j) = right_hand_side.row(order()[j]);
-        else
-            x = right_hand_side;
-        if (system != CHOLMOD_Lt) split->solve_lower(x);
-        if (system != CHOLMOD_L) split->solve_upper(x);
-        if (!permuted) return x;
-        for (Index j = 0; j < size(); ++j) result.row(order()[j]) = x.row(j);
-        return result;
-    }
-    // CHOLMOD looks at its status after the last of three arrays alone: without memory for an earlier one it would
-    // follow a null pointer. So those are ours.
-    MatrixXd permuted(result.rows(), result.cols());
-    cholmod_dense b = view(right_hand_side), x = view(result), y = view(permuted);
-    cholmod_dense *x_at = &x, *y_at = &y, *e_at = nullptr;
-    const SerialRegions serial;
-    const bool solved =
-        cholmod_solve2(system, factor.get(), &b, nullptr, &x_at, nullptr, &y_at, &e_at, common.get()) != 0;
-    const Dense workspace = own(e_at, common);
-    common.require(solved, "back-substitution");
+    const bool permuted = system == CHOLMOD_A;
+    MatrixXd x(right_hand_side.rows(), right_hand_side.cols());
+    if (permuted)
+        for (Index j = 0; j < size(); ++j) x.row(j) = right_hand_side.row(order()[j]);
+    else
+        x = right_hand_side;
+    if (system != CHOLMOD_Lt) split ? split->solve_lower(x) : solve_lower(x);
+    if (system != CHOLMOD_L) split ? split->solve_upper(x) : solve_upper(x);
+    if (!permuted) return x;
+    for (Index j = 0; j < size(); ++j) result.row(order()[j]) = x.row(j);
     return result;
+}
+
+void SupernodalFactor::solve_lower(MatrixXd& x) const
+{
+    MatrixXd update;
+    for (Index s = 0; s < supernode_count(); ++s) {
+        substitute_forward(values(s), height(s), width(s), first_column(s), x, update);
+        const Index* below = rows(s) + width(s);
+        for (Index r = 0; r < static_cast<Index>(update.rows()); ++r) x.row(below[r]) += update.row(r);
+    }
+}
+
+void SupernodalFactor::solve_upper(MatrixXd& x) const
+{
+    for (Index s = supernode_count(); s-- > 0;)
+        substitute_backward(values(s), height(s), width(s), first_column(s), rows(s) + width(s), x);
 }
 
 }  // namespace koebe::detail

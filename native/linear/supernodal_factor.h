@@ -45,6 +45,9 @@ struct SupernodalFactor {
     MatrixXd solve(int system, const MatrixXd& right_hand_side);
 
 private:
+    void solve_lower(MatrixXd& x) const;
+    void solve_upper(MatrixXd& x) const;
+
     Index size_ = 0, supernode_count_ = 0;
     const Index *order_ = nullptr, *first_ = nullptr, *rows_ = nullptr, *row_begin_ = nullptr;
     const std::ptrdiff_t* split_row_begin_ = nullptr;

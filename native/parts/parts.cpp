@@ -7,6 +7,7 @@
 #include "linear/dense_spd.h"
 #include "parts/layout.h"
 #include "parts/part_mesh.h"
+#include "pipeline/canonical_mesh.h"
 #include "pipeline/take_verdict.h"
 #include "quality/stored_uv.h"
 
@@ -175,13 +176,31 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     return result;
 }
 
+void name_result(const CanonicalMesh& mesh, PartsResult& result)
+{
+    mesh.name_corners(result.uv);
+    mesh.name_values(result.part);
+    for (PartReport& part : result.parts) {
+        mesh.name_faces(part.faces);
+        for (VertexLoop& loop : part.loops) mesh.name_loop(loop);
+    }
+    for (auto* faces : {&result.distortion.flipped, &result.distortion.below_resolution}) mesh.name_faces(*faces);
+    mesh.name_all(result.warnings);
+}
+
 }  // namespace
 
 PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                      ExecutionContext& context)
 {
     return run_detachable<PartsResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return compute(vertices, triangles, options, own);
+        const auto work = [&](const CanonicalMesh& mesh) {
+            PartsOptions here = options;
+            here.polygon = mesh.of_faces(options.polygon);
+            for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
+            return compute(mesh.vertices, mesh.triangles, here, own);
+        };
+        return in_canonical_form(vertices, triangles, work, name_result);
     });
 }
 

@@ -157,7 +157,7 @@ CanonicalPosition turned_position(const Triangles& triangles, Vertices points)
         piece = (piece * frame / extent).eval();
     });
     const double thinnest = put_on_grid(triangles, points);
-    return {std::move(points), thinnest};
+    return {std::move(points), thinnest, frame};
 }
 
 CanonicalPosition canonical_position(const Surface& surface, const Vertices& vertices)

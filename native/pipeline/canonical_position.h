@@ -11,6 +11,7 @@ namespace koebe {
 struct CanonicalPosition {
     Vertices vertices;  ///< (V, 3) within the unit ball, on a grid
     double thinnest = 0.0;
+    Eigen::Matrix3d turn;  ///< its columns are the axes: a direction d of the input, as a row, is d * turn here
 };
 
 /// That of a surface whose numbers are canonical already. @throws InputError all vertices lie on one point

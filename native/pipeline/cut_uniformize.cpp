@@ -6,6 +6,7 @@
 #include "core/peak_memory.h"
 #include "core/side_by_side.h"
 #include "core/topology.h"
+#include "pipeline/canonical_mesh.h"
 #include "pipeline/cut_sheet.h"
 #include "pipeline/cut_warnings.h"
 #include "pipeline/disk_packing.h"
@@ -43,7 +44,8 @@ struct NamedVertex {
     Index local = -1;
 };
 
-NamedVertex find_named(const std::vector<SurfacePiece>& pieces, Index vertex, bool on_loop, const char* what)
+NamedVertex find_named(const std::vector<SurfacePiece>& pieces, const CanonicalMesh& mesh, Index vertex, bool on_loop,
+                       const char* what)
 {
     if (vertex < 0) return {};
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -54,20 +56,22 @@ NamedVertex find_named(const std::vector<SurfacePiece>& pieces, Index vertex, bo
         for (std::size_t v = 0; v < names.size(); ++v)
             if (names[v] == vertex && (boundary[v] != 0) == on_loop) return {vertex, i, static_cast<Index>(v)};
     }
-    throw InputError("vertex " + std::to_string(vertex) + " cannot be the " + what + ": no piece has it " +
+    Index name = vertex;
+    mesh.name_vertex(name);
+    throw InputError("vertex " + std::to_string(name) + " cannot be the " + what + ": no piece has it " +
                          (on_loop ? "on a boundary loop" : "inside"),
                      ElementKind::vertices, {vertex});
 }
 
 class PieceMapper {
 public:
-    PieceMapper(const OpenedSurface& opened, const UniformizeOptions& options)
+    PieceMapper(const OpenedSurface& opened, const CanonicalMesh& mesh, const UniformizeOptions& options)
         : opened_(opened),
           options_(options),
-          outer_(find_named(opened.pieces, options.outer == OuterLoop::vertex ? options.outer_vertex : -1, true,
+          outer_(find_named(opened.pieces, mesh, options.outer == OuterLoop::vertex ? options.outer_vertex : -1, true,
                             "outer loop's")),
-          center_(find_named(opened.pieces, options.center, false, "centre")),
-          point_(find_named(opened.pieces, options.point, true, "point"))
+          center_(find_named(opened.pieces, mesh, options.center, false, "centre")),
+          point_(find_named(opened.pieces, mesh, options.point, true, "point"))
     {
     }
 
@@ -205,10 +209,12 @@ void draw_left_out(const std::vector<LeftOutFace>& left_out, const Triangles& tr
     }
 }
 
-CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& triangles,
-                                     const std::vector<Index>& polygon, const UniformizeOptions& options,
-                                     ExecutionContext& context)
+/// @param polygon, options with the numbers of the canonical mesh
+CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vector<Index>& polygon,
+                                     const UniformizeOptions& options, ExecutionContext& context)
 {
+    const Vertices& vertices = mesh.vertices;
+    const Triangles& triangles = mesh.triangles;
     const auto begin = Clock::now();
     CutUniformizeResult result;
     result.method = options.method;
@@ -219,7 +225,7 @@ CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& 
     context.begin_stage("cut", 0.0, opening_share);
     OpenedSurface opened = open_surface(vertices, triangles, {.polygon = polygon}, context);
     const double opening = seconds_since(begin);
-    const PieceMapper mapper(opened, options);
+    const PieceMapper mapper(opened, mesh, options);
     const double all = static_cast<double>(triangles.rows());
     double done = 0.0;
     result.converged = true;
@@ -294,6 +300,45 @@ CutUniformizeResult cut_map_and_pack(const Vertices& vertices, const Triangles& 
     return result;
 }
 
+UniformizeOptions canonical_options(const CanonicalMesh& mesh, const UniformizeOptions& options)
+{
+    UniformizeOptions here = options;
+    for (Index* vertex : {&here.outer_vertex, &here.center, &here.point}) *vertex = mesh.vertex(*vertex);
+    here.importance = mesh.of_vertices(options.importance);
+    return here;
+}
+
+void name_piece(const CanonicalMesh& mesh, MappedPiece& piece)
+{
+    mesh.name_faces(piece.faces);
+    for (LoopReport& loop : piece.map.loops) {
+        mesh.name_loop(loop.vertices);
+        mesh.name_vertices(loop.off_circle);
+    }
+    for (Index* vertex : {&piece.map.center, &piece.map.point}) mesh.name_vertex(*vertex);
+    mesh.name_faces(piece.map.distortion.flipped);
+    mesh.name_faces(piece.map.distortion.below_resolution);
+    mesh.name_all(piece.map.warnings);
+}
+
+void name_result(const CanonicalMesh& mesh, CutUniformizeResult& result)
+{
+    mesh.name_corners(result.uv);
+    for (MappedPiece& piece : result.pieces) name_piece(mesh, piece);
+    for (SurfaceCut& cut : result.cuts) {
+        mesh.name_path(cut.vertices);
+        if (cut.kind == CutKind::bow_tie) std::ranges::sort(cut.vertices);
+    }
+    for (LeftOutFace& out : result.left_out) {
+        mesh.name_face(out.face);
+        mesh.name_face(out.like);
+    }
+    std::ranges::sort(result.left_out, {}, &LeftOutFace::face);
+    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
+        mesh.name_faces(*faces);
+    mesh.name_all(result.warnings);
+}
+
 }  // namespace
 
 CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangles& triangles,
@@ -301,7 +346,10 @@ CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangl
                                          ExecutionContext& context)
 {
     return run_detachable<CutUniformizeResult>(context, [vertices, triangles, polygon, options](ExecutionContext& own) {
-        return cut_map_and_pack(vertices, triangles, polygon, options, own);
+        const auto work = [&](const CanonicalMesh& mesh) {
+            return cut_map_and_pack(mesh, mesh.of_faces(polygon), canonical_options(mesh, options), own);
+        };
+        return in_canonical_form(vertices, triangles, work, name_result);
     });
 }
 

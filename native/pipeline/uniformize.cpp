@@ -224,8 +224,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     if (out_of_place) {
         result.converged = false;
         result.warnings.push_back({WarningKind::out_of_place,
-                                   "vertex " + std::to_string(options.center) +
-                                       " could not be brought to the centre without turning faces over",
+                                   "the vertex for the centre could not be brought there without turning faces over",
                                    {options.center}});
     }
     if (faults.any()) {

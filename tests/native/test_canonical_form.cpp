@@ -1,5 +1,6 @@
 #include "circle_domain.h"
 #include "pipeline/canonical_form.h"
+#include "pipeline/canonical_mesh.h"
 #include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>
@@ -121,6 +122,31 @@ TEST(CanonicalForm, the_edges_of_a_regular_rim_are_told_apart_by_what_lies_insid
         std::vector<Index> name;
         EXPECT_EQ(form_of(renumbered(mesh, seed, name)).surface.triangles, expected.surface.triangles);
     }
+}
+
+TEST(CanonicalMesh, takes_any_mesh_there_and_back_whatever_its_numbers_and_place)
+{
+    // Two components, one with every third face turned over; a face twice, and one that names a vertex twice.
+    const Mesh one = uneven_mesh();
+    Mesh both{Vertices(2 * one.vertices.rows(), 3), Triangles(2 * one.triangles.rows() + 2, 3)};
+    both.vertices << one.vertices, (0.1 * one.vertices).rowwise() + Eigen::RowVector3d(5.0, 1.0, 0.0);
+    both.triangles << one.triangles, one.triangles.array() + static_cast<Index>(one.vertices.rows()),
+        one.triangles.row(7), one.triangles.row(8);
+    both.triangles(both.triangles.rows() - 1, 2) = both.triangles(both.triangles.rows() - 1, 0);
+    for (Eigen::Index f = 0; f < one.triangles.rows(); f += 3) std::swap(both.triangles(f, 1), both.triangles(f, 2));
+    const CanonicalMesh expected = canonical_mesh(both.vertices, both.triangles);
+    for (Eigen::Index f = 0; f < both.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(expected.original_vertices[expected.triangles(f, (expected.first_corners[f] + k) % 3)],
+                      both.triangles(expected.original_faces[f], k));
+    for (const unsigned seed : {1u, 2u}) {
+        std::vector<Index> name;
+        const Mesh other = moved(renumbered(both, seed, name), 1e5);
+        const CanonicalMesh mesh = canonical_mesh(other.vertices, other.triangles);
+        EXPECT_EQ(mesh.triangles, expected.triangles);
+        EXPECT_LT((mesh.vertices - expected.vertices).cwiseAbs().maxCoeff(), 1e-9);
+    }
+    EXPECT_EQ(canonical_mesh(both.vertices, Triangles::Constant(1, 3, 99999)).triangles(0, 0), 99999);
 }
 
 TEST(CanonicalForm, one_point_is_no_surface)

@@ -217,6 +217,28 @@ TEST_P(DenseKernelsTest, WhatIsNotDefiniteIsNamed)
     EXPECT_EQ(info, 4);
 }
 
+TEST_P(DenseKernelsTest, EverySetGivesTheSameBits)
+{
+    const DenseKernels& least = koebe::kernels::baseline();
+    const double one = 1.0, alpha = -0.7;
+    int info = 0;
+    for (const int n : {1, 3, 17, 64, 150, 400}) {
+        const int k = 5 * n / 3, few = 3;
+        const MatrixXd a = definite(n), b = matrix(n, k), c = matrix(n, few);
+        const auto results = [&](const DenseKernels& kernels) {
+            std::vector<MatrixXd> r{a, b, c, a, a, c};
+            kernels.dpotrf("L", &n, r[0].data(), &n, &info);
+            kernels.dtrsm("L", "L", "N", "N", &n, &k, &alpha, r[0].data(), &n, r[1].data(), &n);
+            kernels.dtrsm("L", "L", "T", "N", &n, &few, &one, r[0].data(), &n, r[2].data(), &n);
+            kernels.dsyrk("L", "N", &n, &k, &alpha, b.data(), &n, &one, r[3].data(), &n);
+            kernels.dgemm("N", "T", &n, &n, &k, &alpha, b.data(), &n, r[1].data(), &n, &one, r[4].data(), &n);
+            kernels.dgemm("T", "N", &n, &few, &n, &alpha, a.data(), &n, c.data(), &n, &one, r[5].data(), &n);
+            return r;
+        };
+        EXPECT_EQ(results(kernels_), results(least)) << n;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sets, DenseKernelsTest, testing::ValuesIn(sets()),
                          [](const auto& set) { return std::string(set.param.name); });
 

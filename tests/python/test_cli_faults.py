@@ -57,7 +57,7 @@ def without_outputs(folder):
 
 def with_failing_malloc(folder, command, **environment):
     # One process and no second one: the command starts itself again for kernels and threads that do not fit.
-    settings = {"LD_PRELOAD": str(FAILING_MALLOC), "OPENBLAS_NUM_THREADS": "1", "OPENBLAS_CORETYPE": "HASWELL"}
+    settings = {"LD_PRELOAD": str(FAILING_MALLOC), "OPENBLAS_NUM_THREADS": "1"}
     environment = {name: str(value) for name, value in environment.items()}
     return koebe(*COMMANDS[command], cwd=folder, env={**os.environ, **settings, **environment})
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+import commands  # noqa: E402
 import promises  # noqa: E402
 import random_surfaces  # noqa: E402
 
@@ -18,6 +19,17 @@ def test_a_few_of_each_kind_keep_their_promises(kind):
         surface = random_surfaces.make(kind, seed)
         if surface is not None:
             assert promises.broken(surface[1], koebe.uniformize(*surface)) == [], seed
+
+
+@pytest.mark.parametrize("name", [name for name in commands.COMMANDS if name != "uniformize"])
+def test_every_command_keeps_its_promises_and_gives_one_surface_one_map(name):
+    for kind in commands.COMMANDS[name].kinds:
+        surface = commands.surface(name, kind, 2003)
+        result = commands.answer(name, *surface)
+        assert isinstance(result, str) or commands.COMMANDS[name].broken(surface[1], result) == [], kind
+        for other in commands.variants(*surface, np.random.default_rng(1)):
+            again = commands.answer(name, other.vertices, other.triangles)
+            assert commands.difference(name, result, again, other) < 1e-6, (kind, other.name)
 
 
 @pytest.mark.parametrize(("scan", "degrees"), [("nikolov_Angel", 3.4), ("nikolov_blackVase", 6.0)])

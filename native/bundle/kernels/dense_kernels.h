@@ -1,4 +1,5 @@
-// The dense kernels of BLAS and LAPACK that CHOLMOD and linear/ call, made from Eigen: for builds that carry no BLAS.
+// The dense kernels of BLAS and LAPACK that linear/ calls, and CHOLMOD in builds that carry no BLAS. They give the same
+// bits on every processor: a map follows from its surface alone, whatever hangs on its last bits.
 // Fortran's calling convention (netlib.org/blas, LAPACK Users' Guide, section 2): everything by address, columns first.
 #pragma once
 
@@ -55,5 +56,8 @@ struct DenseKernels {
 const DenseKernels& baseline();
 const DenseKernels& avx2();    // with FMA
 const DenseKernels& avx512();  // F, DQ, BW, VL
+
+/// Those that fit the processor; at most the set that KOEBE_KERNELS names in the environment: sse2, avx2, avx512.
+const DenseKernels& chosen();
 
 }  // namespace koebe::kernels
