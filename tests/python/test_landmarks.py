@@ -55,6 +55,17 @@ def test_what_an_automorphism_can_do_bends_nothing():
     assert koebe.transfer(ring, ring, landmarks=[(hole[0], hole[7])]).beltrami["mean"] < 1e-9
 
 
+@pytest.mark.parametrize("stretch", [2.0, 0.4])
+def test_landmarks_tell_which_holes_correspond(stretch):
+    vertices, faces = SMALL_VERTICES, SMALL_FACES
+    wide = koebe.uniformize(vertices * [stretch, 1.0, 1.0], faces)
+    chosen = [int(v) for v in inside(SMALL)[::40]]
+    assert koebe.transfer(SMALL, wide).alignment.match != [0, 1, 2, 3]  # the nearest module takes one for another
+    bent = koebe.transfer(SMALL, wide, landmarks=[(v, v) for v in chosen])
+    assert bent.alignment.match == [0, 1, 2, 3] and bent.flipped == 0
+    assert np.allclose(bent.points[chosen], vertices[chosen], atol=1e-9)
+
+
 def test_holes_that_could_not_be_fitted_are_a_warning():
     wide, narrow = (mapped(24, holes, flat=True) for holes in (((0.5, 0.5, 0.45),), ((0.5, 0.5, 0.05),)))
     with pytest.warns(RuntimeWarning, match="holes could not be bent"):
