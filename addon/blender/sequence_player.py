@@ -21,9 +21,11 @@ def put_on(run: Transaction, obj: MeshObject, layer: str, prefix: str, frames: r
     """
     old = _own(obj)
     groups = {group.name for group in bpy.data.node_groups if group.library is None}
-    run.before_write(_restore, obj, old.name if old else None, old.node_group if old else None, groups)
+    names = [one.name for one in obj.modifiers]
+    run.before_write(_restore, obj, names, groups, old.name if old else None, old.node_group if old else None)
+    nodes = _nodes(layer, prefix, frames)
     modifier: Any = old or obj.modifiers.new(NAME, "NODES")
-    modifier.node_group = _nodes(layer, prefix, frames)
+    modifier.node_group = nodes
 
 
 def shown_instead(obj: MeshObject, layer: str) -> str | None:
@@ -44,12 +46,12 @@ def _own(obj: MeshObject) -> Any:
     return None
 
 
-def _restore(obj: MeshObject, name: str | None, group: Any, groups: set[str]) -> None:
-    now = _own(obj)
-    if now is not None and name is None:
-        obj.modifiers.remove(now)
-    elif now is not None:
-        now.node_group = group
+def _restore(obj: MeshObject, names: list[str], groups: set[str], old: str | None, group: Any) -> None:
+    for added in [one for one in obj.modifiers if one.name not in names]:
+        obj.modifiers.remove(added)
+    if old is not None and old in obj.modifiers:
+        before: Any = obj.modifiers[old]
+        before.node_group = group
     for made in [one for one in bpy.data.node_groups if one.library is None and one.name not in groups]:
         bpy.data.node_groups.remove(made)
 
