@@ -1,0 +1,28 @@
+#include "foldover/repair_effort.h"
+
+#include "foldover/foldover_free.h"
+
+#include <algorithm>
+
+namespace koebe {
+namespace {
+
+constexpr Eigen::Index step_overhead = 30;  // faces: what a Newton step costs besides
+constexpr std::size_t fewest_steps = 10;
+
+}  // namespace
+
+int RepairEffort::affordable(Eigen::Index faces) const
+{
+    const std::size_t steps = (limit_ - std::min(limit_, spent_)) /
+                              static_cast<std::size_t>(std::max<Eigen::Index>(0, faces) + step_overhead);
+    const auto most = static_cast<std::size_t>(FoldoverOptions{}.max_iterations);
+    return steps < fewest_steps ? 0 : static_cast<int>(std::min(steps, most));
+}
+
+void RepairEffort::spend(Eigen::Index faces, int steps)
+{
+    spent_ += static_cast<std::size_t>(faces + step_overhead) * static_cast<std::size_t>(steps);
+}
+
+}  // namespace koebe
