@@ -14,7 +14,7 @@ WantedShape::WantedShape(const Eigen::Matrix2d& edges)
 
 Symmetric Symmetric::positive_part() const
 {
-    const double mean = 0.5 * (m00 + m11), half = 0.5 * (m00 - m11), spread = std::hypot(half, m01);
+    const double mean = 0.5 * (m00 + m11), half = 0.5 * (m00 - m11), spread = std::sqrt(half * half + m01 * m01);
     const double large = mean + spread, small = mean - spread;
     if (small >= 0.0) return *this;
     if (!(large > 0.0)) return {};
@@ -26,7 +26,7 @@ Symmetric Symmetric::positive_part() const
 /// the determinant; but for the plane in which their sizes p and q grow, where it is a 2x2 matrix.
 FaceDerivatives FaceEnergy::derivatives(const FaceMap& map, double floor, double weight, const WantedShape& shape) const
 {
-    const double p = std::abs(map.like), q = std::abs(map.unlike), d = map.determinant();
+    const double p = std::sqrt(std::norm(map.like)), q = std::sqrt(std::norm(map.unlike)), d = map.determinant();
     const Complex along_like = p > 0.0 ? map.like / p : Complex(1.0, 0.0);
     const Complex along_unlike = q > 0.0 ? map.unlike / q : Complex(1.0, 0.0);
     const double root = std::sqrt(epsilon * epsilon + (d - floor) * (d - floor)), chi_now = chi(d - floor);

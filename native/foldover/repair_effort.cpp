@@ -9,8 +9,17 @@ namespace {
 
 constexpr Eigen::Index step_overhead = 30;  // faces: what a Newton step costs besides
 constexpr std::size_t fewest_steps = 10;
+constexpr std::size_t steps_of_all = 30;   // of the whole surface
+constexpr std::size_t small_steps = 2000;  // of a small one, besides
 
 }  // namespace
+
+RepairEffort::RepairEffort(Eigen::Index faces, std::size_t small)
+    : most_(steps_of_all * static_cast<std::size_t>(faces) +
+            std::min(small, small_steps * static_cast<std::size_t>(faces))),
+      limit_(most_)
+{
+}
 
 int RepairEffort::affordable(Eigen::Index faces) const
 {

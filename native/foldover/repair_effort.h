@@ -8,12 +8,12 @@
 
 namespace koebe {
 
-/// The unit is a face that a Newton step is taken for: so the search ends at the same place on every machine. It may
-/// cost as much as 30 steps of the whole surface, and 100,000 more, for small ones.
+/// The unit is a face that a Newton step is taken for: so the search ends at the same place on every machine.
 class RepairEffort {
 public:
+    /// As much as 30 steps of the whole surface cost; small ones get `small` besides, or 2,000 steps.
     /// @param faces of the surface
-    explicit RepairEffort(Eigen::Index faces) : most_(100000 + 30 * static_cast<std::size_t>(faces)), limit_(most_) {}
+    explicit RepairEffort(Eigen::Index faces, std::size_t small = 100000);
 
     std::size_t most() const { return most_; }
     std::size_t spent() const { return spent_; }

@@ -105,7 +105,7 @@ bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape s
         std::ranges::includes(map.clockwise_holes(moved_rim), holes))
         return true;
     map.uv()(posed.vertices, Eigen::all) = before;
-    effort.note_failure(name);
+    if (affordable == FoldoverOptions{}.max_iterations) effort.note_failure(name);
     return false;
 }
 
