@@ -4,6 +4,7 @@
 #include "domains/sphere_check.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
+#include "foldover/repair_effort.h"
 
 #include <Eigen/Geometry>
 
@@ -19,8 +20,7 @@ namespace {
 constexpr int sphere_ring_counts[] = {2, 4, 8, 16};
 constexpr double least_depth =
     0.2;  // of a patch in the direction of its middle: what lies lower is far off in the plane
-constexpr double least_repaired_area = 1e-7;      // of a face turned back, over its wanted one
-constexpr std::size_t most_repair_work = 100000;  // summed over all attempts
+constexpr double least_repaired_area = 1e-7;  // of a face turned back, over its wanted one
 
 enum class LoopFreedom { held, sliding, freed };
 
@@ -31,6 +31,7 @@ public:
           triangles_(domain.surface.triangles),
           map_(map),
           context_(context),
+          effort_(triangles_.rows(), 1000000),
           loop_of_(static_cast<std::size_t>(domain.surface.vertex_count), -1),
           faces_of_(static_cast<std::size_t>(domain.surface.vertex_count))
     {
@@ -51,9 +52,8 @@ public:
             if (loops != LoopFreedom::held && domain_.loops.empty()) break;
             for (const int rings : sphere_ring_counts)
                 for (const PatchShape shape : {PatchShape::surface, PatchShape::equilateral}) {
-                    if (left.empty()) break;
+                    if (left.empty() || effort_.exhausted()) break;
                     for (const std::vector<Index>& patch : patches(left, rings)) {
-                        if (work_ > most_repair_work) break;
                         work_ += patch.size();
                         repair(patch, shape, loops);
                     }
@@ -197,7 +197,10 @@ private:
             problem.floor[f] =
                 area > 0.0 ? std::min(least_repaired_area, 0.5 * area / shapes.areas[f]) : least_repaired_area;
         }
-        minimize_foldover_free(problem, context_);
+        const int affordable = effort_.affordable(problem.triangles.rows());
+        if (affordable == 0) return;
+        effort_.spend(problem.triangles.rows(),
+                      minimize_foldover_free(problem, context_, {.max_iterations = affordable}).iterations);
         if (!problem.points.allFinite()) return;
         take(
             faces, vertices, problem,
@@ -278,6 +281,7 @@ private:
     const Triangles& triangles_;
     SphericalMap& map_;
     const ExecutionContext& context_;
+    RepairEffort effort_;
     std::vector<int> loop_of_;
     std::vector<std::vector<Index>> faces_of_;
     std::vector<char> off_;

@@ -212,7 +212,7 @@ TileSheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std:
 
 /// Untangles a tile that is cut so; what is on its border stays.
 void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, HoleShape shape, FlatMap& map,
-                  ExecutionContext& context)
+                  RepairEffort& effort, ExecutionContext& context)
 {
     TileSheet sheet = sheet_of(domain, map, lift);
     std::vector<Index> hole_of(domain.surface.vertex_count, -1);
@@ -221,7 +221,7 @@ void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, 
     std::vector<VertexLoop> loops, holes;
     std::vector<Circle> places, hole_places;
     const bool circles = shape == HoleShape::open && domain.first_hole == 0 && map.apart && !map.circles.empty();
-    UntangleOptions options{.slide = circles};
+    UntangleOptions options{.slide = circles, .effort = &effort};
     std::vector<Index> off_circle;
     for (const VertexLoop& loop : sheet.surface.loops) {
         const Index k = hole_of[sheet.source[loop.front()]];
@@ -486,6 +486,7 @@ TileFaults find_faults(const PeriodicSurface& domain, const Tile& tile, HoleShap
 
 std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, FlatMap& map, ExecutionContext& context)
 {
+    RepairEffort effort(domain.surface.triangles.rows(), 3000000);  // the first pass does most
     std::vector<Index> left = tangled(domain, tile_of(domain, map));
     for (int pass = 0, in_vain = 0; pass < most_passes && in_vain < most_in_vain && !left.empty(); ++pass) {
         context.advance(static_cast<double>(pass) / most_passes);
@@ -498,7 +499,7 @@ std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, Flat
         std::vector<Lift> lift = lifts_in_cell(domain, map, origin);
         join_parts(domain, lift);
         if (domain.first_hole > 0) slide_along_lines(domain, lift, pass < 2 ? 2 : 5, shape, map, context);
-        if (shape == HoleShape::open || pass > 1) turn_back_in(domain, lift, shape, map, context);
+        if (shape == HoleShape::open || pass > 1) turn_back_in(domain, lift, shape, map, effort, context);
         const std::size_t before = left.size();
         left = tangled(domain, tile_of(domain, map));
         in_vain = left.size() < before ? 0 : in_vain + 1;

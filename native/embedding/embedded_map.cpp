@@ -10,8 +10,10 @@ namespace koebe {
 namespace {
 
 constexpr int free_rounds = 3, path_steps = 4, snap_rounds = 4, refits = 2;
-constexpr double open_holes = 0.3;    // weight of the holes' fans against faces, where no circle keeps holes open
-constexpr Index drawn_faces = 60000;  // how many faces may be drawn to circles again before what is off stays off
+constexpr double open_holes = 0.3;  // weight of the holes' fans against faces, where no circle keeps holes open
+// Faces that Newton steps may be taken for before what is off its circle stays off: a step of the whole surface so
+// often, and those of a small surface.
+constexpr std::size_t steps_of_all = 60, most_for_small = 200000;
 
 class Embedding {
 public:
@@ -21,7 +23,7 @@ public:
           map_(vertices, surface, loops, flaps, rim, places, context),
           off_(loops.size(), 0),
           roundness_(loops.size()),
-          most_drawings_(std::max<int>(1, drawn_faces / static_cast<int>(surface.triangles.rows())))
+          most_work_(steps_of_all * static_cast<std::size_t>(surface.triangles.rows()) + most_for_small)
     {
     }
 
@@ -44,7 +46,7 @@ public:
                 draw_and_mend(best, context);
             }
             for (const HoleCircle kind : {HoleCircle::through, HoleCircle::inside}) {
-                if (best.off == 0 || (best.off > 0 && drawings_ >= most_drawings_)) break;
+                if (best.off == 0 || (best.off > 0 && map_.work() >= most_work_)) break;
                 map_.return_to(free);
                 if (!refit(std::vector<char>(loops_.size(), 1), kind) && best.off >= 0) continue;
                 draw_and_mend(best, context);
@@ -76,7 +78,7 @@ private:
     {
         draw(context);
         note(best);
-        for (int round = 0; round < refits && best.off > 0 && note_off() > 0 && drawings_ < most_drawings_; ++round) {
+        for (int round = 0; round < refits && best.off > 0 && note_off() > 0 && map_.work() < most_work_; ++round) {
             for (std::size_t k = 1; k < loops_.size(); ++k)
                 if (off_[k]) map_.release(k);
             map_.relax({.regular = open_holes}, 12, context);
@@ -123,7 +125,6 @@ private:
     /// Pulls the loops to their circles, harder and harder, and puts them there.
     void draw(const ExecutionContext& context)
     {
-        ++drawings_;
         map_.let_rim_slide(true);
         for (const double pull : {1.0, 30.0, 1e3, 1e5}) map_.relax({pull, std::max(pull, 30.0)}, 25, context);
         for (std::size_t k = 1; k < loops_.size(); ++k) roundness_[k] = map_.roundness_of(k);
@@ -146,7 +147,7 @@ private:
     FilledMap map_;
     std::vector<char> off_;  // per loop
     std::vector<Roundness> roundness_;
-    int drawings_ = 0, most_drawings_;
+    std::size_t most_work_;
 };
 
 }  // namespace

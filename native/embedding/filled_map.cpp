@@ -256,7 +256,9 @@ void FilledMap::relax(Pull pull, int iterations, const ExecutionContext& context
     const PlanarPoints before = now_.points;
     for (int attempt = 0; attempt < most_cautions; ++attempt) {
         FoldoverProblem moving = problem(pull);
-        minimize_foldover_free(moving, context, {.max_iterations = iterations, .settled = 1e-5, .strict = true});
+        const FoldoverResult moved =
+            minimize_foldover_free(moving, context, {.max_iterations = iterations, .settled = 1e-5, .strict = true});
+        work_ += static_cast<std::size_t>(moved.iterations) * static_cast<std::size_t>(moving.triangles.rows());
         bool kept = moving.points.allFinite();
         if (kept) {
             now_.points = std::move(moving.points);

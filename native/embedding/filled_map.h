@@ -11,6 +11,7 @@
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace koebe {
@@ -53,6 +54,8 @@ public:
         std::vector<FoldoverProblem::Mobility> mobility;
         std::vector<Circle> circles;
     };
+    /// Faces that Newton steps were taken for.
+    std::size_t work() const { return work_; }
     const State& state() const { return now_; }
     void return_to(State state) { now_ = std::move(state); }
 
@@ -94,6 +97,7 @@ private:
     std::vector<double> caution_;  // per face: what its floor is multiplied by
     FixedPlaces places_;
     State now_;
+    std::size_t work_ = 0;
     std::vector<Index> faces_;  // of the surface
 };
 

@@ -1,10 +1,12 @@
 #include "foldover/foldover_free.h"
 
+#include "foldover/face_energy.h"
 #include "linear/sparse_cholesky.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,8 +15,6 @@
 namespace koebe {
 namespace {
 
-using Gradient = Eigen::Matrix<double, 6, 1>;
-using Hessian = Eigen::Matrix<double, 6, 6>;
 using Mobility = FoldoverProblem::Mobility;
 
 constexpr double least_epsilon = 1e-6;  // Garanzha et al. 2021, section 3.2
@@ -26,94 +26,84 @@ constexpr int patience = 30;  // iterations without a better worst determinant, 
 class FoldoverMinimizer {
 public:
     FoldoverMinimizer(FoldoverProblem& problem, const FoldoverOptions& options)
-        : problem_(problem), options_(options), first_unknown_(problem.points.rows(), -1)
+        : problem_(problem),
+          options_(options),
+          energy_{options.area_weight, options.power, options.slack},
+          first_unknown_(problem.points.rows(), -1)
     {
         for (Eigen::Index v = 0; v < problem.points.rows(); ++v)
             if (problem.mobility[v] != Mobility::held) {
                 first_unknown_[v] = unknowns_;
-                unknowns_ += problem.mobility[v] == Mobility::free ? 2 : 1;
+                unknowns_ += unknowns_of(v);
             }
-        for (Eigen::Index f = 0; f < problem.triangles.rows(); ++f) {
-            // J = E R^-1 in the entries of E; row-major (J00, J01, J10, J11) from (x0, y0, x1, y1, x2, y2).
-            const Eigen::Matrix2d s = problem.reference[f].inverse();
-            Eigen::Matrix<double, 4, 6> map = Eigen::Matrix<double, 4, 6>::Zero();
-            for (int row = 0; row < 2; ++row)
-                for (int column = 0; column < 2; ++column) {
-                    map(2 * row + column, 2 + row) = s(0, column);
-                    map(2 * row + column, 4 + row) = s(1, column);
-                    map(2 * row + column, row) = -s(0, column) - s(1, column);
-                }
-            maps_.push_back(map);
-        }
+        for (const Eigen::Matrix2d& reference : problem.reference) shapes_.emplace_back(reference);
+        if (unknowns_ > 0) set_pattern();
     }
 
-    bool run(const ExecutionContext& context)
+    FoldoverResult run(const ExecutionContext& context)
     {
-        if (unknowns_ == 0) return worst_determinant(problem_.points) > 0.0;
+        FoldoverResult result;
+        Worth now = worth(problem_.points);
+        if (unknowns_ == 0) return {now.worst > 0.0, 0};
         double best_worst = -std::numeric_limits<double>::infinity();
         int waited = 0;
         for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
             context.checkpoint();
-            const double worst = worst_determinant(problem_.points);
-            epsilon_ = std::sqrt(least_epsilon * least_epsilon + 0.04 * std::pow(std::min(worst, 0.0), 2));
-            if (worst > best_worst + 1e-3 * std::abs(best_worst) || worst > 0.0) {
-                best_worst = worst;
+            energy_.epsilon = std::sqrt(least_epsilon * least_epsilon + 0.04 * std::pow(std::min(now.worst, 0.0), 2));
+            if (now.worst > best_worst + 1e-3 * std::abs(best_worst) || now.worst > 0.0) {
+                best_worst = now.worst;
                 waited = 0;
             } else if (++waited > patience) {
                 break;
             }
-            const double before = energy(problem_.points);
-            if (!newton_step(before)) break;
-            const double after = energy(problem_.points);
-            if (worst > 0.0 && before - after < options_.settled * before) break;
+            ++result.iterations;
+            const double before = take_derivatives();
+            const bool was_right = now.worst > 0.0;
+            if (!newton_step(before, now)) break;
+            if (before - now.energy < (was_right ? options_.settled : options_.stalled) * before) break;
         }
-        return worst_determinant(problem_.points) > 0.0;
+        result.foldover_free = now.worst > 0.0;
+        return result;
     }
 
 private:
-    Eigen::Vector4d jacobian(const PlanarPoints& points, Eigen::Index f) const
+    /// The sum that is minimized, and the least determinant above its floor.
+    struct Worth {
+        double energy = 0.0, worst = std::numeric_limits<double>::infinity();
+    };
+
+    Index unknowns_of(Index v) const
     {
-        Gradient corners;
-        for (int k = 0; k < 3; ++k) corners.segment<2>(2 * k) = points.row(problem_.triangles(f, k));
-        // Relative to the first corner, so that nothing cancels.
-        for (int k = 2; k >= 0; --k) corners.segment<2>(2 * k) -= corners.segment<2>(0).eval();
-        return maps_[f] * corners;
+        return problem_.mobility[v] == Mobility::free ? 2 : problem_.mobility[v] == Mobility::sliding ? 1 : 0;
+    }
+
+    FaceMap face_map(const PlanarPoints& points, Eigen::Index f) const
+    {
+        const auto corner = [&](int k) {
+            const Index v = problem_.triangles(f, k);
+            return Complex(points(v, 0), points(v, 1));
+        };
+        const Complex first = corner(0);
+        return shapes_[f].map_to(corner(1) - first, corner(2) - first);
     }
 
     double weight(Eigen::Index f) const { return problem_.weight.size() > 0 ? problem_.weight[f] : 1.0; }
 
-    static double determinant(const Eigen::Vector4d& j) { return j[0] * j[3] - j[1] * j[2]; }
-
-    double worst_determinant(const PlanarPoints& points) const
+    Worth worth(const PlanarPoints& points) const
     {
-        double worst = std::numeric_limits<double>::infinity();
-        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f)
-            worst = std::min(worst, determinant(jacobian(points, f)) - problem_.floor[f]);
-        return worst;
+        Worth result;
+        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
+            const FaceMap map = face_map(points, f);
+            result.energy += weight(f) * energy_(map, problem_.floor[f]);
+            result.worst = std::min(result.worst, map.determinant() - problem_.floor[f]);
+        }
+        result.energy += pulls(points);
+        return result;
     }
 
-    /// chi and its first two derivatives.
-    Eigen::Vector3d regularized(double d) const
-    {
-        const double root = std::hypot(epsilon_, d);
-        const double chi = d > 0.0 ? 0.5 * (d + root) : 0.5 * epsilon_ * epsilon_ / (root - d);
-        return {chi, chi / root, 0.5 * epsilon_ * epsilon_ / (root * root * root)};
-    }
-
-    double excess(double term) const { return std::max(0.5 * term - 1.0, 0.0) + options_.slack; }
-
-    /// What a face's term counts.
-    double raised(double term) const { return options_.power == 1.0 ? term : std::pow(excess(term), options_.power); }
-
-    double energy(const PlanarPoints& points) const
+    double pulls(const PlanarPoints& points) const
     {
         double sum = 0.0;
-        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
-            const Eigen::Vector4d j = jacobian(points, f);
-            const double d = determinant(j);
-            sum += weight(f) * raised((j.squaredNorm() + options_.area_weight * (d * d + 1.0)) /
-                                      regularized(d - problem_.floor[f])[0]);
-        }
         for (Eigen::Index v = 0; v < problem_.pull.size(); ++v)
             if (pulled(v)) sum += problem_.pull[v] * std::pow(offset(points, v).second, 2);
         return sum;
@@ -135,48 +125,133 @@ private:
         return {arm / distance, distance / circle.radius - target};
     }
 
-    void derivatives(Eigen::Index f, Gradient& gradient, Hessian& hessian) const
+    /// The lower triangle of the Hessian, its columns and rows of one vertex side by side; for each two corners of a
+    /// face, where the rows of the later one begin in the first column of the other.
+    void set_pattern()
     {
-        const Eigen::Vector4d j = jacobian(problem_.points, f);
-        const double d = determinant(j);
-        const Eigen::Vector3d chi = regularized(d - problem_.floor[f]);
-        const Eigen::Vector4d d_gradient(j[3], -j[2], -j[1], j[0]);
-        Eigen::Matrix4d d_hessian = Eigen::Matrix4d::Zero();
-        d_hessian(0, 3) = d_hessian(3, 0) = 1.0;
-        d_hessian(1, 2) = d_hessian(2, 1) = -1.0;
-        // The energy is N(J) / chi(D) with N = |J|^2 + theta (D^2 + 1).
-        const double theta = options_.area_weight;
-        const double n = j.squaredNorm() + theta * (d * d + 1.0);
-        const Eigen::Vector4d n_gradient = 2.0 * j + 2.0 * theta * d * d_gradient;
-        const double inverse = 1.0 / chi[0], slope = -chi[1] * inverse * inverse;
-        const double bend = 2.0 * chi[1] * chi[1] * inverse * inverse * inverse - chi[2] * inverse * inverse;
-        Eigen::Vector4d g = inverse * n_gradient + n * slope * d_gradient;
-        Eigen::Matrix4d h = 2.0 * inverse * Eigen::Matrix4d::Identity() +
-                            (2.0 * theta * inverse + n * bend) * d_gradient * d_gradient.transpose() +
-                            (2.0 * theta * d * inverse + n * slope) * d_hessian +
-                            slope * (n_gradient * d_gradient.transpose() + d_gradient * n_gradient.transpose());
-        if (options_.power != 1.0) {
-            const double t = excess(n * inverse), s = options_.power;
-            const double first = 0.5 * s * std::pow(t, s - 1.0);
-            h = first * h + 0.25 * s * (s - 1.0) * std::pow(t, s - 2.0) * g * g.transpose();
-            g *= first;
+        std::vector<std::pair<Index, Index>> pairs;  // (column's vertex, row's vertex), by unknowns
+        std::vector<Index> vertex_of(unknowns_, -1);
+        for (Eigen::Index v = 0; v < problem_.points.rows(); ++v)
+            if (first_unknown_[v] >= 0) {
+                vertex_of[first_unknown_[v]] = static_cast<Index>(v);
+                pairs.emplace_back(first_unknown_[v], first_unknown_[v]);
+            }
+        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f)
+            for (int k = 0; k < 3; ++k)
+                if (const auto [a, b] = ends(f, k); a >= 0) pairs.emplace_back(a, b);
+        std::ranges::sort(pairs);
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        std::vector<Index> begin(pairs.size());  // of each pair in the first column of its own
+        std::vector<Index> rows, outer{0};
+        for (std::size_t i = 0; i < pairs.size();) {
+            const Index column = pairs[i].first, width = unknowns_of(vertex_of[column]);
+            std::vector<Index> below;
+            for (; i < pairs.size() && pairs[i].first == column; ++i) {
+                begin[i] = static_cast<Index>(below.size());
+                for (Index r = 0; r < unknowns_of(vertex_of[pairs[i].second]); ++r)
+                    below.push_back(pairs[i].second + r);
+            }
+            for (Index c = 0; c < width; ++c) {
+                rows.insert(rows.end(), below.begin() + c, below.end());
+                outer.push_back(static_cast<Index>(rows.size()));
+            }
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(h);
-        h = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
-        gradient = weight(f) * (maps_[f].transpose() * g);
-        hessian = weight(f) * (maps_[f].transpose() * h * maps_[f]);
+        hessian_.resize(unknowns_, unknowns_);
+        hessian_.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
+        std::ranges::copy(outer, hessian_.outerIndexPtr());
+        std::ranges::copy(rows, hessian_.innerIndexPtr());
+        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
+            std::array<Index, 3> places{-1, -1, -1};
+            for (int k = 0; k < 3; ++k)
+                if (const std::pair<Index, Index> pair = ends(f, k); pair.first >= 0)
+                    places[k] = begin[std::ranges::lower_bound(pairs, pair) - pairs.begin()];
+            places_.push_back(places);
+        }
     }
 
-    /// The directions in which a vertex moves, as rows; none if it is held.
-    Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 2, 2> directions(Index v) const
+    /// The first unknowns of the corners k and k + 1 of a face, the lower one first; -1 if one of them is held.
+    std::pair<Index, Index> ends(Eigen::Index f, int k) const
     {
-        if (problem_.mobility[v] == Mobility::free) return Eigen::Matrix2d::Identity();
-        Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 2, 2> tangent(problem_.mobility[v] == Mobility::held ? 0 : 1, 2);
-        if (tangent.rows() == 0) return tangent;
-        const Eigen::RowVector2d arm = problem_.points.row(v) - Eigen::RowVector2d(problem_.circles[v].center.real(),
-                                                                                   problem_.circles[v].center.imag());
-        tangent << -arm[1], arm[0];
-        return tangent / arm.norm();
+        const Index a = first_unknown_[problem_.triangles(f, k)];
+        const Index b = first_unknown_[problem_.triangles(f, (k + 1) % 3)];
+        if (a < 0 || b < 0) return {-1, -1};
+        return std::minmax(a, b);
+    }
+
+    /// The direction in which a sliding vertex moves.
+    Eigen::Vector2d tangent(Index v) const
+    {
+        const Circle& circle = problem_.circles[v];
+        const Eigen::Vector2d arm(problem_.points(v, 0) - circle.center.real(),
+                                  problem_.points(v, 1) - circle.center.imag());
+        return Eigen::Vector2d(-arm[1], arm[0]) / arm.norm();
+    }
+
+    /// Adds a block to the Hessian. @param place of its rows in the first column
+    void add(Index column_vertex, Index row_vertex, Index place, const Eigen::Matrix2d& block)
+    {
+        const Index first = first_unknown_[column_vertex];
+        double* const values = hessian_.valuePtr();
+        const Index* const outer = hessian_.outerIndexPtr();
+        const bool wide = problem_.mobility[column_vertex] == Mobility::free;
+        const bool high = problem_.mobility[row_vertex] == Mobility::free;
+        const bool own = column_vertex == row_vertex;
+        if (wide && high) {
+            values[outer[first] + place] += block(0, 0);
+            values[outer[first] + place + 1] += block(1, 0);
+            if (!own) values[outer[first + 1] + place - 1] += block(0, 1);
+            values[outer[first + 1] + place] += block(1, 1);
+        } else if (wide) {
+            const Eigen::RowVector2d row = tangent(row_vertex).transpose() * block;
+            values[outer[first] + place] += row[0];
+            values[outer[first + 1] + place - 1] += row[1];
+        } else if (high) {
+            const Eigen::Vector2d column = block * tangent(column_vertex);
+            values[outer[first] + place] += column[0];
+            values[outer[first] + place + 1] += column[1];
+        } else {
+            values[outer[first] + place] += tangent(row_vertex).dot(block * tangent(column_vertex));
+        }
+    }
+
+    /// Fills gradient and Hessian. @return the sum that is minimized
+    double take_derivatives()
+    {
+        gradient_ = VectorXd::Zero(unknowns_);
+        std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
+        double energy = 0.0;
+        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
+            const WantedShape& shape = shapes_[f];
+            const FaceDerivatives face =
+                energy_.derivatives(face_map(problem_.points, f), problem_.floor[f], weight(f), shape);
+            energy += face.term;
+            for (int k = 0; k < 3; ++k) {
+                const Index v = problem_.triangles(f, k), first = first_unknown_[v];
+                if (first < 0) continue;
+                const Eigen::Vector2d g(face.gradient[k].real(), face.gradient[k].imag());
+                if (problem_.mobility[v] == Mobility::free)
+                    gradient_.segment<2>(first) += g;
+                else
+                    gradient_[first] += g.dot(tangent(v));
+                add(v, v, 0, face.block(k, k, shape));
+                if (places_[f][k] < 0) continue;
+                const int l = (k + 1) % 3, column = first < first_unknown_[problem_.triangles(f, l)] ? k : l;
+                const int row = k + l - column;
+                add(problem_.triangles(f, column), problem_.triangles(f, row), places_[f][k],
+                    face.block(row, column, shape));
+            }
+        }
+        for (Eigen::Index v = 0; v < problem_.pull.size(); ++v) {
+            if (!pulled(v)) continue;
+            const auto [outward, distance] = offset(problem_.points, v);
+            const double weight = 2.0 * problem_.pull[v] / problem_.circles[v].radius;
+            gradient_.segment<2>(first_unknown_[v]) += weight * distance * outward;
+            Eigen::Matrix2d block = outward * outward.transpose();
+            if (to_centre(v)) block.setIdentity();
+            add(static_cast<Index>(v), static_cast<Index>(v), 0, weight / problem_.circles[v].radius * block);
+        }
+        for (Index i = 0; i < unknowns_; ++i) hessian_.valuePtr()[hessian_.outerIndexPtr()[i]] *= 1.0 + shift;
+        return energy + pulls(problem_.points);
     }
 
     PlanarPoints moved(const VectorXd& step, double share) const
@@ -198,58 +273,24 @@ private:
     }
 
     /// A damped Newton step for the present epsilon; false if no step decreases the energy.
-    bool newton_step(double before)
+    /// @param now what the points are worth, taken anew after the step
+    bool newton_step(double before, Worth& now)
     {
-        VectorXd gradient = VectorXd::Zero(unknowns_);
-        entries_.clear();
-        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
-            Gradient g;
-            Hessian h;
-            derivatives(f, g, h);
-            for (int a = 0; a < 3; ++a) {
-                const Index v = problem_.triangles(f, a), row = first_unknown_[v];
-                if (row < 0) continue;
-                const auto rows = directions(v);
-                gradient.segment(row, rows.rows()) += rows * g.segment<2>(2 * a);
-                for (int b = 0; b < 3; ++b) {
-                    const Index w = problem_.triangles(f, b), column = first_unknown_[w];
-                    if (column < 0) continue;
-                    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2> block =
-                        rows * h.block<2, 2>(2 * a, 2 * b) * directions(w).transpose();
-                    for (Index i = 0; i < block.rows(); ++i)
-                        for (Index j = 0; j < block.cols(); ++j)
-                            entries_.emplace_back(row + i, column + j, block(i, j));
-                }
-            }
-        }
-        for (Eigen::Index v = 0; v < problem_.pull.size(); ++v) {
-            if (!pulled(v)) continue;
-            const auto [outward, distance] = offset(problem_.points, v);
-            const double weight = 2.0 * problem_.pull[v] / problem_.circles[v].radius;
-            const Index row = first_unknown_[v];
-            gradient.segment<2>(row) += weight * distance * outward;
-            Eigen::Matrix2d block = outward * outward.transpose();
-            if (to_centre(v)) block.setIdentity();
-            block *= weight / problem_.circles[v].radius;
-            for (Index i = 0; i < 2; ++i)
-                for (Index j = 0; j < 2; ++j) entries_.emplace_back(row + i, row + j, block(i, j));
-        }
-        SparseMatrix hessian(unknowns_, unknowns_);
-        hessian.setFromTriplets(entries_.begin(), entries_.end());
-        for (Index i = 0; i < unknowns_; ++i) hessian.coeffRef(i, i) *= 1.0 + shift;
-        VectorXd step = newton_direction(hessian, gradient);
-        double slope = gradient.dot(step);
+        VectorXd step = newton_direction();
+        double slope = gradient_.dot(step);
         if (!(slope < 0.0) || !step.allFinite()) {
-            step = -gradient.cwiseQuotient(hessian.diagonal().cwiseMax(1e-300));
-            slope = gradient.dot(step);
+            step = -gradient_.cwiseQuotient(hessian_.diagonal().cwiseMax(1e-300));
+            slope = gradient_.dot(step);
             if (!(slope < 0.0)) return false;
         }
         double share = 1.0;
         for (int i = 0; i < halvings; ++i, share *= 0.5) {
             PlanarPoints trial = moved(step, share);
-            if (options_.strict && !(worst_determinant(trial) > 0.0)) continue;
-            if (energy(trial) <= before + armijo * share * slope) {
+            const Worth there = worth(trial);
+            if (options_.strict && !(there.worst > 0.0)) continue;
+            if (there.energy <= before + armijo * share * slope) {
                 problem_.points = std::move(trial);
+                now = there;
                 return true;
             }
         }
@@ -257,14 +298,14 @@ private:
     }
 
     /// -H^-1 gradient, or 0 if H is singular.
-    VectorXd newton_direction(const SparseMatrix& hessian, const VectorXd& gradient)
+    VectorXd newton_direction()
     {
         try {
             if (solver_)
-                solver_->refactorize(hessian);
+                solver_->refactorize(hessian_);
             else
-                solver_.emplace(hessian);
-            return -solver_->solve(gradient);
+                solver_.emplace(hessian_);
+            return -solver_->solve(gradient_);
         } catch (const SolverError&) {
             solver_.reset();
             return VectorXd::Zero(unknowns_);
@@ -273,17 +314,20 @@ private:
 
     FoldoverProblem& problem_;
     FoldoverOptions options_;
+    FaceEnergy energy_;
     std::vector<Index> first_unknown_;  // per vertex, -1 if held
     Index unknowns_ = 0;
-    std::vector<Eigen::Matrix<double, 4, 6>> maps_;
-    double epsilon_ = 1.0;
-    std::vector<Eigen::Triplet<double, Index>> entries_;
+    std::vector<WantedShape> shapes_;           // per face
+    std::vector<std::array<Index, 3>> places_;  // per face and corner: see set_pattern
+    VectorXd gradient_;
+    SparseMatrix hessian_;
     std::optional<SparseCholesky> solver_;
 };
 
 }  // namespace
 
-bool minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context, const FoldoverOptions& options)
+FoldoverResult minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
+                                      const FoldoverOptions& options)
 {
     return FoldoverMinimizer(problem, options).run(context);
 }

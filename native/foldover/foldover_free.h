@@ -29,9 +29,15 @@ struct FoldoverOptions {
     int max_iterations = 60;
     double area_weight = 1.0 / 128.0;  ///< of det + 1/det against the conformal term, dimensionless (Garanzha's theta)
     double settled = 1e-4;             ///< relative decrease at which a foldover-free map is good enough
+    double stalled = 1e-4;             ///< and one at which a folded map is given up
     bool strict = false;               ///< no step over a floor: from a foldover-free map to foldover-free ones only
     double power = 1.0;                ///< s >= 1: see below
     double slack = 0.0;                ///< delta: see below
+};
+
+struct FoldoverResult {
+    bool foldover_free = false;  ///< every determinant is above its floor
+    int iterations = 0;
 };
 
 /// Minimizes sum_f (tr(J'J) / chi(det J - floor) + theta (det^2 + 1) / chi) over the mobile vertices, J the linear map
@@ -42,8 +48,8 @@ struct FoldoverOptions {
 /// becomes (t / 2 - 1 + delta)^s: with theta = 0 that is (2 |mu|^2 / (1 - |mu|^2) + delta)^s, whose minimum feels
 /// single vertices that are held however fine the mesh, and the greatest |mu| the more the larger s; delta keeps its
 /// Hessian regular.
-/// @return whether every determinant is above its floor; problem.points holds the result either way
-bool minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
-                            const FoldoverOptions& options = {});
+/// @return problem.points holds the result whether it is free of foldovers or not
+FoldoverResult minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
+                                      const FoldoverOptions& options = {});
 
 }  // namespace koebe

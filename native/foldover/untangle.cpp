@@ -11,22 +11,24 @@ namespace {
 
 constexpr int ring_counts[] = {2, 4, 8, 16};
 constexpr PatchShape shapes[] = {PatchShape::surface, PatchShape::equilateral};
-constexpr std::size_t most_tries = 16;    // single vertices freed in turn for one patch
-constexpr std::size_t most_work = 60000;  // faces, summed over all attempts to free
-constexpr int most_rounds = 12;           // of freeing
+constexpr std::size_t most_tries = 16;  // single vertices freed in turn for one patch
+constexpr int most_rounds = 12;         // of freeing
 
 using Place = TangledMap::Place;
 
 class Untangler {
 public:
-    Untangler(TangledMap& map, const ExecutionContext& context, const UntangleOptions& options)
-        : map_(map), context_(context), options_(options)
+    Untangler(TangledMap& map, RepairEffort& effort, const ExecutionContext& context, const UntangleOptions& options)
+        : map_(map), effort_(effort), context_(context), options_(options)
     {
     }
 
     UntangleReport run()
     {
         UntangleReport report;
+        const auto share = static_cast<std::size_t>(options_.share * static_cast<double>(effort_.left()));
+        const std::size_t limit = effort_.spent() + share;
+        effort_.set_limit(limit - share / 4);
         for (const Index f : map_.tangled()) report.repairs += nudge_face(map_, f);
         report.tangled = map_.tangled();
         for (const int rings : ring_counts)
@@ -35,10 +37,11 @@ public:
                     if (report.tangled.empty()) return report;
                     if (boundary == PatchBoundary::sliding && !options_.slide) continue;
                     for (const auto& patch : patches_around(map_, report.tangled, rings, boundary))
-                        report.repairs += repair_patch(map_, patch, shape, boundary, context_);
+                        report.repairs += repair_patch(map_, patch, shape, boundary, effort_, context_);
                     report.tangled = map_.tangled();
                 }
-        for (int round = 0; round < most_rounds && !report.tangled.empty(); ++round) {
+        effort_.set_limit(limit);
+        for (int round = 0; round < most_rounds && !report.tangled.empty() && !effort_.exhausted(); ++round) {
             bool progress = false;
             for (const auto& patch : patches_around(map_, report.tangled, 2, freedom())) {
                 const std::size_t before = map_.tangled(patch).size();
@@ -90,11 +93,9 @@ private:
             for (const PatchShape shape : shapes) {
                 const auto tangled = map_.tangled(patch);
                 if (tangled.empty()) return true;
-                for (const auto& wider : patches_around(map_, tangled, rings, freedom())) {
-                    if (work_ > most_work) return better;
-                    work_ += wider.size();
-                    better = repair_patch(map_, wider, shape, freedom(), context_) || better;
-                }
+                if (effort_.exhausted()) return better;
+                for (const auto& wider : patches_around(map_, tangled, rings, freedom()))
+                    better = repair_patch(map_, wider, shape, freedom(), effort_, context_) || better;
             }
         return better;
     }
@@ -104,6 +105,7 @@ private:
     {
         std::vector<Index> near = candidates(patch, round);
         for (std::size_t i = 0; i < std::min(near.size(), most_tries); ++i) {
+            if (effort_.exhausted()) return {};
             map_.set_place(near[i], Place::off_circle);
             if (attempt(patch)) return {near[i]};
             map_.set_place(near[i], Place::on_circle);
@@ -115,9 +117,9 @@ private:
     }
 
     TangledMap& map_;
+    RepairEffort& effort_;
     const ExecutionContext& context_;
     const UntangleOptions& options_;
-    std::size_t work_ = 0;
 };
 
 }  // namespace
@@ -133,7 +135,8 @@ UntangleReport untangle(const Vertices& vertices, const Surface& surface, const 
     if (found_in_pieces(surface.triangles.rows(), tangled).empty()) return {};
     TangledMap map(vertices, surface, loops, circles, off_circle, uv);
     for (const Index v : options.held) map.hold(v);
-    return Untangler(map, context, options).run();
+    RepairEffort own(surface.triangles.rows());
+    return Untangler(map, options.effort ? *options.effort : own, context, options).run();
 }
 
 }  // namespace koebe

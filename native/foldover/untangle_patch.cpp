@@ -5,10 +5,36 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <utility>
 
 namespace koebe {
+namespace {
+
+/// Of all that the result follows from.
+std::size_t hash_of(const FoldoverProblem& problem)
+{
+    std::size_t hash = 14695981039346656037ULL;  // FNV-1a, of 64 bits at a time
+    const auto take = [&](auto value) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL;
+        hash ^= hash >> 32;
+    };
+    for (Eigen::Index v = 0; v < problem.points.rows(); ++v) {
+        take(problem.points(v, 0));
+        take(problem.points(v, 1));
+        take(static_cast<std::int64_t>(problem.mobility[v]));
+    }
+    for (Eigen::Index f = 0; f < problem.triangles.rows(); ++f) {
+        for (const Index v : problem.triangles.row(f)) take(static_cast<std::int64_t>(v));
+        for (const double edge : problem.reference[f].reshaped()) take(edge);
+        take(problem.floor[f]);
+    }
+    return hash;
+}
+
+}  // namespace
 
 std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std::vector<Index>& faces, int rings,
                                                PatchBoundary boundary)
@@ -54,13 +80,17 @@ std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std:
 }
 
 bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
-                  const ExecutionContext& context)
+                  RepairEffort& effort, const ExecutionContext& context)
 {
     const std::size_t tangled_before = map.tangled(patch).size(), lost_before = map.flipped(patch) - tangled_before;
     if (tangled_before == 0) return false;
     PatchProblem posed = patch_problem(map, patch, shape, boundary);
-    if (posed.problem.triangles.rows() == 0) return false;
-    minimize_foldover_free(posed.problem, context);
+    const Eigen::Index faces = posed.problem.triangles.rows();
+    const int affordable = faces > 0 ? effort.affordable(faces) : 0;
+    if (affordable == 0) return false;
+    const std::size_t name = hash_of(posed.problem);
+    if (effort.has_failed(name)) return false;
+    effort.spend(faces, minimize_foldover_free(posed.problem, context, {.max_iterations = affordable}).iterations);
 
     const PlanarPoints before = map.uv()(posed.vertices, Eigen::all);
     std::vector<Index> moved_rim;
@@ -75,6 +105,7 @@ bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape s
         std::ranges::includes(map.clockwise_holes(moved_rim), holes))
         return true;
     map.uv()(posed.vertices, Eigen::all) = before;
+    if (affordable == FoldoverOptions{}.max_iterations) effort.note_failure(name);
     return false;
 }
 

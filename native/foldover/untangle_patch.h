@@ -3,6 +3,7 @@
 
 #include "core/execution.h"
 #include "foldover/patch_shapes.h"
+#include "foldover/repair_effort.h"
 #include "foldover/tangled_map.h"
 
 #include <vector>
@@ -17,7 +18,7 @@ std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std:
 /// no loop crosses itself or another.
 /// @return whether it was kept
 bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
-                  const ExecutionContext& context);
+                  RepairEffort& effort, const ExecutionContext& context);
 
 /// A face with all three vertices on the outer loop is as thin as its arc: where that is less than 32-bit UVs
 /// resolve, its two outer ones go inward by inner_circle_tolerance.

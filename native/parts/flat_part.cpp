@@ -309,11 +309,12 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
     std::ranges::sort(boundary);
     std::ranges::copy_if(boundary, std::back_inserter(held), [&](Index v) { return faces_at[v] > 1; });
     const std::vector<Circle> circles(part.surface.loops.size());
+    RepairEffort effort(part.surface.triangles.rows());
     for (const auto& stay : {held, std::vector<Index>{}}) {
         if (least == 0) break;
         PlanarPoints moved = points;
         untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, moved, context,
-                 {.slide = false, .held = stay});
+                 {.slide = false, .held = stay, .effort = &effort, .share = stay.empty() ? 1.0 : 0.5});
         const PlanarPoints in_square = (0.5 * (moved.array() + 1.0)).cwiseMax(0.0).cwiseMin(1.0);
         const bool in_box = (in_square.colwise().minCoeff().array() >= low.array()).all() &&
                             (in_square.colwise().maxCoeff().array() <= high.array()).all();

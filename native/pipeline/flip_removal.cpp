@@ -53,9 +53,10 @@ CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, Exec
 UntangleReport remove_flips(const Domain& whole, CircleMap& map, ExecutionContext& context)
 {
     UntangleReport report;
+    RepairEffort effort(whole.surface.triangles.rows());
     for (int i = 0;; ++i) {
         UntangleReport more = untangle(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv,
-                                       context, {.held = held_vertices(whole)});
+                                       context, {.held = held_vertices(whole), .effort = &effort});
         map.off_circle.insert(map.off_circle.end(), more.freed.begin(), more.freed.end());
         std::sort(map.off_circle.begin(), map.off_circle.end());
         report.repairs += more.repairs;

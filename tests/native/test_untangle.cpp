@@ -150,3 +150,37 @@ TEST(Untangle, a_sliver_on_the_rim_too_thin_for_32_bits_is_kept_within_what_coun
     EXPECT_TRUE(report.freed.empty());
     for (const Index v : domain.loops[0]) EXPECT_NEAR(map.uv.row(v).norm(), 1.0, 1e-6);
 }
+
+TEST(Untangle, what_cannot_be_turned_back_costs_no_more_than_the_effort_and_is_not_tried_twice)
+{
+    // A third of the disk folded over to where its border cannot follow.
+    const auto folded = [] {
+        Tangled map(make_circle_domain(five_circles(), 400));
+        for (const VertexLoop& loop : map.domain.loops)
+            for (const Index v : loop) map.uv(v, 0) *= -1.0;
+        return map;
+    };
+    std::size_t spent_by_all = 0;
+    for (const double share : {1.0, 0.2}) {
+        Tangled map = folded();
+        RepairEffort effort(map.domain.triangles.rows());
+        EXPECT_FALSE(map.run({.effort = &effort, .share = share}).tangled.empty());
+        EXPECT_GT(effort.spent(), 0u);
+        EXPECT_LE(static_cast<double>(effort.spent()), share * static_cast<double>(effort.most()));
+        if (share == 1.0) spent_by_all = effort.spent();
+    }
+    EXPECT_LE(spent_by_all, static_cast<std::size_t>(30 * folded().domain.triangles.rows() + 100000));
+
+    // Four corners of a square in the wrong order: few problems, each posed once.
+    Tangled fan(wide_fan());
+    for (const VertexLoop& loop : fan.domain.loops)
+        for (const Index v : loop) fan.uv(v, 0) *= -1.0;
+    std::vector<Index> held;
+    for (const VertexLoop& loop : fan.domain.loops) held.insert(held.end(), loop.begin(), loop.end());
+    RepairEffort effort(fan.domain.triangles.rows(), 1000000);
+    fan.run({.held = held, .effort = &effort});
+    const std::size_t once = effort.spent();
+    fan.run({.held = held, .effort = &effort});
+    EXPECT_GT(once, 0u);
+    EXPECT_EQ(effort.spent(), once);
+}
