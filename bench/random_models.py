@@ -53,7 +53,8 @@ def boxes(cells, rng):
                 corner = np.array(cell)
                 corner[axis] += side
                 u, v = (np.eye(3, dtype=int)[(axis + k) % 3] for k in (1, 2))
-                quad = [number.setdefault(tuple(p), len(number)) for p in (corner, corner + u, corner + u + v, corner + v)]
+                corners = (corner, corner + u, corner + u + v, corner + v)
+                quad = [number.setdefault(tuple(p), len(number)) for p in corners]
                 quad = np.roll(quad if side else quad[::-1], int(rng.integers(2)))
                 faces += [quad[[0, 1, 2]], quad[[0, 2, 3]]]
     vertices = np.array(list(number), float)

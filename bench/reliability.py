@@ -31,7 +31,6 @@ sys.path.insert(0, str(ROOT / "build" / "python"))
 import commands  # noqa: E402
 import koebe  # noqa: E402
 import numpy as np  # noqa: E402
-import random_surfaces  # noqa: E402
 
 OUT = ROOT / "out" / "reliability"
 OPTIONS = ({}, {"balance": "area"}, {}, {"method": "ck"}, {}, {"engine": "mesh"}, {"polish": True})
@@ -226,7 +225,7 @@ def main():
     for name, kind, row in bad[:40]:
         changes = {way: change for way, change in row.get("change", {}).items() if change > SAME}
         changes |= {"kernels": "other bits"} if row.get("kernels") is False else {}
-        print(f"{name} {kind} {row['seed']}, {row['faces']} faces, {row['options']}: {row.get('broken') or ''} {changes}")
+        print(f"{name} {kind} {row['seed']}, {row['faces']} faces, {row['options']}:", row.get("broken") or "", changes)
     (OUT / "surfaces.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
     faces, delays = cancel_delays()
     cancel = [f"{faces:,}", str(len(delays)), f"{np.median(delays):.3f}", f"{max(delays):.3f}"] if delays else []

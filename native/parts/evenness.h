@@ -17,9 +17,10 @@ inline constexpr double lost_cost = 6.0;
 inline constexpr double even_range = 0.8 * factor_three;
 
 struct Evenness {
-    double overflow = 0.0;  ///< sum of area times the distance of u from [from, from + even_range], at most lost_cost each
-    double from = 0.0;      ///< the best window's lower end; where there is a choice, its middle
-    double inside = 0.0;    ///< area within the window
+    double overflow =
+        0.0;            ///< sum of area times the distance of u from [from, from + even_range], at most lost_cost each
+    double from = 0.0;  ///< the best window's lower end; where there is a choice, its middle
+    double inside = 0.0;  ///< area within the window
 };
 
 /// The window of least overflow. Sorted once, its ends move to where as much area lies below as above.

@@ -25,8 +25,8 @@ namespace koebe {
 namespace {
 
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
-constexpr double rounded_edge = 1e-11;  // of the image's extent: shorter edges are rounding alone
-constexpr double most_image = 4.0;      // UV area of a part over its area: what even texels never need
+constexpr double rounded_edge = 1e-11;   // of the image's extent: shorter edges are rounding alone
+constexpr double most_image = 4.0;       // UV area of a part over its area: what even texels never need
 constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges tell nothing of a loop's course
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
@@ -61,14 +61,16 @@ double longest_edge(const PlanarPoints& p, const Triangles& triangles, Eigen::In
 void scale_evenly(const PartMesh& mesh, FlatPart& flat)
 {
     const Eigen::Index count = flat.surface.triangles.rows();
-    const double floor = rounded_edge * (flat.points.colwise().maxCoeff() - flat.points.colwise().minCoeff()).maxCoeff();
+    const double floor =
+        rounded_edge * (flat.points.colwise().maxCoeff() - flat.points.colwise().minCoeff()).maxCoeff();
     VectorXd u = VectorXd::Zero(count);
     std::vector<char> lost(static_cast<std::size_t>(count), 0);
     double image = 0.0;
     for (Eigen::Index f = 0; f < count; ++f) {
         const double area = signed_area(flat.points, flat.surface.triangles, f);
         image += std::max(area, 0.0);
-        lost[f] = !(area > 0.0) || !(mesh.areas[f] > 0.0) || !(longest_edge(flat.points, flat.surface.triangles, f) > floor);
+        lost[f] =
+            !(area > 0.0) || !(mesh.areas[f] > 0.0) || !(longest_edge(flat.points, flat.surface.triangles, f) > floor);
         if (!lost[f]) u[f] = 0.5 * std::log(area / mesh.areas[f]);
     }
     const Evenness even = evenness(u, mesh.areas, lost);

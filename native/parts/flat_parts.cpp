@@ -1,8 +1,8 @@
 #include "parts/flat_parts.h"
 
 #include "core/connectivity.h"
-#include "core/side_by_side.h"
 #include "core/errors.h"
+#include "core/side_by_side.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
@@ -15,15 +15,15 @@
 namespace koebe {
 namespace {
 
-constexpr double square_side = 1.25;    // of the square that parts of area 1 are packed into, about
-constexpr double most_lost = 0.005;     // of a part's area, in faces without area as stored
-constexpr double lost_anyway = 1e-5;    // of the surface's area: not worth a cut
-constexpr int most_halvings = 6;        // of one part
-constexpr double most_uneven = 2.0;     // overflow over area: of one map that can be painted on
-constexpr double worth_repairing = 1.2;   // of the parts' angle error: more than that repairs do not take off one map's
-constexpr double small_error = 1.0;     // degrees: nobody sees less
-constexpr double large_error = 10.0;    // degrees: of a surface so crumpled that a map not repaired tells little of it
-constexpr std::size_t few_faces = 8;    // a part of fewer is not cut
+constexpr double square_side = 1.25;     // of the square that parts of area 1 are packed into, about
+constexpr double most_lost = 0.005;      // of a part's area, in faces without area as stored
+constexpr double lost_anyway = 1e-5;     // of the surface's area: not worth a cut
+constexpr int most_halvings = 6;         // of one part
+constexpr double most_uneven = 2.0;      // overflow over area: of one map that can be painted on
+constexpr double worth_repairing = 1.2;  // of the parts' angle error: more than that repairs do not take off one map's
+constexpr double small_error = 1.0;      // degrees: nobody sees less
+constexpr double large_error = 10.0;     // degrees: of a surface so crumpled that a map not repaired tells little of it
+constexpr std::size_t few_faces = 8;     // a part of fewer is not cut
 
 /// @param slit (3F) half-edges of the whole
 void prefer_slits(PartMesh& part, const std::vector<char>& slit)

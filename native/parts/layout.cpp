@@ -209,8 +209,9 @@ private:
     std::unordered_set<std::uint64_t> border_;
 };
 
-/// What the parts of a piece cost. The price is for the whole surface: by it a small piece would never be split, however
-/// many of its faces are lost. Lengths of cuts are in roots of the whole's area, of which a small piece has little.
+/// What the parts of a piece cost. The price is for the whole surface: by it a small piece would never be split,
+/// however many of its faces are lost. Lengths of cuts are in roots of the whole's area, of which a small piece has
+/// little.
 /// @param area of the piece; that of the whole is 1
 SplitOptions prices_for(double area, double price, int threads)
 {
