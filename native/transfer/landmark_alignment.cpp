@@ -15,12 +15,12 @@
 namespace koebe {
 namespace {
 
-constexpr double on_rim = 1e-6;           // lengths in the disk: of points from the unit circle
+constexpr double least_depth = 1e-6;           // lengths in the disk: of points from the unit circle
 constexpr int most_rounds = 50;           // towards the barycentre
 constexpr double centered = 1e-9;         // lengths in the disk: of the barycentre from 0
 constexpr Eigen::Index most_starts = 32;  // landmarks that give one
 
-bool is_inside(Complex z) { return std::abs(z) < 1.0 - on_rim; }
+bool is_inside(Complex z) { return std::abs(z) < 1.0 - least_depth; }
 
 /// z -> turn z that takes points nearest to targets.
 Moebius nearest_turn(const VectorXcd& points, const VectorXcd& targets)
@@ -38,7 +38,7 @@ Moebius centering(const VectorXcd& points)
     for (int round = 0; round < most_rounds; ++round) {
         const Complex mean = map(points).mean();
         if (std::abs(mean) < centered) break;
-        if (!(std::abs(mean) < 1.0 - on_rim)) return {};
+        if (!(std::abs(mean) < 1.0 - least_depth)) return {};
         map = Moebius{std::abs(mean) > longest_step ? longest_step * mean / std::abs(mean) : mean} * map;
     }
     return map;
