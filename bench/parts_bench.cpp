@@ -135,9 +135,10 @@ void compare(const std::string& name, int runs)
                 "angle %.2f -> %.2f, maps %.1f; map %.2f (%.2f) s, parts %.2f (%.2f) s, ratio %.1f (%.1f)\n",
                 name.substr(name.find_last_of('/') + 1).c_str(), static_cast<long>(mesh.triangles.rows()),
                 result.parts.size(), result.cut_length - result.slit_length, result.slit_length,
-                result.density_ratio_5_95, 100.0 * result.even_area, result.flipped.size(),
-                result.below_resolution.size(), angle, result.angle_error_deg.mean, result.maps, one.clock,
-                one.processor, parts.clock, parts.processor, parts.clock / one.clock, parts.processor / one.processor);
+                result.density_ratio_5_95, 100.0 * result.even_area, result.distortion.flipped.size(),
+                result.distortion.below_resolution.size(), angle, result.distortion.angle_error_deg.mean, result.maps,
+                one.clock, one.processor, parts.clock, parts.processor, parts.clock / one.clock,
+                parts.processor / one.processor);
     std::fflush(stdout);
 }
 

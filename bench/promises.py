@@ -26,11 +26,10 @@ def broken(triangles, result):
     for warning in result.warnings:
         if warning.kind == "reoriented_faces":
             triangles[warning.elements] = triangles[warning.elements, ::-1]
-    area, longest = as_stored(uv, triangles)
-    flipped = ~(area > 0)
-    if flipped.sum() != result.flipped:
-        found.append("flips not counted as stored")
-    if (flipped & (longest >= RESOLUTION)).any():
+    corners = ((1 + uv) / 2)[triangles]
+    found += untrue(result, result.surface[0], triangles, corners)
+    area, longest = as_stored(corners)
+    if (~(area > 0) & (longest >= RESOLUTION)).any():
         found.append("flipped")
     if crossings(uv, result.loops):
         found.append("loops cross")
@@ -52,9 +51,56 @@ def broken_circles(center, radius):
     return found
 
 
-def as_stored(uv, triangles):
-    """Twice the area, and the longest edge, of each face with u and v in [0, 1] rounded to 32 bits."""
-    a, b, c = ((1 + uv) / 2).astype(np.float32).astype(float)[triangles.T]
+def untrue(report, vertices, triangles, corners, left_out=()):
+    """Figures of a report that the stored UVs (F, 3, 2) of the corners do not have. Triangles as the map turned them."""
+    report = report if isinstance(report, dict) else report.to_dict()
+    known = verdict(vertices, triangles, corners, left_out)
+    found = [name for name in ("flipped", "below_resolution") if report[name] != known[name]]
+    if abs(report["lost_area"] - known["lost_area"]) > 1e-9:
+        found.append("lost_area")
+    told, error = report["angle_error_stored_deg"], known["angle_error_stored_deg"]
+    if any(abs(told[key] - error[key]) > 1e-4 for key in ("mean", "sd", "max")):
+        found.append("angle_error_stored_deg")
+    return found
+
+
+def verdict(vertices, triangles, corners, left_out=()):
+    """lost_area, angle_error_stored_deg, flipped and below_resolution of the stored UVs (F, 3, 2) of the corners."""
+    space = vertices[triangles] / max(np.abs(vertices[triangles]).max(), 1e-300)
+    sides = np.roll(space, -1, axis=1) - space
+    full = np.linalg.norm(np.cross(sides[:, 0], -sides[:, 2]), axis=1)  # twice the area
+    mapped = ~np.isin(np.arange(len(triangles)), left_out)
+    area, longest = as_stored(corners)
+    flipped = mapped & ~(area > 0)
+    lost = flipped | (~mapped & (area == 0))
+    has_angles = mapped & (full > 1e-10 * (sides**2).sum(axis=2).max(axis=1))
+    error = np.abs(angles(corners.astype(np.float32).astype(float)) - angles(space))[has_angles]
+    return {
+        "lost_area": full[lost].sum() / full.sum() if full.sum() > 0 else 0.0,
+        "angle_error_stored_deg": {
+            "mean": error.mean() if error.size else 0.0,
+            "sd": error.std() if error.size else 0.0,
+            "max": error.max(initial=0.0),
+        },
+        "flipped": int(flipped.sum()),
+        "below_resolution": int((flipped & (longest < RESOLUTION)).sum()),
+    }
+
+
+def angles(points):
+    """(F, 3) degrees of the triangles (F, 3, d); right ones at a side without length."""
+    ahead, back = np.roll(points, -1, axis=1) - points, np.roll(points, 1, axis=1) - points
+    dot = (ahead * back).sum(axis=2)
+    if points.shape[2] == 2:
+        cross = np.abs(ahead[..., 0] * back[..., 1] - ahead[..., 1] * back[..., 0])
+    else:
+        cross = np.linalg.norm(np.cross(ahead, back), axis=2)
+    return np.degrees(np.where((dot == 0) & (cross == 0), np.pi / 2, np.arctan2(cross, dot)))
+
+
+def as_stored(corners):
+    """Twice the area, and the longest edge, of each face (F, 3, 2) with u and v rounded to 32 bits."""
+    a, b, c = corners.astype(np.float32).astype(float).swapaxes(0, 1)
     area = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     longest = np.max([np.linalg.norm(side, axis=1) for side in (b - a, c - b, a - c)], axis=0)
     return area, longest

@@ -148,6 +148,22 @@ def enable_nodes(material: bpy.types.Material) -> None:
         material.use_nodes = True
 
 
+def add_geometry_sockets(tree: Any) -> None:
+    """Give new geometry nodes what a modifier takes and gives."""
+    if hasattr(tree, "interface"):  # 4.0 on
+        for side in ("INPUT", "OUTPUT"):
+            tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
+        tree.is_modifier = True
+    else:
+        for sockets in (tree.inputs, tree.outputs):
+            sockets.new("NodeSocketGeometry", "Geometry")
+
+
+def stored_uv_type() -> str:
+    """The type by which geometry nodes store UVs: 3.4 stores no UV layers, but vectors under their names."""
+    return "FLOAT2" if hasattr(bpy.types.MeshUVLoopLayer, "uv") else "FLOAT_VECTOR"
+
+
 def flat_shader(name: str) -> Any:
     """A built-in shader of the gpu module for points with two coordinates."""
     import gpu

@@ -8,14 +8,18 @@ from typing import Any, NoReturn
 
 from ..maps import options
 from .exit_and_signals import USAGE, Stop
+from .flags import flag
 
 LARGEST = 2**31 - 1  # of the native module's whole numbers
-LARGEST_FRAME = 2**20 - 1  # that Blender has
+LARGEST_FRAME = 1048574  # that Blender has
 CHECKER_SIZES = (1e-3, 1e6)  # squares across the UV square that a 32-bit texture coordinate can tell apart
 DISK = "disk"
 OF_DOMAINS = ("domain", "holes", "fit", "layout", "normalization")
-OF_ALL = {"tolerance", "max_sweeps", "layer", "checker", "checker_size", "checker_even", "threads"}  # of every domain
-NOT_OF_SEQUENCES = ("domain", "engine", "tube", "symmetry", "placement", "checker_size", "checker_even")
+OF_PARTS = ("parts", "evenness", "seams", "write_seams")
+WRITTEN = {"layer", "checker", "checker_size", "checker_even"}  # of all but sequences
+OF_ALL = {"tolerance", "max_sweeps", "most_lost", "threads", *WRITTEN}  # of every domain
+OF_SEQUENCES = ("sequence", "frames", "sequence_target", "play")
+NOT_OF_SEQUENCES = ("parts", "domain", "engine", "tube", "symmetry", "placement", "checker_size", "checker_even")
 IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
 WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
 
@@ -32,6 +36,7 @@ class Library:
 class Request:
     """What to do: files as they were given, names of objects or None for all, and the options of the map.
 
+    parts     of a cut into parts, else None
     domain    of a map that is to no disk, else None
     sequence  of maps of frames or shape keys, else None
     """
@@ -41,6 +46,7 @@ class Request:
     report: str | None
     names: list[str] | None
     options: options.Options
+    parts: options.PartsChoice | None
     domain: options.OtherDomain | None
     sequence: options.SequenceChoice | None
     library: Library
@@ -76,6 +82,12 @@ def parse(arguments: list[str]) -> Request:
         "--objects", action="append", metavar="A,B,...",
         help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
     )  # fmt: skip
+    parser.add_argument("--parts", action="store_true", help="cut into even parts, any surface")
+    parser.add_argument("--evenness", type=float, metavar="0..1", help="of --parts: 0 few, 1 as even as can be")
+    parser.add_argument("--seams", choices=options.SEAMS, help="of --parts: cuts beside the seams, or only these")
+    parser.add_argument(
+        "--write-seams", action=argparse.BooleanOptionalAction, help="of --parts: make seams of its cuts"
+    )
     parser.add_argument(
         "--domain", choices=(DISK, *options.CHOICES), default=DISK,
         help="torus, ring: UVs that are a tile; sphere: its layout; schottky: handles cut open",
@@ -92,6 +104,10 @@ def parse(arguments: list[str]) -> Request:
         "--sequence-target", choices=[target.lower() for target in options.SEQUENCE_TARGETS],
         help="what holds the UVs of each shape; default: attribute, a vector attribute",
     )  # fmt: skip
+    parser.add_argument(
+        "--play", action=argparse.BooleanOptionalAction,
+        help="of --sequence FRAMES: show the frames in the UV layer, by a modifier; default: yes",
+    )  # fmt: skip
     parser.add_argument("--method", choices=options.METHODS, default=default.method)
     parser.add_argument("--engine", choices=options.ENGINES, default=default.engine)
     parser.add_argument(
@@ -103,6 +119,11 @@ def parse(arguments: list[str]) -> Request:
         parser.add_argument(name, type=_whole_number, metavar="VERTEX", help="of each object")
     parser.add_argument("--tolerance", type=float, default=default.tolerance)
     parser.add_argument("--max-sweeps", type=_whole_number, default=default.max_sweeps)
+    parser.add_argument(
+        "--most-lost", type=float, default=default.most_lost, metavar="SHARE",
+        help="of the area that may have no area in the UVs; default: 0.01. With more of it parts and other domains are "
+        "not done",
+    )  # fmt: skip
     parser.add_argument("--balance", choices=options.BALANCES)
     parser.add_argument(
         "--importance", default=default.importance, metavar="GROUP", help="vertex group that weighs the balance"
@@ -125,9 +146,10 @@ def parse(arguments: list[str]) -> Request:
     each = _words({name: value for name, value in values.items() if value != parser.get_default(name)})
     names = values.pop("objects")
     given = {name for name, value in values.items() if value != parser.get_default(name)}
-    sequence = _sequence_choice({name: values.pop(name) for name in ("sequence", "frames", "sequence_target")}, given)
+    sequence = _sequence_choice({name: values.pop(name) for name in OF_SEQUENCES}, given)
     if sequence is not None:
         values["checker"] = False
+    parts = _parts_choice({name: values.pop(name) for name in OF_PARTS}, values, given)
     domain = _domain_choice({name: values.pop(name) for name in OF_DOMAINS}, values, given)
     if values["center"] is not None and values["balance"] == "area":
         raise Stop(USAGE, "--center excludes --balance area: both choose the centre of the disk")
@@ -136,40 +158,67 @@ def parse(arguments: list[str]) -> Request:
             values[name] = getattr(default, name)
     try:
         chosen = options.Options(**values)
-    except (options.OptionError, UnicodeError) as error:
+    except options.OptionError as error:
+        raise _wrong(error) from None
+    except UnicodeError as error:
         raise Stop(USAGE, error) from None
     return Request(
-        **files, names=None if names is None else _split(names), options=chosen, domain=domain, sequence=sequence,
-        library=Library(batch, each), ends_with_input=ends_with_input,
+        **files, names=None if names is None else _split(names), options=chosen, parts=parts, domain=domain,
+        sequence=sequence, library=Library(batch, each), ends_with_input=ends_with_input,
     )  # fmt: skip
+
+
+def _wrong(error: options.OptionError) -> Stop:
+    """The end because an option cannot have its value."""
+    return Stop(USAGE, f"{flag(error.option)}: {error.reason}")
+
+
+def _parts_choice(own: dict[str, Any], values: dict[str, Any], given: set[str]) -> options.PartsChoice | None:
+    """What is asked for of parts, or None without them."""
+    if not own.pop("parts"):
+        for name in own:
+            if own[name] is not None:
+                raise Stop(USAGE, f"{flag(name)} needs --parts")
+        return None
+    for name in sorted(given - WRITTEN - {*OF_PARTS, "most_lost", "objects"}):
+        raise Stop(USAGE, f"{flag(name)} is not of --parts")
+    try:
+        asked = {name: value for name, value in own.items() if value is not None}
+        return options.PartsChoice(**asked, most_lost=values["most_lost"])
+    except options.OptionError as error:
+        raise _wrong(error) from None
 
 
 def _sequence_choice(own: dict[str, Any], given: set[str]) -> options.SequenceChoice | None:
     """What is asked for of a sequence, or None without one."""
-    source, frames, target = (own[name] for name in ("sequence", "frames", "sequence_target"))
-    if source is None or (source != "FRAMES" and frames is not None):
-        for name in ("frames", "sequence_target") if source is None else ("frames",):
-            if own[name] is not None:
-                raise Stop(USAGE, f"--{name.replace('_', '-')} needs --sequence{' FRAMES' if name == 'frames' else ''}")
+    source, frames, target, play = (own[name] for name in OF_SEQUENCES)
+    for name in () if source == "FRAMES" else ("frames", "play"):
+        if own[name] is not None:
+            raise Stop(USAGE, f"{flag(name)} needs --sequence FRAMES")
+    if source is None:
+        if target is not None:
+            raise Stop(USAGE, f"{flag('sequence_target')} needs --sequence")
         return None
     for name in NOT_OF_SEQUENCES:
         if name in given:
-            raise Stop(USAGE, f"--{name.replace('_', '-')} is not of --sequence")
+            raise Stop(USAGE, f"{flag(name)} is not of --sequence")
     try:
         found = None if frames is None else _frame_range(frames)
-        return options.SequenceChoice(source, found, (target or "attribute").upper())
+        return options.SequenceChoice(source, found, (target or "attribute").upper(), play is not False)
     except options.OptionError as error:
-        raise Stop(USAGE, error) from None
+        raise _wrong(error) from None
 
 
 def _frame_range(text: str) -> range:
     """The frames A:B or A:B:STEP, B among them."""
     try:
         first, last, step = (int(word) for word in (*text.split(":"), "1")[:3])
-        if text.count(":") not in (1, 2) or step < 1 or max(abs(first), abs(last)) > LARGEST_FRAME:
+        if text.count(":") not in (1, 2) or step < 1:
             raise ValueError
     except ValueError:
         raise Stop(USAGE, f"--frames {text}: not A:B or A:B:STEP, whole numbers with a step from 1 on") from None
+    if max(abs(first), abs(last)) > LARGEST_FRAME:
+        raise Stop(USAGE, f"--frames {text}: Blender's frames are from -{LARGEST_FRAME} to {LARGEST_FRAME}")
     return range(first, last + 1, step)
 
 
@@ -182,17 +231,17 @@ def _domain_choice(own: dict[str, Any], values: dict[str, Any], given: set[str])
     }[domain]  # fmt: skip
     others = {*own, *values} - known - OF_ALL - {"domain"}
     for name in sorted(given & others):
-        raise Stop(USAGE, f"--{name.replace('_', '-')} is not of --domain {domain}")
+        raise Stop(USAGE, f"{flag(name)} is not of --domain {domain}")
     if domain == DISK:
         return None
     try:
         asked = {name: value for name, value in own.items() if value is not None}
-        asked.update(tolerance=values["tolerance"], max_sweeps=values["max_sweeps"])
+        asked.update({name: values[name] for name in ("tolerance", "max_sweeps", "most_lost")})
         if domain not in options.TILE_DOMAINS:
             del asked["domain"]
         return options.CHOICES[domain](**asked)
     except options.OptionError as error:
-        raise Stop(USAGE, error) from None
+        raise _wrong(error) from None
 
 
 def _words(values: dict[str, Any]) -> list[str]:

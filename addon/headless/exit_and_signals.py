@@ -11,6 +11,8 @@ from collections.abc import Iterable
 from types import FrameType
 from typing import Any, TextIO
 
+from .flags import in_flags
+
 LAST_SECONDS = 5.0  # for a process whose starter is gone
 DONE, BROKEN, USAGE, UNMAPPABLE, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
@@ -18,9 +20,10 @@ DONE, BROKEN, USAGE, UNMAPPABLE, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 class Stop(Exception):
     """The end of the run: its exit code, the reason told on stderr, and for the report an error's name and entries."""
 
-    def __init__(self, code: int, reason: object, name: str = "Error", objects: Iterable[dict[str, Any]] = ()) -> None:
+    def __init__(self, code: int, reason: object, name: str = "", objects: Iterable[dict[str, Any]] = ()) -> None:
         super().__init__(code, reason)
-        self.code, self.reason, self.name, self.objects = code, str(reason), name, list(objects)
+        self.code, self.reason, self.objects = code, in_flags(reason), list(objects)
+        self.name = name or ("UsageError" if code == USAGE else "Error")
 
 
 def refusal(reasons: dict[str, str]) -> Stop:
@@ -85,4 +88,4 @@ def drop_what_cannot_be_printed() -> None:
 
 def tell(text: object) -> None:
     """Say why on stderr."""
-    say(f"koebe: {text}", sys.stderr)
+    say(f"koebe: {in_flags(text)}", sys.stderr)

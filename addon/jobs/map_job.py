@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 
-from ..blender import checker, map_writing, mesh_reading, uv_layers
+from ..blender import checker, map_writing, mesh_reading, sequence_player, uv_layers
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, reason, with_own_meshes
@@ -203,6 +203,9 @@ class Job:
         self, run: Transaction, outcome: SurfaceOutcome, plan: map_writing.Plan, material: bpy.types.Material | None
     ) -> None:
         map_writing.write(run, plan)
+        hidden = sequence_player.shown_instead(plan.obj, plan.layer)
+        if hidden is not None:
+            outcome.remarks.append(hidden)
         if material is not None:
             try:
                 checker.check(plan.obj)

@@ -6,8 +6,9 @@ from collections.abc import Generator
 from typing import Any
 
 import bpy
+import numpy as np
 
-from ..blender import edit_mode, map_writing, shapes, uv_layers, vector_attribute
+from ..blender import edit_mode, map_writing, sequence_player, shapes, uv_layers, vector_attribute
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target
@@ -15,7 +16,7 @@ from ..blender.transaction import Transaction
 from ..maps import json_report
 from ..maps.options import OptionError, Options, SequenceChoice
 from ..maps.outcomes import LATER, Progress, Task, share_of
-from ..maps.sequence import SequenceOutcome, map_sequence, point_values
+from ..maps.sequence import SequenceOutcome, are_alike, map_sequence, point_values
 from .map_job import Job
 
 STAYS_IN_EDIT_MODE = (
@@ -79,6 +80,7 @@ class SequenceJob(Job):
     def compute(self, progress: Progress | None = None) -> None:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
         outcomes, done = [], 0
+        alike = {task.name: self._keep_one(task) for task in self.tasks}
         sizes = [len(self.shapes[task.name]) * len(task.surface.triangle_face) for task in self.tasks]
         for task, size in zip(self.tasks, sizes, strict=True):
             part = share_of(progress, done, size, sum(sizes))
@@ -86,8 +88,18 @@ class SequenceJob(Job):
             outcomes.append(
                 map_sequence(self.koebe, _begun(task, found[0]), found, self.options, part, self.cancel_token)
             )
+            outcomes[-1].alike = alike[task.name]
             done += size
         self.outcomes = outcomes
+
+    def _keep_one(self, task: Task) -> int:
+        """Keep the first shape of an object alone where all are alike: their number, or 0."""
+        found, surface = self.shapes[task.name], task.surface
+        used = surface.triangle_corners[surface.selected[surface.triangle_face]]
+        if len(found) < 2 or not are_alike(found, surface.corner_vertex[used]):
+            return 0
+        self.shapes[task.name], self.names[task.name] = found[:1], self.names[task.name][:1]
+        return len(found)
 
     def written(self, outcome: SequenceOutcome) -> list[str]:
         """The UV layer of each shape, or nothing where it is none."""
@@ -103,7 +115,7 @@ class SequenceJob(Job):
         if outcome.broken is not None:
             return [{**one, "object": outcome.task.name} for one in json_report.entries(outcome.broken)]
         return [
-            {**one, "object": outcome.task.name, "shape": label, "written": name}
+            {**one, "object": outcome.task.name, "shape": label, "written": name, "alike": outcome.alike}
             for label, name, made in zip(outcome.labels, self.names[outcome.task.name], outcome.maps, strict=True)
             for one in json_report.entries(made)
         ]
@@ -120,21 +132,40 @@ class SequenceJob(Job):
         surface, obj = outcome.task.surface, target.find()
         points = [point_values(surface, *uv) for uv in uvs]
         cut = any(values is None for values in points)  # then all of them are of the corners
-        return obj, [
+        return self._shown(target, outcome, uvs[0]), obj, [
             vector_attribute.Vectors(name, "CORNER", *uv) if cut or values is None
             else vector_attribute.Vectors(name, "POINT", *values)
             for name, uv, values in zip(names, uvs, points, strict=True)
         ]  # fmt: skip
 
+    def _shown(
+        self, target: Target, outcome: SequenceOutcome, uv: tuple[np.ndarray, np.ndarray]
+    ) -> map_writing.Plan | None:
+        """What is written of the first frame to the UV layer in which all are played, or None where it has no place."""
+        if not (self.choice.play and self.choice.source == "FRAMES"):
+            return None
+        try:
+            return map_writing.plan(target, self.options.layer, outcome.maps[0].task.surface, *uv)
+        except TransferError as error:  # the attributes are there all the same
+            outcome.remarks.append(f"nothing plays its frames. {error}")
+            return None
+
     def _write_one(self, run: Transaction, outcome: Any, plan: Any, material: Any) -> None:
         if self.choice.target == "LAYERS":
             map_writing.write_several(run, plan)
             return
-        obj, vectors = plan
+        shown, obj, vectors = plan
         if obj.mode == "EDIT":
             raise TransferError(f"{obj.name}: {STAYS_IN_EDIT_MODE}")
         for one in vectors:
             vector_attribute.write(run, obj, one)
+        if shown is None:
+            return
+        if outcome.alike:
+            super()._write_one(run, outcome, shown, None)
+            return
+        map_writing.write(run, shown)
+        sequence_player.put_on(run, obj, self.options.layer, self.choice.name(self.options.layer, ""), self.frames)
 
 
 def _begun(task: Task, first: shapes.MeshShape) -> Task:

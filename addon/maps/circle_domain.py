@@ -8,7 +8,7 @@ from types import ModuleType
 import numpy as np
 
 from .circle_fit import fitted_circle
-from .errors import KnownError
+from .errors import NOWHERE, KnownError
 from .moebius import Moebius, balance_point, inside_out, own_center, rotation, to_middle
 from .rounding import RESOLUTION, rounded
 from .surface import Island, Surface
@@ -224,6 +224,8 @@ def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDo
     """The same, of the UVs (n, 2) of its vertices in 32 bits."""
     if not np.isfinite(old_uv).all():
         raise DomainError("its UVs are not finite")
+    if not np.isfinite(island.vertices).all():
+        raise DomainError(NOWHERE)
     plane = old_uv.astype(np.float64)
     if np.ptp(plane, axis=0).max() < RESOLUTION:
         raise DomainError("it has no UVs: map it first")

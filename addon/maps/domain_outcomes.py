@@ -14,8 +14,9 @@ from .islands import cut_into_islands
 from .mapping import check_area, foreseen
 from .outcomes import LATER, Progress, Task, share_of
 from .seams import cut_edges
+from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
-from .wording import counted, own_warnings, too_uneven
+from .wording import counted, in_mesh, own_warnings, too_uneven
 
 
 class DomainChoice(Protocol):
@@ -27,6 +28,8 @@ class DomainChoice(Protocol):
     def tolerance(self) -> float: ...
     @property
     def max_sweeps(self) -> int: ...
+    @property
+    def most_lost(self) -> float: ...
 
 
 @dataclasses.dataclass
@@ -34,7 +37,9 @@ class DomainIsland:
     """What became of one island: a result of the native package, or an error.
 
     corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
+    triangle_uv  (t, 3, 2) the same of the island's triangles
     flipped      triangles (k,) whose area in these is not positive
+    stored       what these UVs hold of the map
     cuts         (E,) bool, edges of the surface along which the UVs are cut
     """
 
@@ -43,13 +48,15 @@ class DomainIsland:
     error: Exception | None = None
     corners: np.ndarray = LATER
     uv: np.ndarray = LATER
+    triangle_uv: np.ndarray = LATER
     flipped: np.ndarray = LATER
+    stored: Stored = LATER
     cuts: np.ndarray = LATER
 
     @property
     def angle_error(self) -> float:
-        """Mean difference, in degrees, of the triangles' angles on the surface and in the domain."""
-        return self.result.angle_error_deg["mean"]
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
+        return self.stored.angle_error
 
     @property
     def density_ratio(self) -> float:
@@ -73,9 +80,18 @@ class DomainIsland:
         uv[of_triangles] = triangle_uv
         if (uv[of_triangles] != triangle_uv).any():
             raise MapError("its UVs could be cut only through a polygon: triangulate its faces")
+        self.triangle_uv = triangle_uv
         self.corners = np.unique(of_triangles).astype(np.int32)
         self.uv = uv[self.corners]
         self.cuts = cut_edges(dataclasses.replace(surface, selected=inside), uv)
+
+    def judge(self, koebe: ModuleType, most_lost: float) -> None:
+        """Look at what is stored. Raises LostAreaError where more is lost than may be."""
+        island, turned = self.island, np.asarray(self.result.turned, dtype=np.int64)
+        self.stored = judge_corners(koebe, island.vertices, island.triangles, self.triangle_uv, turned)
+        self.flipped = flipped_corners(self.triangle_uv, turned)
+        if self.stored.lost_area > most_lost:
+            raise LostAreaError(self.stored.lost_area, self.flipped, "parts")
 
 
 @dataclasses.dataclass
@@ -117,13 +133,10 @@ class DomainOutcome:
         mapped = self.mapped
         return np.concatenate([one.corners for one in mapped]), np.concatenate([one.uv for one in mapped])
 
-    def warnings(self, one: Any) -> list[str]:
-        """What to watch out for in a mapped island."""
-        return [*(warning.text for warning in one.result.warnings), *(text for _, text in self.own_warnings(one))]
-
-    def own_warnings(self, one: Any) -> list[tuple[str, str]]:
-        """Kind and text of those that are not the solver's."""
-        return own_warnings(self.task)
+    def warnings(self, one: Any) -> list[dict[str, Any]]:
+        """What to watch out for in a mapped island, in the mesh's numbers."""
+        found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # told already
+        return [*(in_mesh(one.island, warning) for warning in found), *own_warnings(self.task)]
 
     def notes(self, one: Any) -> list[str]:
         """What cannot be otherwise, in a mapped island."""
@@ -170,6 +183,7 @@ def islands_to_map(surface: Surface) -> list[Island]:
 def map_islands(
     koebe: ModuleType,
     ones: list[Any],
+    most_lost: float,
     map_one: Callable[[Any, Progress | None], None],
     progress: Progress | None = None,
 ) -> None:
@@ -180,6 +194,7 @@ def map_islands(
         share = len(one.island.triangles)
         try:
             map_one(one, share_of(progress, done, share, total))
+            one.judge(koebe, most_lost)
         except koebe.Cancelled:
             raise
         except Exception as error:

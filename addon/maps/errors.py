@@ -8,6 +8,9 @@ class KnownError(Exception):
     """An error whose text is meant to be read: what is wrong, and what to do about it."""
 
 
+NOWHERE = "one of its vertices has a coordinate that is NaN or infinite: delete it"
+
+
 class MapError(KnownError):
     """An island that cannot be mapped, beside the native package's own errors."""
 

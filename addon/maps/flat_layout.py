@@ -6,7 +6,7 @@ import dataclasses
 import numpy as np
 
 from .connected_components import connected_components
-from .errors import KnownError
+from .errors import NOWHERE, KnownError
 from .surface import Surface, next_corners
 from .triangles import areas, signed_areas
 from .uv_islands import uv_islands
@@ -83,8 +83,12 @@ def flat_layout(surface: Surface, uv: np.ndarray) -> FlatLayout:
     corners = np.flatnonzero(vertex >= 0)
     triangles = vertex[surface.triangle_corners[chosen[surface.triangle_face]]]
     in_space = surface.positions[surface.corner_vertex[source]]
-    total = np.abs(signed_areas(plane[source], triangles)).sum()
-    scale = float(np.sqrt(areas(in_space, triangles).sum() / total))
+    if not np.isfinite(in_space).all():
+        raise FlatError(NOWHERE)
+    on_surface, total = areas(in_space, triangles).sum(), np.abs(signed_areas(plane[source], triangles)).sum()
+    if not on_surface > 0.0:
+        raise FlatError("none of its faces has an area")
+    scale = float(np.sqrt(on_surface / total))
     points = scale * plane[source]
     points -= points.min(axis=0)
     starts, ends = vertex[corners], vertex[next_corners(surface)[corners]]

@@ -78,7 +78,7 @@ def map_handles(
     def map_one(one: SchottkyIsland, own: Progress | None) -> None:
         _map(koebe, task.surface, one, choice, own, cancel)
 
-    map_islands(koebe, outcome.islands, map_one, progress)
+    map_islands(koebe, outcome.islands, choice.most_lost, map_one, progress)
     return outcome
 
 
@@ -95,7 +95,8 @@ def _map(
     try:
         result = koebe.schottky_map(
             island.vertices, island.triangles, normalization=choice.normalization, tolerance=choice.tolerance,
-            max_sweeps=choice.max_sweeps, polygon=island.triangle_face, progress=progress, cancel=cancel,
+            max_sweeps=choice.max_sweeps, most_lost=choice.most_lost, polygon=island.triangle_face,
+            progress=progress, cancel=cancel,
         )  # fmt: skip
     except koebe.TopologyError as error:
         if kind_of(error) != "genus":
@@ -103,7 +104,6 @@ def _map(
         known = [vertex for vertex in elements_of(error) if vertex < len(island.vertices)]
         raise CutError(str(error), known) from error  # not that it has handles
     one.take_corners(surface, result.uv.astype(np.float32))
-    one.flipped = result.flipped_faces.astype(np.int64)
     one.circles = [_circle(island.triangles, result.uv, loop["vertices"]) for loop in result.loops]
     one.result = result
 

@@ -9,12 +9,13 @@ from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import elements_of, kind_of
 from .handles import SchottkyIsland, SchottkyOutcome
 from .opening import Opening
-from .outcomes import Failure, IslandOutcome, SurfaceOutcome, Task
+from .outcomes import Failed, IslandOutcome, SurfaceOutcome, Task
+from .parts import PartsOutcome
 from .rounding import RESOLUTION
 from .spheres import SphereIsland, SphereOutcome
 from .tiles import TileIsland, TileOutcome
 from .triangles import longest_edges
-from .wording import cut_line, in_mesh, warnings
+from .wording import cut_line, warnings
 
 
 def entries(outcome: SurfaceOutcome) -> list[dict[str, Any]]:
@@ -57,10 +58,25 @@ def domain_entries(outcome: DomainOutcome) -> list[dict[str, Any]]:
     return [_sphere_entry(outcome, index, one) for index, one in enumerate(outcome.islands)]
 
 
+def parts_entry(outcome: PartsOutcome) -> dict[str, Any]:
+    """`result.to_dict()` in the mesh's numbers, or the error."""
+    entry = _head(outcome.task, 0, outcome, int(np.count_nonzero(outcome.task.surface.selected)))
+    if outcome.result is None:
+        return entry
+    result, numbers = outcome.result.to_dict(), outcome.numbers
+    for part in result["parts"]:
+        part["faces"] = np.unique(numbers.triangle_face[part["faces"]]).tolist()
+        part["loops"] = [numbers.source_vertex[np.asarray(loop, dtype=np.int64)].tolist() for loop in part["loops"]]
+    result["warnings"] = outcome.warnings()
+    if outcome.error is not None:
+        result["converged"] = False
+    return {**result, **entry}
+
+
 def _sphere_entry(outcome: SphereOutcome, index: int, one: SphereIsland) -> dict[str, Any]:
     """Of the sphere; `layout` is of the UVs."""
-    entry = _head(outcome.task, index, one)
-    if one.error is not None:
+    entry = _head(outcome.task, index, one, len(one.island.faces))
+    if one.result is None:
         return entry
     result, source = one.result.to_dict(), one.island.source_vertex
     for loop in result["loops"]:
@@ -69,22 +85,30 @@ def _sphere_entry(outcome: SphereOutcome, index: int, one: SphereIsland) -> dict
     result["turned"] = _faces(one, result["turned"])
     for key in ("crossing", "torn", "flipped", "below_resolution"):
         result["layout"][key] = _faces(one, result["layout"][key])
-    result["warnings"] = _domain_warnings(outcome, one)
+    result.update(_stored(one))
+    result["warnings"] = outcome.warnings(one)
     return {**result, **entry, "domain": outcome.choice.domain}
 
 
 def _schottky_entry(outcome: SchottkyOutcome, index: int, one: SchottkyIsland) -> dict[str, Any]:
     """Circles and generators are those of `koebe.SchottkyMap`."""
-    entry = _head(outcome.task, index, one)
-    if one.error is not None:
+    entry = _head(outcome.task, index, one, len(one.island.faces))
+    if one.result is None:
         return entry
     result, source = one.result.to_dict(), one.island.source_vertex
     for part, key in (("loops", "vertices"), ("handles", "cut")):
         for path in result[part]:
             path[key] = source[np.asarray(path[key], dtype=np.int64)].tolist()
     result["turned"] = _faces(one, result["turned"])
-    result["warnings"] = _domain_warnings(outcome, one)
+    result.update(_stored(one))
+    result["warnings"] = outcome.warnings(one)
     return {**result, **entry, "domain": outcome.choice.domain}
+
+
+def _stored(one: DomainIsland) -> dict[str, Any]:
+    """What the UVs hold of the map; where too much is lost it is not done."""
+    lost = {"converged": False} if one.error is not None else {}
+    return {**one.stored.figures(), "flipped": len(one.flipped), **lost}
 
 
 def _faces(one: DomainIsland, triangles: list[int]) -> list[int]:
@@ -92,16 +116,9 @@ def _faces(one: DomainIsland, triangles: list[int]) -> list[int]:
     return np.unique(one.island.triangle_face[np.asarray(triangles, dtype=np.int64)]).tolist()
 
 
-def _domain_warnings(outcome: DomainOutcome, one: DomainIsland) -> list[dict[str, Any]]:
-    return [
-        *(in_mesh(one.island, warning) for warning in one.result.warnings),
-        *({"kind": kind, "elements": [], "text": text} for kind, text in outcome.own_warnings(one)),
-    ]
-
-
 def _tile_entry(outcome: TileOutcome, index: int, one: TileIsland) -> dict[str, Any]:
-    entry = _head(outcome.task, index, one)
-    if one.error is not None:
+    entry = _head(outcome.task, index, one, len(one.island.faces))
+    if one.result is None:
         return entry
     result, source = one.result.to_dict(), one.island.source_vertex
     matrix, offset = one.tile.move
@@ -118,15 +135,16 @@ def _tile_entry(outcome: TileOutcome, index: int, one: TileIsland) -> dict[str, 
                 loop["center"] = list(center)
     result["turned"] = _faces(one, result["turned"])
     result["periods"] = one.tile.periods.tolist()
-    result.update(one.distortion or {})
-    result["flipped"] = len(one.flipped)
-    result["warnings"] = _domain_warnings(outcome, one)
+    if outcome.choice.fit == "square":
+        result.update(one.stored.report)
+    result.update(_stored(one))
+    result["warnings"] = outcome.warnings(one)
     return {**result, **entry, "domain": outcome.choice.domain, "fit": outcome.choice.fit}
 
 
-def _head(task: Task, index: int, one: Failure) -> dict[str, Any]:
+def _head(task: Task, index: int, one: Failed, faces: int) -> dict[str, Any]:
     """Which island it is, and its error."""
-    entry = {"object": task.name, "island": index, "island_faces": len(one.island.faces)}
+    entry: dict[str, Any] = {"object": task.name, "island": index, "island_faces": faces}
     if one.error is None:
         return entry
     error: dict[str, Any] = {"name": type(one.error).__name__, "reason": str(one.error)}
@@ -138,7 +156,7 @@ def _head(task: Task, index: int, one: Failure) -> dict[str, Any]:
 
 
 def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
-    entry = _head(task, index, one)
+    entry = _head(task, index, one, len(one.island.faces))
     if one.error is not None:
         return entry
     result = one.result.to_dict()
@@ -159,6 +177,7 @@ def _entry(task: Task, index: int, one: IslandOutcome) -> dict[str, Any]:
     if one.remark:
         result["remark"] = one.remark
     result.update(one.distortion or {})
+    result.update(one.stored.figures())
     result["unrolled"] = one.unrolled
     result["warnings"] = warnings(task, one)
     result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded

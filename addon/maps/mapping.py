@@ -20,6 +20,7 @@ from .options import Options
 from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task
 from .packing import Placement, fit_placement, pack_disks
 from .side_by_side import Unit, side_by_side
+from .stored import SERVES, judge, lost_text, turned_of
 from .surface import Island
 from .symmetry import make_symmetric
 from .triangles import areas, flipped_triangles, signed_areas
@@ -57,7 +58,18 @@ def map_surfaces(
             for one in outcome.mapped:
                 with failing_alone(koebe, [one]):
                     make_symmetric(koebe, one)
+    for outcome in outcomes:
+        for one in outcome.mapped:
+            with failing_alone(koebe, [one]):
+                judge_island(koebe, one, options.most_lost)
     return outcomes
+
+
+def judge_island(koebe: ModuleType, one: IslandOutcome, most_lost: float) -> None:
+    """Look at what is stored of a mapped and placed island."""
+    one.stored = judge(koebe, one.sheet.vertices, one.sheet.triangles, one.uv, turned_of(one.result))
+    if one.stored.lost_area > most_lost:
+        one.lost = f"{lost_text(one.stored.lost_area)}. {SERVES['parts']} serves here"
 
 
 class _Run:

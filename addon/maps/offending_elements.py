@@ -5,6 +5,7 @@ import numpy as np
 
 from .errors import elements_of, kind_of
 from .outcomes import Failure
+from .stored import LostAreaError
 from .surface import Island, Surface
 
 VERTICES, EDGES, FACES = "vertices", "edges", "faces"
@@ -23,6 +24,8 @@ def offending_elements(surface: Surface, failure: Failure) -> tuple[str, np.ndar
         return VERTICES, np.unique(island.source_vertex[not_finite])
     if kind == "nonmanifold_edge":
         return EDGES, _crowded_edges(surface, island)
+    if kind == LostAreaError.kind:
+        return FACES, np.unique(island.triangle_face[np.asarray(elements, dtype=np.int64)])
     if kind in SHOWN_BY_VERTICES and len(elements):
         return VERTICES, island.source_vertex[np.asarray(elements)]
     return FACES, island.faces

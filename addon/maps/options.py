@@ -21,8 +21,10 @@ HOLES = ("circles", "concentric", "radial")
 RIMS = ("auto", "selected")
 FITS = ("inside", "period", "square")
 NORMALIZATIONS = ("area", "circles")
+SEAMS = ("add", "only")
 SEQUENCE_SOURCES = ("FRAMES", "SHAPE_KEYS")
 SEQUENCE_TARGETS = ("ATTRIBUTE", "LAYERS")
+MOST_LOST = 0.01  # share of the area, as of the solver
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
 MAX_LAYER_NAME_BYTES = 63
@@ -37,7 +39,11 @@ BLENDERS_OWN = {
 
 
 class OptionError(ValueError):
-    """An option has a value that cannot be used."""
+    """An option has a value that cannot be used: its name, and why."""
+
+    def __init__(self, option: str, reason: str) -> None:
+        super().__init__(f"{option}: {reason}")
+        self.option, self.reason = option, reason
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,6 +67,7 @@ class Options:
     placement     "pack" (each object has the unit square for itself), "together" (all objects share it) or
                   "keep" (every island goes where it was before)
     margin        between islands, in units of the UV square
+    most_lost     share of the surface's area that may have no area in the UVs before a warning comes first
     checker_size  squares across the UV square of the first object
     checker_even  the other objects' squares are as large in space; else as many across the UV square
     """
@@ -83,6 +90,7 @@ class Options:
     layer: str = "Koebe"
     placement: str = "pack"
     margin: float = 0.02
+    most_lost: float = MOST_LOST
     checker: bool = True
     checker_size: float = 32.0
     checker_even: bool = True
@@ -100,18 +108,18 @@ class Options:
             if isinstance(value, str):
                 _one_of(name, value, words)
             elif value < 0:
-                raise OptionError(f"{name}: {value} is not a vertex index")
+                raise OptionError(name, f"{value} is not a vertex index")
         if self.symmetry != "off" and (self.center != "auto" or self.point != "auto"):
-            raise OptionError("symmetry excludes a centre and a rim point: both choose where the disk's centre is")
+            raise OptionError("symmetry", "it excludes a centre and a rim point: all choose where the disk's centre is")
         if self.importance and self.balance != "area":
-            raise OptionError("importance weighs the balance: set Balance to Area")
-        _check_iteration(self.tolerance, self.max_sweeps)
+            raise OptionError("importance", "it weighs the balance: set Balance to Area")
+        _check_iteration(self)
         if self.threads < 0:
-            raise OptionError(f"threads: {self.threads} is negative")
+            raise OptionError("threads", f"{self.threads} is negative")
         if not 0.0 <= self.margin < 0.5:
-            raise OptionError(f"margin: {self.margin} is not in [0, 0.5)")
+            raise OptionError("margin", f"{self.margin} is not in [0, 0.5)")
         if not (math.isfinite(self.checker_size) and self.checker_size > 0.0):
-            raise OptionError(f"checker_size: {self.checker_size} is not a positive number")
+            raise OptionError("checker_size", f"{self.checker_size} is not a positive number")
         _check_layer_name(self.layer)
 
     def solver_arguments(self) -> dict[str, Any]:
@@ -124,7 +132,29 @@ class Options:
             "balance": self.balance,
             "polish": self.polish,
             "threads": self.threads,
+            "most_lost": self.most_lost,
         }
+
+
+@dataclasses.dataclass(frozen=True)
+class PartsChoice:
+    """How a surface is cut into parts.
+
+    evenness     from 0, few parts, to 1, texels as even as can be
+    seams        "add": cut along seams, and further where that pays; "only": nowhere else, but to get a map at all
+    write_seams  make seams of the cuts
+    most_lost    share of the surface's area that may have no area in the UVs; with more of it nothing is written
+    """
+
+    evenness: float = 0.5
+    seams: str = "add"
+    write_seams: bool = False
+    most_lost: float = MOST_LOST
+
+    def __post_init__(self) -> None:
+        _check_share("evenness", self.evenness)
+        _check_share("most_lost", self.most_lost)
+        _one_of("seams", self.seams, SEAMS)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -144,13 +174,14 @@ class TileChoice:
     fit: str = "inside"
     tolerance: float = 1e-6
     max_sweeps: int = 50
+    most_lost: float = MOST_LOST
 
     def __post_init__(self) -> None:
         _one_of("domain", self.domain, TILE_DOMAINS)
         _one_of("holes", self.holes, HOLES)
         _one_of("rims", self.rims, RIMS)
         _one_of("fit", self.fit, FITS)
-        _check_iteration(self.tolerance, self.max_sweeps)
+        _check_iteration(self)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -164,11 +195,12 @@ class SphereChoice:
     layout: str = "equirectangular"
     tolerance: float = 1e-6
     max_sweeps: int = 50
+    most_lost: float = MOST_LOST
     add_sphere: bool = False
 
     def __post_init__(self) -> None:
         _one_of("layout", self.layout, LAYOUTS)
-        _check_iteration(self.tolerance, self.max_sweeps)
+        _check_iteration(self)
 
     @property
     def domain(self) -> str:
@@ -187,10 +219,11 @@ class SchottkyChoice:
     normalization: str = "area"
     tolerance: float = 1e-6
     max_sweeps: int = 50
+    most_lost: float = MOST_LOST
 
     def __post_init__(self) -> None:
         _one_of("normalization", self.normalization, NORMALIZATIONS)
-        _check_iteration(self.tolerance, self.max_sweeps)
+        _check_iteration(self)
 
     @property
     def domain(self) -> str:
@@ -204,24 +237,26 @@ class SequenceChoice:
 
     frames  of the source "FRAMES"; None: the scene's
     target  "ATTRIBUTE" (a vector attribute for each shape) or "LAYERS" (a UV layer for each)
+    play    show the attributes of the frames in a UV layer, by a modifier
     """
 
     source: str = "FRAMES"
     frames: range | None = None
     target: str = "ATTRIBUTE"
+    play: bool = True
 
     def __post_init__(self) -> None:
         _one_of("source", self.source, SEQUENCE_SOURCES)
         _one_of("target", self.target, SEQUENCE_TARGETS)
         if self.source == "FRAMES" and self.frames is not None and not self.frames:
-            raise OptionError("frames: the last frame is before the first one")
+            raise OptionError("frames", "the last frame is before the first one")
 
     def name(self, layer: str, shape: str | int) -> str:
         """The name of what holds the UVs of one shape, which is a frame or the name of a key. Raises OptionError."""
         number = f"{shape:04d}" if isinstance(shape, int) else shape
         name = f"{layer}{' ' if self.target == 'LAYERS' else '_'}{number}"
         if len(name.encode("utf-8")) > MAX_LAYER_NAME_BYTES:
-            raise OptionError(f"layer: {name!r} is longer than {MAX_LAYER_NAME_BYTES} bytes: choose a shorter name")
+            raise OptionError("layer", f"{name!r} is longer than {MAX_LAYER_NAME_BYTES} bytes: choose a shorter name")
         return name
 
 
@@ -234,24 +269,30 @@ OtherDomain = TileChoice | SphereChoice | SchottkyChoice  # of maps that are to 
 CHOICES = {"torus": TileChoice, "ring": TileChoice, SPHERE: SphereChoice, SCHOTTKY: SchottkyChoice}
 
 
-def _check_iteration(tolerance: float, max_sweeps: int) -> None:
-    if not (math.isfinite(tolerance) and tolerance > 0.0):
-        raise OptionError(f"tolerance: {tolerance} is not a positive number")
-    if max_sweeps < 1:
-        raise OptionError(f"max_sweeps: {max_sweeps} is less than 1")
+def _check_iteration(choice: Any) -> None:
+    if not (math.isfinite(choice.tolerance) and choice.tolerance > 0.0):
+        raise OptionError("tolerance", f"{choice.tolerance} is not a positive number")
+    if choice.max_sweeps < 1:
+        raise OptionError("max_sweeps", f"{choice.max_sweeps} is less than 1")
+    _check_share("most_lost", choice.most_lost)
+
+
+def _check_share(name: str, value: float) -> None:
+    if not 0.0 <= value <= 1.0:
+        raise OptionError(name, f"{value} is not from 0 to 1")
 
 
 def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:
     if value not in allowed:
-        raise OptionError(f"{name}: {value!r} is not one of {', '.join(allowed)}")
+        raise OptionError(name, f"{value!r} is not one of {', '.join(allowed)}")
 
 
 def _check_layer_name(name: str) -> None:
     if not name.strip():
-        raise OptionError("layer: the name of the UV layer is empty")
+        raise OptionError("layer", "the name of the UV layer is empty")
     if name.startswith("."):
-        raise OptionError("layer: Blender keeps names that start with a dot to itself")
+        raise OptionError("layer", "Blender keeps names that start with a dot to itself")
     if name in BLENDERS_OWN:
-        raise OptionError(f"layer: Blender uses the name {name!r} itself")
+        raise OptionError("layer", f"Blender uses the name {name!r} itself")
     if len(name.encode("utf-8")) > MAX_LAYER_NAME_BYTES:
-        raise OptionError(f"layer: the name is longer than {MAX_LAYER_NAME_BYTES} bytes")
+        raise OptionError("layer", f"the name is longer than {MAX_LAYER_NAME_BYTES} bytes")

@@ -12,6 +12,7 @@ from .mirror import Symmetry
 from .opening import Opening
 from .packing import Placement
 from .rounding import rounded
+from .stored import Stored
 from .surface import Island, Surface
 from .triangles import as_complex, as_points, density_ratio, signed_areas
 
@@ -40,13 +41,18 @@ class Mapped(Protocol):
     def density_ratio(self) -> float: ...
 
 
-class Failure(Protocol):
+class Failed(Protocol):
+    """Why something could not be mapped."""
+
+    @property
+    def error(self) -> Exception | None: ...
+
+
+class Failure(Failed, Protocol):
     """An island, and why it could not be mapped."""
 
     @property
     def island(self) -> Island: ...
-    @property
-    def error(self) -> Exception | None: ...
 
 
 class Failures(Protocol):
@@ -57,9 +63,9 @@ class Failures(Protocol):
     @property
     def not_written(self) -> str | None: ...
     @property
-    def islands(self) -> Sequence[Failure]: ...
+    def islands(self) -> Sequence[Failed]: ...
     @property
-    def failed(self) -> Sequence[Failure]: ...
+    def failed(self) -> Sequence[Failed]: ...
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,7 +96,9 @@ class IslandOutcome:
     sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
     shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
     turn        complex number of modulus 1 by which the shape is turned about 0
-    distortion  `koebe.distortion` of what is in the UVs, where it is not that of the result
+    distortion  `koebe.distortion` of the shape, where it is not that of the result
+    stored      what the UVs hold of the map
+    lost        what to say first where more is lost in the UVs than may be, or empty
     places      the vertices that were asked for, by the solver's names: center, point
     opening     what was cut to get this piece, with others, or None
     symmetry    the island made symmetric, or None
@@ -104,6 +112,8 @@ class IslandOutcome:
     shape: np.ndarray = LATER
     turn: complex = 1.0
     distortion: dict[str, Any] | None = None
+    stored: Stored = LATER
+    lost: str = ""
     placement: Placement = LATER
     places: dict[str, Any] = dataclasses.field(default_factory=dict)
     opening: Opening | None = None
@@ -117,7 +127,9 @@ class IslandOutcome:
 
     @property
     def angle_error(self) -> float:
-        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs, once these are there."""
+        if self.stored is not None:
+            return self.stored.angle_error
         return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
 
     @functools.cached_property
@@ -186,6 +198,11 @@ class SurfaceOutcome:
     def failed(self) -> list[IslandOutcome]:
         """The islands that have an error."""
         return [outcome for outcome in self.islands if outcome.error is not None]
+
+    @property
+    def lost(self) -> list[IslandOutcome]:
+        """The mapped islands of which more is lost in the UVs than may be."""
+        return [outcome for outcome in self.mapped if outcome.lost]
 
     @property
     def converged(self) -> bool:

@@ -9,10 +9,12 @@ import numpy as np
 
 from .islands import cut_into_islands
 from .mapping import foreseen
-from .outcomes import Progress, Task
+from .options import PartsChoice
+from .outcomes import LATER, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
+from .stored import LostAreaError
 from .surface import Surface, next_corners
-from .wording import counted
+from .wording import counted, density_text, in_mesh
 
 if TYPE_CHECKING:
     from koebe import PartsResult
@@ -33,6 +35,7 @@ class PartsOutcome:
     """What became of one surface.
 
     corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
+    numbers      what the solver's triangles and vertices are on the surface
     cuts         (E,) bool, edges of the surface along which the UVs are cut
     not_written  why nothing of it could be written, or None
     remarks      what to say of the object beside its parts
@@ -41,6 +44,7 @@ class PartsOutcome:
     task: Task
     corners: np.ndarray
     uv: np.ndarray
+    numbers: "Numbers" = LATER
     result: "PartsResult | None" = None
     error: Exception | None = None
     cuts: np.ndarray | None = None
@@ -55,19 +59,32 @@ class PartsOutcome:
     @property
     def mapped(self) -> list["PartsResult"]:
         """The result, unless there is none or it could not be written."""
-        return [self.result] if self.result is not None and not self.not_written else []
+        return [] if self.result is None or self.error is not None or self.not_written else [self.result]
 
     @property
     def flipped_faces(self) -> np.ndarray:
         """Faces of the surface with triangles that are turned over in the UVs."""
-        surface = self.task.surface
-        chosen = np.flatnonzero(surface.selected[surface.triangle_face])
-        return np.unique(surface.triangle_face[chosen[self.mapped[0].flipped_faces]])
+        return np.unique(self.numbers.triangle_face[self.mapped[0].flipped_faces])
+
+    def warnings(self) -> list[dict[str, Any]]:
+        """What to watch out for in the parts, in the mesh's numbers."""
+        found = [warning for result in self.mapped for warning in result.warnings]
+        return [in_mesh(self.numbers, warning) for warning in found if warning.kind != LostAreaError.kind]
 
     @property
-    def problem(self) -> str | None:
-        """Why there are no new UVs, or None."""
-        return self.not_written or (f"{self.name}: {self.error}" if self.error else None)
+    def islands(self) -> list["PartsOutcome"]:
+        """The surface as one, as of other outcomes."""
+        return [self]
+
+    @property
+    def failed(self) -> list["PartsOutcome"]:
+        """The same if it has an error."""
+        return [self] if self.error is not None else []
+
+    @property
+    def converged(self) -> bool:
+        """Whether the parts are what they promise."""
+        return all(result.converged for result in self.mapped)
 
     def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
         """Corners (m,) and their UV coordinates (m, 2) in 32 bits."""
@@ -80,14 +97,24 @@ class PartsOutcome:
         words = [
             counted(len(kinds), "part") + f" ({', '.join(counted(kinds.count(kind), kind) for kind in _kinds(kinds))})",
             f"cuts {result.cut_length:.1f} times the root of the area",
-            f"texel density within {result.density_ratio_5_95:.1f} on nine tenths",
-            f"angle error {result.angle_error_deg['mean']:.2f}°",
+            f"texel density 1 : {density_text(result.density_ratio_5_95)} on nine tenths",
+            f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
             counted(result.flipped, "flip"),
             f"{result.seconds:.2f} s",
         ]
         if result.handles_cut:
             words.insert(1, counted(result.handles_cut, "handle") + " cut")
+        if not result.converged:
+            words.append("NOT CONVERGED")
         return f"{self.name}: {', '.join(words)}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Numbers:
+    """What the solver's triangles (t,) and vertices (n,) are on the surface."""
+
+    triangle_face: np.ndarray
+    source_vertex: np.ndarray
 
 
 def _kinds(kinds: list[str]) -> list[str]:
@@ -95,7 +122,7 @@ def _kinds(kinds: list[str]) -> list[str]:
 
 
 def cut_into_parts(
-    koebe: ModuleType, task: Task, price: float, progress: Progress | None = None, cancel: Any = None
+    koebe: ModuleType, task: Task, choice: PartsChoice, progress: Progress | None = None, cancel: Any = None
 ) -> PartsOutcome:
     """Cut the selected faces of a surface into parts. Seams stay cuts. Polygons stay whole.
 
@@ -104,16 +131,16 @@ def cut_into_parts(
 
     Errors are the outcome's; `koebe.Cancelled` goes on.
     """
-    surface = task.surface
+    surface, price = task.surface, price_of(choice.evenness) if choice.seams == "add" else NO_CUTS
     outcome = PartsOutcome(task, np.zeros(0, dtype=np.int32), np.zeros((0, 2), dtype=np.float32))
     slits = tube_slits(surface, cut_into_islands(surface))
     try:
         if slits.any():
-            _map(koebe, outcome, surface, slits, price, progress, cancel)
+            _map(koebe, outcome, surface, slits, price, choice.most_lost, progress, cancel)
             assert outcome.cuts is not None
             if not (inner_seams(surface) & ~outcome.cuts).any():
                 return outcome
-        _map(koebe, outcome, surface, np.zeros_like(slits), price, progress, cancel)
+        _map(koebe, outcome, surface, np.zeros_like(slits), price, choice.most_lost, progress, cancel)
     except koebe.Cancelled:
         raise
     except Exception as error:
@@ -127,24 +154,30 @@ def _map(
     surface: Surface,
     slits: np.ndarray,
     price: float,
+    most_lost: float,
     progress: Progress | None,
     cancel: Any,
 ) -> None:
     """Fill the outcome. @param slits (E,) bool, seams that are cut only where a tube is opened."""
     vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
-    positions, count = [], 0
+    positions, sources, count = [], [], 0
     for island in cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~slits)):
         vertex_of_corner[island.corners] = island.corner_vertex + count
         positions.append(island.vertices)
+        sources.append(island.source_vertex)
         count += len(island.vertices)
     chosen = surface.selected[surface.triangle_face]
     corners = surface.triangle_corners[chosen]
     on_slit = np.flatnonzero(slits[surface.corner_edge] & np.repeat(surface.selected, surface.face_size))
     ends = np.stack([on_slit, next_corners(surface)[on_slit]], axis=1)
+    outcome.numbers = Numbers(surface.triangle_face[chosen], np.concatenate(sources))
     result = koebe.parts(
-        np.concatenate(positions), vertex_of_corner[corners], price=price, polygon=surface.triangle_face[chosen],
-        slits=vertex_of_corner[ends], progress=progress, cancel=cancel,
+        np.concatenate(positions), vertex_of_corner[corners], price=price, polygon=outcome.numbers.triangle_face,
+        slits=vertex_of_corner[ends], most_lost=most_lost, progress=progress, cancel=cancel,
     )  # fmt: skip
+    if result.lost_area > most_lost:
+        outcome.result = result
+        raise LostAreaError(result.lost_area, result.flipped_faces, "uniformize")
     uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
     uv[corners.ravel()] = result.uv.reshape(-1, 2)
     outcome.result, outcome.corners = result, np.unique(corners)

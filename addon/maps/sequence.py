@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from .errors import MapError
-from .mapping import check_area, failing_alone, map_surfaces
+from .mapping import check_area, failing_alone, judge_island, map_surfaces
 from .options import Options
 from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task, share_of
 from .surface import Surface
@@ -18,6 +18,7 @@ from .wording import counted, warnings
 if TYPE_CHECKING:
     import koebe
 
+ALIKE = 1e-6  # of the largest coordinate: so much may edges differ in shapes that have one form, by rounding to 32 bits
 NAMED = 6  # shapes in one message
 
 
@@ -40,6 +41,7 @@ class SequenceOutcome:
     labels  of the shapes
     maps    in the order of the shapes; the names of their tasks name the shapes
     broken  the shape that could not be mapped
+    alike   the number of shapes that are one up to their places, and so have one map; 0 where they are not
     """
 
     task: Task
@@ -48,6 +50,7 @@ class SequenceOutcome:
     broken: SurfaceOutcome | None = None
     not_written: str | None = None
     remarks: list[str] = dataclasses.field(default_factory=list)
+    alike: int = 0
 
     @property
     def name(self) -> str:
@@ -101,9 +104,29 @@ class SequenceOutcome:
         for label, made in zip(self.labels, self.maps, strict=True):
             for text in {warning["text"]: None for one in made.mapped for warning in warnings(made.task, one)}:
                 found.setdefault(text, []).append(label)
-        return [
+        own = [f"nothing moves: its faces keep their form in all {self.alike} shapes, and one map is written"]
+        return own * (self.alike > 0) + [
             text if len(labels) == len(self.labels) else f"{text} ({named(labels)})" for text, labels in found.items()
         ]
+
+
+def are_alike(shapes: Sequence[Shape], triangles: np.ndarray) -> bool:
+    """Whether all shapes have one form up to scale, by the edges of the triangles (t, 3): then they have one map.
+
+    Moved and turned they do, and bent without stretching.
+    """
+    first = _edge_lengths(shapes[0].positions, triangles)
+    for shape in shapes[1:]:
+        length = _edge_lengths(shape.positions, triangles)
+        scale = length.sum() / max(first.sum(), np.finfo(float).tiny)
+        if not (np.abs(length - scale * first) <= ALIKE * np.abs(shape.positions).max(initial=0.0)).all():
+            return False
+    return True
+
+
+def _edge_lengths(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    corners = positions[triangles]
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
 
 
 def mean_angle_error(made: SurfaceOutcome) -> float:
@@ -138,7 +161,7 @@ def map_sequence(
         if number == 0:
             (made,) = map_surfaces(kept, [of_shape], options, _saying(part, shape), cancel)  # type: ignore[arg-type]
         else:
-            made = _next_map(kept, outcome.maps[0], of_shape, _saying(part, shape), cancel)
+            made = _next_map(kept, outcome.maps[0], of_shape, options.most_lost, _saying(part, shape), cancel)
         if made.failed or not made.islands:
             outcome.broken = made
             break
@@ -182,7 +205,9 @@ def _saying(progress: Progress | None, shape: Shape) -> Progress | None:
     return lambda fraction, stage: progress(fraction, f"mapping {shape.label}")
 
 
-def _next_map(kept: _Kept, first: SurfaceOutcome, task: Task, progress: Progress | None, cancel: Any) -> SurfaceOutcome:
+def _next_map(
+    kept: _Kept, first: SurfaceOutcome, task: Task, most_lost: float, progress: Progress | None, cancel: Any
+) -> SurfaceOutcome:
     """The map of another shape, laid over the first."""
     ones, done = [], 0
     total = sum(len(one.island.triangles) for one in first.islands)
@@ -201,6 +226,7 @@ def _next_map(kept: _Kept, first: SurfaceOutcome, task: Task, progress: Progress
             one.shape = one.result.uv
             if not np.isfinite(one.uv).all():  # worked out here, on this thread
                 raise MapError("its UVs are not finite")
+            judge_island(kept, one, most_lost)  # type: ignore[arg-type]
         ones.append(one)
         done += size
     return SurfaceOutcome(task, ones)

@@ -22,7 +22,6 @@ WHERE_TORN = {"equirectangular": "round a pole", "octahedral": "round the middle
 class SphereIsland(DomainIsland):
     """What became of one island: a result of `koebe.sphere_map`, or an error.
 
-    flipped  without those that are torn
     torn     triangles (k,) that fit to no UVs of the layout
     """
 
@@ -67,7 +66,7 @@ def map_spheres(
     def map_one(one: SphereIsland, own: Progress | None) -> None:
         _map(koebe, task.surface, one, choice, own, cancel)
 
-    map_islands(koebe, outcome.islands, map_one, progress)
+    map_islands(koebe, outcome.islands, choice.most_lost, map_one, progress)
     return outcome
 
 
@@ -83,9 +82,9 @@ def _map(
     checked_loops(koebe, island, choice.domain)
     result = koebe.sphere_map(
         island.vertices, island.triangles, layout=choice.layout, tolerance=choice.tolerance,
-        max_sweeps=choice.max_sweeps, polygon=island.triangle_face, progress=progress, cancel=cancel,
+        max_sweeps=choice.max_sweeps, most_lost=choice.most_lost, polygon=island.triangle_face,
+        progress=progress, cancel=cancel,
     )  # fmt: skip
     one.take_corners(surface, result.uv.astype(np.float32))
     one.torn = np.asarray(result.layout["torn"], dtype=np.int64)
-    one.flipped = np.setdiff1d(np.asarray(result.layout["flipped"], dtype=np.int64), one.torn)
     one.result = result

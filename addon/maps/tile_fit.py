@@ -25,14 +25,6 @@ class FittedTile:
     grid: float
     move: tuple[np.ndarray, np.ndarray]
 
-    def flipped(self, turned: np.ndarray) -> np.ndarray:
-        """Triangles whose area, in whole numbers, is not positive. @param turned those that face the other way"""
-        points = np.rint(self.uv.astype(np.float64) / self.grid).astype(np.int64)
-        one, two = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
-        area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
-        area[turned] *= -1
-        return np.flatnonzero(area <= 0)
-
 
 def fitted(uv: np.ndarray, triangles: np.ndarray, periods: np.ndarray, fit: str) -> FittedTile:
     """A tile of `koebe.torus_map` or `koebe.ring_map`, (t, 3, 2) and (k, 2), as a `TileChoice` has it fit.

@@ -15,7 +15,7 @@ from .outcomes import LATER, Progress, Task
 from .surface import Island, Surface
 from .tile_fit import FittedTile, fitted
 from .triangles import density_ratio, signed_areas
-from .wording import counted
+from .wording import counted, own_warning
 
 if TYPE_CHECKING:
     from koebe import TileMap
@@ -27,17 +27,10 @@ UP = (2, 1)  # axes that may be up: of a ring's two rims the lower one is where 
 class TileIsland(DomainIsland):
     """What became of one island: a result of `koebe.torus_map` or `koebe.ring_map` and its tile, or an error.
 
-    tile         fitted as it was asked for
-    distortion   `koebe.distortion` of what is in the UVs, where it is not that of the result
+    tile  fitted as it was asked for
     """
 
     tile: FittedTile = LATER
-    distortion: dict[str, Any] | None = None
-
-    @property
-    def angle_error(self) -> float:
-        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs."""
-        return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
 
     @functools.cached_property
     def density_ratio(self) -> float:
@@ -58,10 +51,10 @@ class TileIsland(DomainIsland):
 class TileOutcome(DomainOutcome):
     """What became of one surface: each island fills the UV square for itself."""
 
-    def own_warnings(self, one: TileIsland) -> list[tuple[str, str]]:
+    def warnings(self, one: TileIsland) -> list[dict[str, Any]]:
         lost = len(np.setdiff1d(one.flipped, one.result.flipped_faces))
         text = f"{counted(lost, 'triangle')} turned over as the tile was fitted: take Fit: Inside"
-        return [("flipped", text)] * (lost > 0) + super().own_warnings(one)
+        return [*super().warnings(one), *[own_warning("flipped", text)] * (lost > 0)]
 
     def figures(self) -> list[str]:
         results = [one.result for one in self.mapped]
@@ -98,7 +91,7 @@ def map_tiles(
     def map_one(one: TileIsland, own: Progress | None) -> None:
         _map(koebe, task.surface, one, choice, picked, own, cancel)
 
-    map_islands(koebe, outcome.islands, map_one, progress)
+    map_islands(koebe, outcome.islands, choice.most_lost, map_one, progress)
     return outcome
 
 
@@ -113,7 +106,9 @@ def _map(
 ) -> None:
     island = one.island
     loops = checked_loops(koebe, island, choice.domain)
-    arguments: dict[str, Any] = {"tolerance": choice.tolerance, "max_sweeps": choice.max_sweeps}
+    arguments: dict[str, Any] = {
+        "tolerance": choice.tolerance, "max_sweeps": choice.max_sweeps, "most_lost": choice.most_lost,
+    }  # fmt: skip
     if choice.domain == "ring":
         outer, inner = rims_of(island, loops, choice.rims, picked)
         arguments.update(outer=outer, inner=inner, holes=choice.holes)
@@ -123,11 +118,6 @@ def _map(
     )
     one.tile = fitted(result.uv, island.triangles, result.periods, choice.fit)
     one.take_corners(surface, one.tile.uv)
-    one.flipped = one.tile.flipped(np.asarray(result.turned, dtype=np.int64))
-    if choice.fit == "square":
-        corners = island.vertices[island.triangles].reshape(-1, 3)
-        apart = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
-        one.distortion = koebe.distortion(corners, apart, one.tile.uv.reshape(-1, 2).astype(np.float64))
     one.result = result
 
 

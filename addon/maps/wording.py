@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The text of every result, reason and warning: what the report, the status line and the command line say."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+import re
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from .errors import elements_of, kind_of
-from .outcomes import Failure, Failures, IslandOutcome, Mapped, SurfaceOutcome, Task
-from .surface import Island
+from .outcomes import Failed, Failures, IslandOutcome, Mapped, SurfaceOutcome, Task
 
 if TYPE_CHECKING:
     import koebe
@@ -27,6 +27,7 @@ PINNED = "its pins are not kept: a map to a circle domain leaves nothing that a 
 MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
 UNEVEN = "its texels are very uneven: Unwrap to Parts makes them even"
 MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %: more than that cannot be painted on
+MOST_TOLD = 1000.0  # of such a ratio: a larger one tells no more
 FEW = 6  # reasons in one message, which has to fit on the screen
 # The kind of warning that the solver gives of its disk in 32 bits; it does not hold for the rectangle made of it.
 OF_THE_DISK = "below_resolution"
@@ -47,6 +48,8 @@ def result_line(outcome: SurfaceOutcome) -> str:
     ]
     if len(results) > 1:
         words.insert(0, counted(len(results), "island"))
+    if outcome.lost:
+        words.insert(0, f"LOST {max(100.0 * one.stored.lost_area for one in outcome.lost):.2g} % OF THE AREA")
     if not outcome.converged:
         words.append("NOT CONVERGED")
     edges = sum(cut_edges(opening) for opening in outcome.openings)
@@ -105,6 +108,11 @@ def notes(outcome: SurfaceOutcome) -> list[tuple[IslandOutcome, str]]:
     return found
 
 
+def density_text(ratio: float) -> str:
+    """A ratio of texel densities, as a number that can be read."""
+    return f"{ratio:.1f}" if ratio <= MOST_TOLD else f"more than {MOST_TOLD:,.0f}"
+
+
 def too_uneven(one: Mapped) -> bool:
     """Whether nobody can paint on a mapped island: texels too uneven, or faces too small for them."""
     return bool(one.result.below_resolution) or one.density_ratio > MOST_UNEVEN
@@ -115,7 +123,7 @@ def failure_line(outcome: Failures) -> str:
     if outcome.not_written:
         return outcome.not_written
     failed = outcome.failed
-    reasons: dict[str, list[Failure]] = {}
+    reasons: dict[str, list[Failed]] = {}
     for one in failed:
         reasons.setdefault(explain(one.error), []).append(one)
     text = "; ".join(
@@ -124,6 +132,15 @@ def failure_line(outcome: Failures) -> str:
     )
     count = "" if len(outcome.islands) == 1 else f"{len(failed)} of {len(outcome.islands)} islands: "
     return f"{outcome.name}: {count}{text}"
+
+
+def run_error(outcomes: Sequence[Failures]) -> dict[str, Any]:
+    """The error of a run of which no map can be kept: the name and kind of the first one, and all reasons."""
+    failed = [outcome for outcome in outcomes if outcome.failed]
+    error = failed[0].failed[0].error
+    kind = kind_of(error)
+    found = {"name": type(error).__name__, "reason": few([failure_line(outcome) for outcome in failed], "; ")}
+    return found if kind is None else {**found, "kind": kind}
 
 
 def explain(error: Exception | None) -> str:
@@ -143,20 +160,61 @@ def warnings(task: Task, one: IslandOutcome) -> list[dict[str, Any]]:
     native = [
         in_mesh(one.island, warning)
         for warning in one.result.warnings
-        if not (one.unrolled and warning.kind == OF_THE_DISK)
+        if warning.kind != "lost_area" and not (one.unrolled and warning.kind == OF_THE_DISK)
     ]
-    return [*native, *({"kind": kind, "elements": [], "text": text} for kind, text in own_warnings(task))]
+    lost = own_warning("lost_area", one.lost, np.unique(one.sheet.triangle_face[one.flipped]) if one.lost else ())
+    return [*[lost] * bool(one.lost), *native, *own_warnings(task)]
 
 
-def own_warnings(task: Task) -> list[tuple[str, str]]:
-    """Kind and text of what to watch out for in all islands of a surface, beside what the solver warns of."""
-    return [("mirrored", MIRRORED)] * task.mirrored + [("pinned", PINNED)] * task.pinned
+def own_warnings(task: Task) -> list[dict[str, Any]]:
+    """What to watch out for in all islands of a surface, beside what the solver warns of."""
+    return [own_warning("mirrored", MIRRORED)] * task.mirrored + [own_warning("pinned", PINNED)] * task.pinned
 
 
-def in_mesh(island: Island, warning: "koebe.Warning") -> dict[str, Any]:
-    """A warning with its elements as the mesh numbers them."""
-    number = {"vertices": island.source_vertex, "faces": island.triangle_face}.get(warning.of)
-    return dict(warning if number is None else warning.renumbered(number))
+def own_warning(kind: str, text: str, elements: Iterable[int] = ()) -> dict[str, Any]:
+    """A warning that is not the solver's, or not in its words."""
+    return {"kind": kind, "elements": [int(element) for element in elements], "text": text}
+
+
+class Numbers(Protocol):
+    """What the solver's triangles and vertices are in the mesh, as of an `Island`."""
+
+    @property
+    def triangle_face(self) -> np.ndarray: ...
+    @property
+    def source_vertex(self) -> np.ndarray: ...
+
+
+# Where a warning's sentence counts faces or vertices, or names a vertex; a loop keeps its number.
+_COUNTS = re.compile(r"\b(\d+) (face|vertex)(?:s|\b)|\b(\d+) vertices\b|\b(\d+)(?= of them too small\b)")
+_NAMES = re.compile(
+    r"(?<=\bvertex )\d+|(?<=\bedge )\d+(?=-)|(?<=\d-)\d+|(?<=the circle, the first )\d+|"
+    r"(?<=a place, the first is )\d+|(?<=the disk, the first is )\d+|(?<=at vertices, the first is )\d+"
+)
+_FIRST = re.compile(r"(?<=the first face is )\d+|(?<=the first vertex is )\d+")
+
+
+def in_mesh(numbers: Numbers, warning: "koebe.Warning") -> dict[str, Any]:
+    """A warning of the solver in the mesh's numbers: its elements, each once and rising, and what its text counts and
+    names. The solver counts triangles: its elements become polygons, whatever else it counts are called triangles."""
+    number = {"vertices": numbers.source_vertex, "faces": numbers.triangle_face}.get(warning.of)
+    old = warning["elements"]
+    elements = old if number is None or not old else np.unique(number[old]).tolist()
+
+    def count(match: re.Match[str]) -> str:
+        found, noun = int(match[1] or match[3] or match[4]), match[2] or ("vertex" if match[3] else "face")
+        own = found == len(old) and warning.of == ("vertices" if noun == "vertex" else "faces")
+        if noun == "face" and not own:
+            noun = "triangle"
+        return counted(len(elements) if own else found, noun, "vertices" if noun == "vertex" else None)
+
+    def name(match: re.Match[str]) -> str:
+        vertex = int(match[0])
+        return str(numbers.source_vertex[vertex] if vertex < len(numbers.source_vertex) else vertex)
+
+    text = _NAMES.sub(name, _COUNTS.sub(count, warning["text"]))
+    text = _FIRST.sub(str(elements[0]), text) if elements else text
+    return {"kind": warning["kind"], "elements": elements, "text": text}
 
 
 def counted(count: int, noun: str, plural: str | None = None) -> str:

@@ -66,7 +66,7 @@ class DomainOperator(MapOperator):
         results: list[tuple[str, bool, list[str], list[str]]] = []
         for outcome in job.outcomes:
             if outcome.mapped:
-                found = [text for one in outcome.mapped for text in outcome.warnings(one)]
+                found = [warning["text"] for one in outcome.mapped for warning in outcome.warnings(one)]
                 warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
                 notes = [f"{outcome.name}: {text}" for one in outcome.mapped for text in outcome.notes(one)]
                 results.append((outcome.line(), outcome.converged, notes, warnings))

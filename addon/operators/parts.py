@@ -7,7 +7,8 @@ from ..blender import edit_mode
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.parts_job import PartsJob
-from ..maps.parts import NO_CUTS, price_of
+from ..maps import wording
+from ..maps.options import PartsChoice
 from ..state import run_report
 from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, written_options_of
 from .modal_run import redraw
@@ -26,11 +27,8 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     options_shown = PART_OPTION_NAMES
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
-        price = price_of(self.evenness) if self.seams == "add" else NO_CUTS
-        return PartsJob(
-            target_objects(context), written_options_of(self), price, selected_only, refused=[],
-            write_seams=self.write_seams,
-        )  # fmt: skip
+        choice = PartsChoice(self.evenness, self.seams, self.write_seams, self.most_lost)
+        return PartsJob(target_objects(context), written_options_of(self), choice, selected_only, refused=[])
 
     def _finish(self, context: bpy.types.Context, job: PartsJob) -> set[str]:
         """Write what was computed, each object wholly or not at all, and say what became of it."""
@@ -43,13 +41,13 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
             return self._say(job)
 
     def _say(self, job: PartsJob) -> set[str]:
-        failures = [outcome.problem for outcome in job.outcomes if outcome.problem]
+        failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         results: list[tuple[str, bool, list[str], list[str]]] = []
         for outcome in job.outcomes:
             if outcome.mapped:
-                found = [warning.text for result in outcome.mapped for warning in result.warnings]
+                found = [warning["text"] for warning in outcome.warnings()]
                 warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
-                results.append((outcome.line(), True, [], warnings))
+                results.append((outcome.line(), outcome.converged, [], warnings))
         return self._tell(job, failures, results)
 
 

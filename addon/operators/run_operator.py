@@ -19,6 +19,7 @@ NEEDS = {  # options that matter with others alone
     "evenness": lambda options: options.seams == "add",
     "checker_size": lambda options: options.checker,
     "checker_even": lambda options: options.checker,
+    "play": lambda options: options.source == "FRAMES" and options.target == "ATTRIBUTE",
     "frame_start": lambda options: options.source == "FRAMES",
     "frame_end": lambda options: options.source == "FRAMES",
     "frame_step": lambda options: options.source == "FRAMES",

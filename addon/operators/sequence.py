@@ -43,7 +43,7 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
             if not self.properties.is_property_set(name):
                 setattr(self, name, getattr(context.scene, name))
         frames = range(self.frame_start, self.frame_end + 1, self.frame_step)
-        choice = SequenceChoice(self.source, frames, self.target)
+        choice = SequenceChoice(self.source, frames, self.target, self.play)
         return SequenceJob(target_objects(context)[:1], sequence_options_of(self), choice, selected_only)
 
     def _reading(self, context: bpy.types.Context, job: SequenceJob) -> Generator[float, None, None]:
@@ -69,7 +69,7 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
         for outcome in job.outcomes:
             if outcome.mapped:
                 warnings = [f"{outcome.name}: {text}" for text in [*outcome.warnings(), *outcome.remarks]]
-                results.append((outcome.line(), outcome.converged, [], warnings))
+                results.append((outcome.line(), outcome.converged and not outcome.alike, [], warnings))
         return self._tell(job, failures, results)
 
 

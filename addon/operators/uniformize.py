@@ -55,7 +55,8 @@ class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operat
                 said = wording.few([text for _, text in wording.notes(outcome)], "; ")
                 notes = [f"{outcome.name}: {said}"] if said else []
                 warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
-                results.append((wording.result_line(outcome), outcome.converged, notes, warnings))
+                is_good = outcome.converged and not outcome.lost
+                results.append((wording.result_line(outcome), is_good, notes, warnings))
         return self._tell(job, failures, results)
 
 

@@ -163,6 +163,15 @@ class UniformizeProperties:
         max=0.25,
         description="Space between islands, in units of the UV square",
     )
+    most_lost: FloatProperty(
+        name="Most Lost",
+        default=DEFAULTS.most_lost,
+        min=0.0,
+        max=1.0,
+        precision=3,
+        description="Share of the surface's area that may have no area in the UVs, where 32 bits are too few for its "
+        "faces. With more of it parts and other domains write nothing; Koebe Uniformize says so first",
+    )
     checker: BoolProperty(
         name="Checker",
         default=DEFAULTS.checker,
@@ -186,7 +195,7 @@ class UniformizeProperties:
 
 
 OPTION_NAMES = tuple(UniformizeProperties.__annotations__)
-ACCURACY_NAMES = ("method", "engine", "tolerance", "max_sweeps")  # what most runs leave alone, and so comes last
+ACCURACY_NAMES = ("method", "engine", "tolerance", "max_sweeps", "most_lost")  # which most runs leave alone
 
 
 def option(name: str) -> Any:
@@ -228,6 +237,7 @@ class PartsProperties:
     evenness: EVENNESS
     seams: SEAMS
     write_seams: WRITE_SEAMS
+    most_lost: option("most_lost")
     layer: option("layer")
     checker: option("checker")
     checker_size: option("checker_size")
@@ -313,6 +323,7 @@ class DomainProperties:
 
     tolerance: option("tolerance")
     max_sweeps: option("max_sweeps")
+    most_lost: option("most_lost")
     layer: option("layer")
     checker: option("checker")
     checker_size: option("checker_size")
@@ -353,6 +364,7 @@ class SequenceProperties:
     frame_end: sequence_properties.FRAME_END
     frame_step: sequence_properties.FRAME_STEP
     target: sequence_properties.TARGET
+    play: sequence_properties.PLAY
     layer: option("layer")
     cut: option("cut")
     outer: option("outer")
@@ -363,6 +375,7 @@ class SequenceProperties:
     upright: option("upright")
     polish: option("polish")
     margin: option("margin")
+    most_lost: option("most_lost")
     method: option("method")
     tolerance: option("tolerance")
     max_sweeps: option("max_sweeps")
@@ -403,9 +416,10 @@ class KoebeSettings(UniformizeProperties, bpy.types.PropertyGroup):
     frame_end: sequence_properties.FRAME_END
     frame_step: sequence_properties.FRAME_STEP
     target: sequence_properties.TARGET
+    play: sequence_properties.PLAY
 
 
-SEQUENCE_SETTINGS = ("source", "scene_range", "frame_start", "frame_end", "frame_step", "target")
+SEQUENCE_SETTINGS = ("source", "scene_range", "frame_start", "frame_end", "frame_step", "target", "play")
 SETTING_NAMES = tuple(
     dict.fromkeys(
         (

@@ -188,19 +188,21 @@ def record_parts(
     """Replace the report by the parts of objects, an entry for each object. They have no circles to be drawn."""
     with _new_report(run, context, refused) as report:
         for outcome in outcomes:
-            if outcome.problem:
-                _record_failure(report, outcome.name, outcome.problem)
+            if outcome.failed or outcome.not_written:
+                offer = " ".join(getattr(outcome.error, "offer", ()))
+                _record_failure(report, outcome.name, failure_line(outcome), offer)
             for result in outcome.mapped:
                 entry = report.islands.add()
                 entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)
                 entry.mapped = entry.converged = True
-                entry.angle_error, entry.flipped = result.angle_error_deg["mean"], result.flipped
+                entry.angle_error, entry.flipped = result.angle_error_stored_deg["mean"], result.flipped
+                entry.converged = result.converged
                 entry.density, entry.cut_length = result.density_ratio_5_95, result.cut_length
                 entry.seconds = result.seconds
                 if outcome.cuts is not None and outcome.cuts.any():
                     entry.cut_edges = json.dumps(np.flatnonzero(outcome.cuts).tolist())
                 entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
-                entry.message = "; ".join([*(warning.text for warning in result.warnings), *outcome.remarks])
+                entry.message = "; ".join([*(warning["text"] for warning in outcome.warnings()), *outcome.remarks])
 
 
 def record_domains(
@@ -234,7 +236,7 @@ def _record_domain(entry: KoebeIslandReport, outcome: DomainOutcome, one: Any) -
     entry.angle_error, entry.seconds = one.angle_error, result.seconds["total"]
     entry.flipped, entry.flipped_faces = len(one.flipped), json.dumps(one.flipped_faces.tolist())
     entry.uneven, entry.cut_edges = too_uneven(one), json.dumps(np.flatnonzero(one.cuts).tolist())
-    entry.message = "; ".join([*outcome.warnings(one), *outcome.remarks])
+    entry.message = "; ".join([*(warning["text"] for warning in outcome.warnings(one)), *outcome.remarks])
     entry.note = "; ".join(outcome.notes(one))
     for of_loop in result.loops:
         entry.loops.add().vertices = json.dumps(one.island.source_vertex[of_loop["vertices"]].tolist())
@@ -269,10 +271,10 @@ def _record_handles(entry: KoebeIslandReport, one: SchottkyIsland) -> None:
         loop.name = f"{number}" if number else "Rim"
 
 
-def _record_failure(report: KoebeReport, name: str, text: str) -> None:
+def _record_failure(report: KoebeReport, name: str, text: str, offer: str = "") -> None:
     """The entry of an object that was left out as a whole."""
     entry = report.islands.add()
-    entry.object_name, entry.message = name, text.removeprefix(f"{name}: ")
+    entry.object_name, entry.message, entry.offer = name, text.removeprefix(f"{name}: "), offer
 
 
 def _record_result(entry: KoebeIslandReport, outcome: SurfaceOutcome, one: IslandOutcome) -> None:
@@ -328,7 +330,7 @@ CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)
 
 
 def register() -> None:
-    """Register the report and hang it on the window manager, which no file keeps and no undo changes."""
+    """Register the report and hang it on the window manager, which no undo changes."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.WindowManager.koebe_uv = PointerProperty(type=KoebeReport)

@@ -43,6 +43,13 @@ TARGET = EnumProperty(
     description="What holds the UVs of the shapes",
 )
 
+PLAY = BoolProperty(
+    name="Play",
+    default=DEFAULTS.play,
+    description="Of attributes of frames: show them. Writes the first one to the UV layer too, and adds a modifier, "
+    "Koebe Sequence, which brings that of the current frame there",
+)
+
 SCENE_RANGE = BoolProperty(
     name="Scene Range",
     default=True,

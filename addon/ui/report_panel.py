@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import bpy
 
-from ..maps.wording import UNEVEN
+from ..maps.wording import UNEVEN, counted, density_text
 from ..operators.select_from_report import (
     UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
@@ -85,9 +85,10 @@ class ReportPanel(KoebePanel):
         if entry.mapped:
             draw_unroll(layout, context, entry)
             draw_result(layout.column(), entry)
-        elif entry.offenders:
+            return
+        if entry.offenders:
             layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
-            draw_offer(layout.column(align=True), context, entry)
+        draw_offer(layout.column(align=True), context, entry)
 
 
 def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
@@ -95,10 +96,11 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     table = column.column(align=True)
     sweeps = ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
     of_circles = [("Roundness", f"{entry.roundness:.1e}"), sweeps]
+    density = f"1 : {density_text(entry.density)}, on 90 %"
     of_parts = [
         ("Parts", f"{entry.parts}"),
         ("Cut length", f"{entry.cut_length:.1f} × √area"),
-        ("Density", f"1 : {entry.density:.1f}, on 90 %"),
+        ("Density", density),
     ]
     of_tile = [
         ("Modulus", entry.modulus),
@@ -107,7 +109,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     ]
     torn = len(json.loads(entry.torn_faces or "[]"))
     of_sphere = [
-        ("Scale", f"1 : {entry.density:.1f}, on 90 %"),
+        ("Scale", density),
         ("Caps", f"{len(entry.loops)}"),
         ("Torn", f"{torn}"),
         sweeps,
@@ -116,14 +118,14 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         ("Handles", f"{entry.handles}"),
         ("Holes", f"{len(entry.loops)}"),
         ("Cut along", "circles" if entry.by_circles else "edges"),
-        ("Density", f"1 : {entry.density:.1f}, on 90 %"),
+        ("Density", density),
         sweeps,
     ]
     of_domain = {"sphere": of_sphere, "schottky": of_handles}.get(entry.domain, of_tile)
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),
         *(of_parts if entry.parts else of_domain if entry.domain else of_circles),
-        ("Flipped", f"{entry.flipped}"),
+        ("Flipped", counted(len(json.loads(entry.flipped_faces or "[]")), "face")),
         ("Time", f"{entry.seconds:.2f} s"),
     ):
         split = table.split(factor=0.45)

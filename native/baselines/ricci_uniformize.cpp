@@ -13,6 +13,7 @@
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
 #include "pipeline/normalization.h"
+#include "pipeline/take_verdict.h"
 #include "quality/distortion.h"
 #include "surface/intrinsic_metric.h"
 
@@ -118,7 +119,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     put_in_place(whole, map);
     // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
     const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
-    report_map(whole, map, result);
+    report_map(vertices, triangles, whole, map, result);
 
     if (!result.converged) result.warnings.push_back({WarningKind::not_converged, "not converged: " + flow.reason});
     if (flow.packing_change > worth_a_warning)
@@ -137,6 +138,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         result.converged = false;
         result.warnings.push_back(faults.warning("not one to one: ", whole.original, whole.original_faces));
     }
+    take_verdict({.most_lost = options.common.most_lost, .done = true}, result);
     result.seconds.finish = seconds_since(stage);
     result.seconds.total = seconds_since(begin);
     result.peak_memory_mb = peak_memory_mb();

@@ -80,7 +80,8 @@ Json end_error(const ProcessEnd& end, const fs::path& log, double time_limit)
     if (end.signal != 0) return by("Crash", "its process ended by signal " + std::to_string(end.signal));
     if (end.exit_status < 0 || end.exit_status > interrupted)
         return by("Crash", "its process ended with status " + std::to_string(end.exit_status));
-    return error_of_lines(end_of_text(log), "Crash");
+    // These codes are the script's own: it has said why it refuses the file.
+    return error_of_lines(end_of_text(log), end.exit_status <= not_converged ? "Refused" : "Crash");
 }
 
 class Run {

@@ -5,6 +5,7 @@
 #include "batch/whole_file.h"
 #include "report/json.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <system_error>
@@ -19,7 +20,7 @@ constexpr const char* claimed_name = "//summary";  // which no file is called
 
 /// What the parts of a result add up to.
 struct Figures {
-    double faces = 0.0, flipped = 0.0, below_resolution = 0.0, angle_error = 0.0, angle_faces = 0.0;
+    double faces = 0.0, flipped = 0.0, below_resolution = 0.0, lost_area = 0.0, angle_error = 0.0, angle_faces = 0.0;
     std::size_t warnings = 0;
     bool any = false;
 
@@ -31,6 +32,7 @@ struct Figures {
         faces += part_faces;
         flipped += part.value("flipped", 0.0);
         below_resolution += part.value("below_resolution", 0.0);
+        lost_area = std::max(lost_area, part.value("lost_area", 0.0));
         if (const Json& mean = part["angle_error_deg"]["mean"]; mean.is_number()) {
             angle_error += part_faces * mean.get<double>();
             angle_faces += part_faces;
@@ -105,6 +107,7 @@ Json summary_row(const Json& report)
             {"faces", known(count(figures.faces))},
             {"flipped", known(count(figures.flipped))},
             {"below_resolution", known(count(figures.below_resolution))},
+            {"lost_area", known(figures.lost_area)},
             {"angle_error_deg", figures.angle_faces > 0.0 ? Json(figures.angle_error / figures.angle_faces) : Json()},
             {"warnings", known(figures.warnings)},
             {"output", entry("output")},

@@ -15,8 +15,8 @@ inline constexpr const char* summary_csv = "summary.csv";
 inline constexpr const char* work_folder = ".koebe-batch";
 
 /// The row of a file's report: name, exit_code, error, error_text, seconds, faces, flipped, below_resolution,
-/// angle_error_deg (the mean), warnings (their number), output, input_sha256, options, version. null for what is not
-/// known. Of a .blend the sums over its islands; the angle error is their mean by faces.
+/// lost_area, angle_error_deg (the mean), warnings (their number), output, input_sha256, options, version. null for what
+/// is not known. Of a .blend the sums over its islands; the angle error is their mean by faces, lost_area the largest.
 nlohmann::ordered_json summary_row(const nlohmann::ordered_json& report);
 
 /// Writes summary.json and summary.csv with a row for every report in the folder, each file whole or absent. Of runs at

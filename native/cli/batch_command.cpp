@@ -121,7 +121,8 @@ void check_domain(const CLI::App& app, const Request& request)
         throw CLI::ValidationError("--normalization", "is of --domain schottky");
     if (request.domain == disk_domain) return;
     for (const CLI::Option* option : request.forwarded)
-        if (option->count() > 0 && !option->check_name("--tolerance") && !option->check_name("--max-sweeps"))
+        if (option->count() > 0 && !option->check_name("--tolerance") && !option->check_name("--max-sweeps") &&
+            !option->check_name("--most-lost"))
             throw CLI::ValidationError(option->get_name(), "is of --domain disk");
 }
 
@@ -133,7 +134,9 @@ nlohmann::ordered_json recipe_options(const Request& request)
     if (request.domain == ring_domain) report["holes"] = request.holes;
     if (request.domain == sphere_domain) report["layout"] = request.layout;
     if (request.domain == schottky_domain) report["normalization"] = request.normalization;
-    report.update({{"tolerance", request.options.tolerance}, {"max_sweeps", request.options.max_sweeps}});
+    report.update({{"tolerance", request.options.tolerance},
+                   {"max_sweeps", request.options.max_sweeps},
+                   {"most_lost", request.options.most_lost}});
     return report;
 }
 

@@ -23,7 +23,7 @@
 namespace koebe::cli {
 namespace {
 
-constexpr const char* standard_output = "-";
+constexpr const char* to_standard_output = "-";
 
 struct Request {
     std::string first, second, json, csv, reference;
@@ -31,7 +31,7 @@ struct Request {
     bool any_outer = false, with_json = false, with_error = false;
     UniformizeOptions options;
 
-    bool to_file() const { return with_json && json != standard_output; }
+    bool to_file() const { return with_json && json != to_standard_output; }
     std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}, {"--csv", csv}}; }
 };
 
@@ -107,9 +107,9 @@ void settle_words(Request& request, const CLI::Option& json)
     request.with_json = json.count() > 0;
     if (request.second.empty() && !request.json.empty()) {
         request.second = std::move(request.first);
-        request.first = std::exchange(request.json, standard_output);
+        request.first = std::exchange(request.json, to_standard_output);
     }
-    if (request.json.empty()) request.json = standard_output;
+    if (request.json.empty()) request.json = to_standard_output;
     if (!request.csv.empty()) {
         if (request.with_json || request.any_outer || request.loops != "match")
             throw CLI::ValidationError("--csv", "goes with none of --json, --loops and --any-outer");

@@ -55,7 +55,7 @@ int run_cut_map(const MapRequest& request)
         return result;
     };
     kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const CutUniformizeResult& result) {
-        write_with_corner_uvs(file, request.format, input.polygons, corners_of(input, result));
+        return write_with_corner_uvs(file, request.format, input.polygons, corners_of(input, result), {input.file});
     };
     kind.draw = [](const MeshInput& input, const CutUniformizeResult& result) {
         return to_svg(result, input.polygons, corners_of(input, result));

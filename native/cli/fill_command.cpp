@@ -36,6 +36,7 @@ struct Request {
 struct PatchedPolygons {
     PolygonMesh mesh;
     std::vector<Index> patch;
+    std::vector<char> turned;  ///< (F) of the filed faces
 };
 
 void add_polygon(PatchedPolygons& result, std::span<const Index> polygon, bool turned, Index patch)
@@ -53,11 +54,11 @@ void add_polygon(PatchedPolygons& result, std::span<const Index> polygon, bool t
 PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
 {
     const Triangles& triangles = input.triangulation.triangles;
-    std::vector<char> turned(static_cast<std::size_t>(input.polygons.face_count()), 0);
+    PatchedPolygons result;
+    std::vector<char>& turned = result.turned;
+    turned.resize(static_cast<std::size_t>(input.polygons.face_count()), 0);
     for (Eigen::Index t = 0; t < triangles.rows(); ++t)
         turned[input.triangulation.face[t]] = !(triangles.row(t).array() == filled.triangles.row(t).array()).all();
-
-    PatchedPolygons result;
     result.mesh.vertices = filled.vertices;
     for (Index f = 0; f < input.polygons.face_count(); ++f) add_polygon(result, input.polygons.face(f), turned[f], -1);
     for (Eigen::Index t = triangles.rows(); t < filled.triangles.rows(); ++t)
@@ -88,13 +89,12 @@ PatchedPolygons fill(const Request& request, const MeshInput& input)
     });
 }
 
-std::string result_line(const Request& request, const MeshInput& input, const PatchedPolygons& filled, double seconds)
+std::string result_line(const Request& request, const MeshInput& input, const PatchedPolygons& filled, double seconds,
+                        const std::vector<Warning>& warnings)
 {
     const std::set<Index> patches(filled.patch.begin(), filled.patch.end());
     const std::size_t loops = patches.size() - patches.count(-1);
     const Index added = filled.mesh.face_count() - input.polygons.face_count();
-    std::vector<Warning> warnings = input.warnings;
-    if (loops == 0) warnings.push_back({WarningKind::no_hole, "there is no hole: no boundary but the outer one"});
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
     return one_line(request.output) + ": " + counted(loops, "loop") + " filled, " +
@@ -111,12 +111,20 @@ int run(const Request& request)
     const PatchedPolygons filled =
         run_detachable<PatchedPolygons>(context, [request, input](ExecutionContext&) { return fill(request, *input); });
     AtomicFile file(request.output);
-    write_with_patches(file, request.format, filled.mesh, filled.patch);
+    std::vector<Warning> warnings = input->warnings;
+    if (filled.mesh.face_count() == input->polygons.face_count())
+        warnings.push_back({WarningKind::no_hole, "there is no hole: no boundary but the outer one"});
+    const std::vector<Warning> losses =
+        write_with_patches(file, request.format, filled.mesh, filled.patch, filled.turned, {input->file});
+    warnings.insert(warnings.end(), losses.begin(), losses.end());
     context.checkpoint();
     file.commit();
 
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (!request.quiet) print(result_line(request, *input, filled, seconds), "; the file is written");
+    if (!request.quiet) {
+        print(result_line(request, *input, filled, seconds, warnings), "; the file is written");
+        show_warnings(warnings);
+    }
     return done;
 }
 

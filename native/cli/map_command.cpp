@@ -30,6 +30,7 @@ void add_domain_options(CLI::App& app, MapRequest& request)
         ->type_name("auto|longest|VERTEX")
         ->capture_default_str();
     add_mapping_options(app, options);
+    add_most_lost(app, options.most_lost);
     app.add_option("--center", options.center, "vertex inside the surface that goes to 0 (from 0)")
         ->check(whole_number(0))
         ->type_name("VERTEX");
@@ -68,7 +69,8 @@ nlohmann::ordered_json domain_options_report(const MapRequest& request)
             {"center", vertex(options.center)},
             {"point", vertex(options.point)},
             {"tolerance", options.tolerance},
-            {"max_sweeps", options.max_sweeps}};
+            {"max_sweeps", options.max_sweeps},
+            {"most_lost", options.most_lost}};
 }
 
 void check_map_files(MapRequest& request)
@@ -102,18 +104,12 @@ std::string map_line(const MapRequest& request, const std::string& first_words, 
     return line + warning_count(warnings) + "\n";
 }
 
-void show_warnings(const std::vector<Warning>& warnings)
-{
-    if (!is_error_shown()) return;
-    for (const Warning& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
-}
-
 MapKind<UniformizeResult> disk_map(const MapRequest& request)
 {
     MapKind<UniformizeResult> kind;
     kind.write_mesh = [format = request.format](AtomicFile& file, const MeshInput& input,
                                                 const UniformizeResult& result) {
-        write_with_uvs(file, format, input.polygons, result.uv);
+        return write_with_uvs(file, format, input.polygons, result.uv, {input.file});
     };
     kind.draw = [](const MeshInput& input, const UniformizeResult& result) { return to_svg(result, input.polygons); };
     kind.report = [](const UniformizeResult& result) { return to_json(result); };

@@ -30,7 +30,8 @@ struct MapKind {
     bool many_pieces = false;  ///< that threads work on side by side
     /// All numbers in the result are the file's.
     std::function<Result(const MeshInput&, ExecutionContext&)> compute;
-    std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
+    /// What of the file is not kept, or replaced.
+    std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
     std::function<void(AtomicFile&, const MeshInput&, const Result&)> write_sphere;  ///< of a request with such a file
     std::function<std::string(const MeshInput&, const Result&)> draw;
     std::function<nlohmann::ordered_json(const Result&)> report;
@@ -50,9 +51,6 @@ std::string rounded(const char* format, double number);
 std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,
                      double seconds, bool converged, const std::vector<Warning>& warnings);
 
-/// All of them on standard error, for people only: scripts find them in the JSON.
-void show_warnings(const std::vector<Warning>& warnings);
-
 /// All files are complete before the first gets its name.
 template <typename Result>
 void write_map(const MapRequest& request, const MapKind<Result>& kind, const MeshInput& input, Result& result,
@@ -65,7 +63,8 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
     const auto begin_write = Clock::now();
     const ThreadShare threads(request.options.threads);
     std::vector<AtomicFile> files;
-    kind.write_mesh(files.emplace_back(request.output), input, result);
+    const std::vector<Warning> losses = kind.write_mesh(files.emplace_back(request.output), input, result);
+    result.warnings.insert(result.warnings.end(), losses.begin(), losses.end());
     if (!request.sphere.empty()) kind.write_sphere(files.emplace_back(request.sphere), input, result);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(kind.draw(input, result));
     result.seconds.write = since(begin_write);

@@ -4,6 +4,14 @@
 
 namespace koebe::cli {
 
+void add_most_lost(CLI::App& app, double& most_lost)
+{
+    app.add_option("--most-lost", most_lost, "share of the surface's area that may have no area in the UVs")
+        ->check(share())
+        ->type_name("SHARE")
+        ->capture_default_str();
+}
+
 void add_mapping_options(CLI::App& app, UniformizeOptions& options)
 {
     app.add_option("--tolerance", options.tolerance, "on the circles' change in a sweep, a length in the unit disk")

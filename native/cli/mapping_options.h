@@ -7,6 +7,9 @@
 
 namespace koebe::cli {
 
+/// --most-lost.
+void add_most_lost(CLI::App& app, double& most_lost);
+
 /// --tolerance, --max-sweeps, --threads.
 void add_mapping_options(CLI::App& app, UniformizeOptions& options);
 

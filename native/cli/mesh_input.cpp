@@ -5,7 +5,7 @@
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/thread_share.h"
-#include "io/mesh_reader.h"
+#include "pipeline/take_verdict.h"
 
 #include <algorithm>
 #include <chrono>
@@ -24,7 +24,9 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     // one's.
     std::error_code error;
     if (options.hash && std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
-    input.polygons = read_mesh(path);
+    input.file = read_mesh_file(path);
+    input.polygons = parse_mesh(input.file.bytes, input.file.extension);
+    if (!options.keep_file) input.file = {};
     input.triangulation = triangulate(input.polygons, !options.any_polygon);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())
@@ -58,6 +60,7 @@ void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)
         if (elements_of(warning.kind) == ElementKind::faces)
             warning.elements = filed_faces(input.triangulation, warning.elements);
     warnings.insert(warnings.begin(), input.warnings.begin(), input.warnings.end());
+    put_loss_first(warnings);
 }
 
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles)

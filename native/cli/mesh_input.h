@@ -4,7 +4,7 @@
 #include "core/errors.h"
 #include "core/execution.h"
 #include "core/warning.h"
-#include "io/polygon_mesh.h"
+#include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 
 #include <filesystem>
@@ -14,6 +14,7 @@
 namespace koebe::cli {
 
 struct MeshInput {
+    MeshFile file;  ///< if it is to be written again
     PolygonMesh polygons;
     Triangulation triangulation;
     std::vector<Warning> warnings;
@@ -22,6 +23,7 @@ struct MeshInput {
 };
 
 struct ReadOptions {
+    bool keep_file = true;     ///< for what is written with its other contents
     bool any_polygon = false;  ///< those that cannot be cut into triangles are a warning, no error
     bool hash = false;         ///< which takes as long as the reading
     int threads = 1;           ///< at most; 0: all cores

@@ -1,6 +1,7 @@
 // koebe parts IN OUT
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/mapping_options.h"
 #include "cli/mesh_input.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
@@ -11,7 +12,8 @@
 
 #include "core/counted.h"
 #include "io/atomic_file.h"
-#include "io/obj_writer.h"
+#include "io/corner_uvs.h"
+#include "io/mesh_writer.h"
 #include "parts/parts.h"
 #include "report/json.h"
 #include "report/parts_json.h"
@@ -28,29 +30,12 @@ namespace {
 
 struct Request {
     std::string input, output, json, svg;
+    WrittenFormat format = WrittenFormat::obj;
     PartsOptions options;
     bool quiet = false;
 
     std::vector<OutputFile> files() const { return {{"OUT", output}, {"--json", json}, {"--svg", svg}}; }
 };
-
-/// Texture coordinates of the filed polygons' corners: those of a triangle of the polygon, else of any at the vertex.
-PlanarPoints polygon_corners(const MeshInput& input, const PlanarPoints& uv)
-{
-    const PolygonMesh& mesh = input.polygons;
-    const Triangles& triangles = input.triangulation.triangles;
-    PlanarPoints anywhere = PlanarPoints::Zero(mesh.vertices.rows(), 2);
-    for (Eigen::Index c = 0; c < triangles.size(); ++c) anywhere.row(triangles.data()[c]) = uv.row(c);
-    PlanarPoints corners(static_cast<Eigen::Index>(mesh.corners.size()), 2);
-    for (std::size_t c = 0; c < mesh.corners.size(); ++c)
-        corners.row(static_cast<Eigen::Index>(c)) = anywhere.row(mesh.corners[c]);
-    for (Eigen::Index c = 0; c < triangles.size(); ++c) {
-        const Index face = input.triangulation.face[static_cast<std::size_t>(c / 3)];
-        for (Index at = mesh.face_begin[face]; at < mesh.face_begin[face + 1]; ++at)
-            if (mesh.corners[at] == triangles.data()[c]) corners.row(at) = uv.row(c);
-    }
-    return corners;
-}
 
 /// The parts' faces as filed.
 void file_faces(const MeshInput& input, PartsResult& result)
@@ -62,13 +47,18 @@ void file_faces(const MeshInput& input, PartsResult& result)
 void write_files(const Request& request, const MeshInput& input, PartsResult& result, ExecutionContext& context)
 {
     std::vector<AtomicFile> files;
-    write_obj_with_corner_uvs(files.emplace_back(request.output), input.polygons, polygon_corners(input, result.uv));
+    const std::vector<Warning> losses =
+        write_with_corner_uvs(files.emplace_back(request.output), request.format, input.polygons,
+                              polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
     if (!request.svg.empty()) files.emplace_back(request.svg).write(parts_svg(result.uv, result.part));
     file_faces(input, result);
+    result.warnings.insert(result.warnings.end(), losses.begin(), losses.end());
     if (!request.json.empty()) {
         nlohmann::ordered_json report = to_json(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
-        report["options"] = {{"price", request.options.price}, {"round_cuts", request.options.round_cuts}};
+        report["options"] = {{"price", request.options.price},
+                             {"round_cuts", request.options.round_cuts},
+                             {"most_lost", request.options.most_lost}};
         files.emplace_back(request.json).write(json_text(report));
     }
     context.checkpoint();
@@ -80,13 +70,13 @@ std::string result_line(const Request& request, const PartsResult& result)
     char figures[160];
     std::snprintf(figures, sizeof figures,
                   ", cuts %.2f of the root of the area, texel density within %.3g, angle error %.2f deg, ",
-                  result.cut_length, result.density_ratio_5_95, result.angle_error_deg.mean);
+                  result.cut_length, result.density_ratio_5_95, result.distortion.angle_error_deg.mean);
     std::string line = one_line(request.output) + ": " + counted(result.parts.size(), "part") + figures +
-                       std::to_string(result.flipped.size()) + " flipped";
-    if (const std::size_t tiny = result.below_resolution.size(); tiny > 0)
+                       std::to_string(result.distortion.flipped.size()) + " flipped";
+    if (const std::size_t tiny = result.distortion.below_resolution.size(); tiny > 0)
         line += " (" + std::to_string(tiny) + " below resolution)";
-    std::snprintf(figures, sizeof figures, ", %.2f s", result.seconds);
-    return line + figures + warning_count(result.warnings) + "\n";
+    std::snprintf(figures, sizeof figures, ", %.2f s", result.seconds.total);
+    return line + figures + (result.converged ? "" : ", not converged") + warning_count(result.warnings) + "\n";
 }
 
 int run(const Request& request)
@@ -106,17 +96,14 @@ int run(const Request& request)
     }
     if (!request.quiet) {
         print(result_line(request, result), "; the files are written");
-        if (is_error_shown())
-            for (const Warning& warning : result.warnings)
-                std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
+        show_warnings(result.warnings);
     }
-    return done;
+    return result.converged ? done : not_converged;
 }
 
-void check(const Request& request)
+void check(Request& request)
 {
-    if (required_format(request.output) != WrittenFormat::obj)
-        throw CLI::ValidationError("OUT", "texture coordinates of corners are written as OBJ alone: OUT ends in .obj");
+    request.format = required_format(request.output);
     require_different_files(request.files(), {request.input}, !request.quiet);
 }
 
@@ -128,8 +115,9 @@ Subcommand add_parts(CLI::App& app)
     CLI::App* options = app.add_subcommand("parts", "cut any surface in its UVs into even disks and tubes");
     options->add_option("IN", request->input, "any mesh: OBJ, OFF, PLY or STL")->required();
     options
-        ->add_option("OUT", request->output,
-                     "OBJ to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
+        ->add_option(
+            "OUT", request->output,
+            "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
         ->required();
     options
         ->add_option("--price", request->options.price,
@@ -139,6 +127,7 @@ Subcommand add_parts(CLI::App& app)
         ->capture_default_str();
     options->add_flag("--round-cuts", request->options.round_cuts,
                       "loops at cuts on circles and straight lines, for more angle error");
+    add_most_lost(*options, request->options.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");

@@ -1,10 +1,12 @@
 #include "cli/result_line.h"
 
+#include "cli/standard_streams.h"
 #include "core/counted.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace koebe::cli {
 namespace {
@@ -34,6 +36,12 @@ std::string warning_count(const std::vector<Warning>& warnings)
 {
     if (warnings.empty()) return {};
     return ", " + counted(warnings.size(), "warning") + ": " + shortened(one_line(warnings.front().text()));
+}
+
+void show_warnings(const std::vector<Warning>& warnings)
+{
+    if (!is_error_shown()) return;
+    for (const Warning& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
 }
 
 }  // namespace koebe::cli

@@ -1,6 +1,7 @@
 // koebe schottky IN OUT
 #include "cli/end_with_input.h"
 #include "cli/map_run.h"
+#include "cli/mapping_options.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
 
@@ -38,8 +39,8 @@ int run_schottky(const SchottkyRequest& request)
         return result;
     };
     kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SchottkyResult& result) {
-        write_with_corner_uvs(file, request.format, input.polygons,
-                              polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+        return write_with_corner_uvs(file, request.format, input.polygons,
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
     };
     kind.draw = [](const MeshInput&, const SchottkyResult& result) { return schottky_svg(result); };
     kind.report = [](const SchottkyResult& result) { return to_json(result); };
@@ -83,6 +84,7 @@ Subcommand add_schottky(CLI::App& app)
         ->check(whole_number(1))
         ->type_name("N")
         ->capture_default_str();
+    add_most_lost(*options, request->schottky.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture there: the faces, and the circles of the copies")
         ->type_name("FILE");
@@ -92,7 +94,8 @@ Subcommand add_schottky(CLI::App& app)
         check_map_files(*request);
         request->entries["options"] = {{"normalization", to_string(request->schottky.normalization)},
                                        {"tolerance", request->schottky.tolerance},
-                                       {"max_sweeps", request->schottky.max_sweeps}};
+                                       {"max_sweeps", request->schottky.max_sweeps},
+                                       {"most_lost", request->schottky.most_lost}};
     });
     return {options, [request] { return run_schottky(*request); }};
 }

@@ -16,7 +16,7 @@ namespace koebe::cli {
 ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token,
                       bool with_refined)
 {
-    const MeshInput input = read_mesh_input(path, token);
+    const MeshInput input = read_mesh_input(path, token, {.keep_file = false});
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
     const Triangles& triangles = input.triangulation.triangles;

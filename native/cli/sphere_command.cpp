@@ -1,6 +1,7 @@
 // koebe sphere IN OUT
 #include "cli/end_with_input.h"
 #include "cli/map_run.h"
+#include "cli/mapping_options.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
 
@@ -30,10 +31,11 @@ PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
     return mesh;
 }
 
-void write_sphere_mesh(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh, const MeshInput& input,
-                       const SphereResult& result)
+std::vector<Warning> write_sphere_mesh(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
+                                       const MeshInput& input, const SphereResult& result, bool moved)
 {
-    write_with_corner_uvs(file, format, mesh, polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+    const PlanarPoints uvs = polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
+    return write_with_corner_uvs(file, format, mesh, uvs, {input.file, moved});
 }
 
 int run_sphere(const SphereRequest& request)
@@ -54,10 +56,10 @@ int run_sphere(const SphereRequest& request)
         return result;
     };
     kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        write_sphere_mesh(file, request.format, input.polygons, input, result);
+        return write_sphere_mesh(file, request.format, input.polygons, input, result, false);
     };
     kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result);
+        write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result, true);
     };
     kind.draw = [](const MeshInput& input, const SphereResult& result) {
         return sphere_svg(input.triangulation.triangles, result);
@@ -105,6 +107,7 @@ Subcommand add_sphere(CLI::App& app)
         ->check(whole_number(1))
         ->type_name("N")
         ->capture_default_str();
+    add_most_lost(*options, sphere.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the sphere there, front and back")
         ->type_name("FILE");
@@ -115,7 +118,8 @@ Subcommand add_sphere(CLI::App& app)
         if (!request->sphere.empty()) required_format(request->sphere);
         request->entries["options"] = {{"layout", to_string(request->sphere_options.layout)},
                                        {"tolerance", request->sphere_options.tolerance},
-                                       {"max_sweeps", request->sphere_options.max_sweeps}};
+                                       {"max_sweeps", request->sphere_options.max_sweeps},
+                                       {"most_lost", request->sphere_options.most_lost}};
     });
     return {options, [request] { return run_sphere(*request); }};
 }

@@ -1,6 +1,7 @@
 // koebe torus IN OUT, koebe ring IN OUT
 #include "cli/end_with_input.h"
 #include "cli/map_run.h"
+#include "cli/mapping_options.h"
 #include "cli/subcommand.h"
 #include "cli/validators.h"
 
@@ -47,8 +48,8 @@ int run(const Request& request, TileFunction map)
         return result;
     };
     kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const TileResult& result) {
-        write_with_corner_uvs(file, request.format, input.polygons,
-                              polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+        return write_with_corner_uvs(file, request.format, input.polygons,
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
     };
     kind.draw = [](const MeshInput&, const TileResult& result) { return tile_svg(result); };
     kind.report = [](const TileResult& result) { return to_json(result); };
@@ -74,6 +75,7 @@ void add_iteration(CLI::App& app, Request& request)
         ->check(whole_number(1))
         ->type_name("N")
         ->capture_default_str();
+    add_most_lost(app, request.tile.most_lost);
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
     app.add_option("--svg", request.svg, "write a picture of the tile and its copies there")->type_name("FILE");
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
@@ -82,7 +84,7 @@ void add_iteration(CLI::App& app, Request& request)
 
 nlohmann::ordered_json iteration_report(const TileOptions& options)
 {
-    return {{"tolerance", options.tolerance}, {"max_sweeps", options.max_sweeps}};
+    return {{"tolerance", options.tolerance}, {"max_sweeps", options.max_sweeps}, {"most_lost", options.most_lost}};
 }
 
 }  // namespace

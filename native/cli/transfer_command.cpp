@@ -55,7 +55,8 @@ MappedInput read_and_map(const std::string& path, const Request& request, const 
 }
 
 nlohmann::ordered_json report(const Request& request, const MappedInput& a, const MappedInput& b,
-                              const Correspondence& found, std::size_t landmark_count)
+                              const Correspondence& found, std::size_t landmark_count,
+                              const std::vector<Warning>& warnings)
 {
     const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
     std::vector<double> in_radii = found.alignment.misses;
@@ -80,10 +81,12 @@ nlohmann::ordered_json report(const Request& request, const MappedInput& a, cons
             {"beltrami", {{"mean", found.beltrami.mean}, {"max", found.beltrami.max}}},
             {"flipped", found.folded},
             {"largest_distance", found.places.distance.maxCoeff()},
+            {"warnings", to_json(warnings)},
             {"places", std::move(places)}};
 }
 
-std::string result_line(const Request& request, const MappedInput& a, const MappedInput& b, const Correspondence& found)
+std::string result_line(const Request& request, const MappedInput& a, const MappedInput& b, const Correspondence& found,
+                        const std::vector<Warning>& warnings)
 {
     double worst = 0.0;
     for (std::size_t k = 1; k < found.alignment.misses.size(); ++k)
@@ -92,7 +95,8 @@ std::string result_line(const Request& request, const MappedInput& a, const Mapp
     std::snprintf(text, sizeof text, ": %lld points, holes miss by up to %.2g radii%s, |mu| %.2g, at most %.2g",
                   static_cast<long long>(found.points.rows()), worst, found.fitted ? ", fitted" : ", not fitted",
                   found.beltrami.mean, found.beltrami.max);
-    return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") + "\n";
+    return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") +
+           warning_count(warnings) + "\n";
 }
 
 int run(const Request& request)
@@ -114,12 +118,17 @@ int run(const Request& request)
     std::vector<AtomicFile> files;
     PolygonMesh moved = a->mesh.polygons;
     moved.vertices = found.points;
-    write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv);
+    const std::vector<Warning> losses =
+        write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv, {a->mesh.file, true});
     if (!request.json.empty())
-        files.emplace_back(request.json).write(json_text(report(request, *a, *b, found, options.landmarks.size())));
+        files.emplace_back(request.json)
+            .write(json_text(report(request, *a, *b, found, options.landmarks.size(), losses)));
     context.checkpoint();
     for (AtomicFile& file : files) file.commit();
-    if (!request.quiet) print(result_line(request, *a, *b, found), "; the files are written");
+    if (!request.quiet) {
+        print(result_line(request, *a, *b, found, losses), "; the files are written");
+        show_warnings(losses);
+    }
     return a->converged && b->converged ? done : not_converged;
 }
 

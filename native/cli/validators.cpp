@@ -39,6 +39,16 @@ CLI::Validator positive_number()
     return {check, "", "positive_number"};
 }
 
+CLI::Validator share()
+{
+    const auto check = [](const std::string& word) -> std::string {
+        double number = 0.0;
+        if (parse(word, number) && number >= 0.0 && number <= 1.0) return {};
+        return "must be a number from 0 to 1; got '" + word + "'";
+    };
+    return {check, "", "share"};
+}
+
 CLI::Validator outer_loop_choice(std::vector<std::string> words)
 {
     const auto check = [words = std::move(words)](const std::string& word) -> std::string {

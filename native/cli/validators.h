@@ -14,6 +14,9 @@ CLI::Validator whole_number(int least);
 /// A finite number above zero.
 CLI::Validator positive_number();
 
+/// A number from 0 to 1.
+CLI::Validator share();
+
 /// One of the words or a vertex, counted from 0.
 CLI::Validator outer_loop_choice(std::vector<std::string> words);
 

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto patience = 500ms;  // that an exit has with computations nobody waits for any more
+constexpr auto exit_patience = 500ms;  // that an exit has with computations nobody waits for any more
 constexpr auto look_again = 2ms;
 
 std::atomic<int> running{0};
@@ -18,7 +18,7 @@ std::atomic<int> running{0};
 
 void end_the_process(int status, void*)
 {
-    const auto end = std::chrono::steady_clock::now() + patience;
+    const auto end = std::chrono::steady_clock::now() + exit_patience;
     while (running > 0 && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(look_again);
     if (running == 0) return;
     std::fflush(nullptr);

@@ -26,9 +26,12 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::closing_gap: return "closing_gap";
     case WarningKind::flow_flips: return "flow_flips";
     case WarningKind::no_hole: return "no_hole";
+    case WarningKind::replaced_uvs: return "replaced_uvs";
+    case WarningKind::not_kept: return "not_kept";
     case WarningKind::cut: return "cut";
     case WarningKind::pieces: return "pieces";
     case WarningKind::left_out: return "left_out";
+    case WarningKind::lost_area: return "lost_area";
     case WarningKind::not_mapped: return "not_mapped";
     }
     return "unknown";
@@ -47,6 +50,7 @@ ElementKind elements_of(WarningKind kind) noexcept
     case WarningKind::below_resolution:
     case WarningKind::flipped:
     case WarningKind::left_out:
+    case WarningKind::lost_area:
     case WarningKind::not_mapped:
     case WarningKind::not_one_to_one: return ElementKind::faces;
     case WarningKind::lost_circles:

@@ -32,9 +32,12 @@ enum class WarningKind {
     closing_gap,       ///< the Ricci baseline: holes do not close exactly
     flow_flips,        ///< the Ricci baseline: flips of the flow's own map
     no_hole,           ///< nothing to fill but the outer boundary
+    replaced_uvs,      ///< texture coordinates of the file gave way to those of the map
+    not_kept,          ///< what the file holds and the one that is written does not
     cut,               ///< the surface was cut in the UVs, as the report's cuts say; elements: vertices of the cuts
     pieces,            ///< several pieces, each with a map of its own
     left_out,          ///< faces without a place of their own in the map; elements: they
+    lost_area,         ///< more of the surface than is allowed has no area in the UVs; elements: its faces
     not_mapped,        ///< faces of pieces that have no map; elements: they. The last of the kinds
 };
 

@@ -1,12 +1,13 @@
 #include "circles/moebius.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "core/tolerances.h"
-#include "domains/stopwatch.h"
 #include "domains/tile_map.h"
 #include "domains/tile_result.h"
 #include "linear/dense_spd.h"
 #include "linear/sparse_cholesky.h"
+#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
 
 #include <algorithm>
@@ -256,6 +257,7 @@ RoundRing round_ring(const Vertices& vertices, const Triangles& triangles, const
     map_options.outer_vertex = domain.original[domain.loops[0].front()];
     map_options.tolerance = options.tolerance;
     map_options.max_sweeps = options.max_sweeps;
+    map_options.most_lost = 1.0;  // the tile has its own verdict
     const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
     std::vector<const LoopReport*> report;
     for (const VertexLoop& loop : domain.loops)
@@ -387,6 +389,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
         result.sweeps = ring->sweeps;
         result.warnings.insert(result.warnings.begin(), ring->warnings.begin(), ring->warnings.end());
     }
+    take_verdict({.most_lost = options.most_lost}, result);
     seconds.finish = stage.lap();
     seconds.total = total.elapsed();
     result.seconds = seconds;

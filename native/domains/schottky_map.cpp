@@ -1,18 +1,21 @@
 #include "domains/schottky_map.h"
 
 #include "balance/area_balance.h"
+#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/memory_limit.h"
 #include "core/peak_memory.h"
+#include "core/stopwatch.h"
 #include "domains/circle_cut.h"
 #include "domains/finer_faces.h"
 #include "domains/glued_state.h"
 #include "domains/schottky_tile.h"
-#include "domains/stopwatch.h"
 #include "linear/dense_spd.h"
 #include "pipeline/canonical_mesh.h"
+#include "pipeline/take_verdict.h"
+#include "quality/stored_uv.h"
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>
@@ -115,12 +118,12 @@ PlanarPoints corner_uvs(const Triangles& triangles, const HandleCut& cut, const 
             int corner = 0;
             while (triangles(f, corner) != vertex) ++corner;
             const auto at = tile.points.row(tile.triangles(f, k));
-            for (int i = 0; i < 2; ++i) uv(3 * f + corner, i) = static_cast<float>(0.5 * (1.0 + at[i]));
+            for (int i = 0; i < 2; ++i) uv(3 * f + corner, i) = as_stored(0.5 * (1.0 + at[i]));
         }
     return uv;
 }
 
-Distortion distortion_of(const SchottkyTile& tile, const HandleCut& cut)
+ComputedDistortion distortion_of(const SchottkyTile& tile, const HandleCut& cut)
 {
     Vertices vertices(static_cast<Eigen::Index>(tile.vertex.size()), 3);
     for (std::size_t i = 0; i < tile.vertex.size(); ++i)
@@ -158,6 +161,10 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
         result.warnings.push_back({WarningKind::coarse_mesh,
                                    "the sides of a handle's cut miss each other by half of their radius and more: the "
                                    "faces are too large there"});
+    std::vector<Index> off_circle;
+    for (const SchottkyHole& hole : result.holes)
+        off_circle.insert(off_circle.end(), hole.off_circle.begin(), hole.off_circle.end());
+    warn_off_circle(std::move(off_circle), result.warnings);
     if (!faults.any()) {
         if (!faults.flipped.empty())
             result.warnings.push_back(
@@ -235,7 +242,7 @@ void fit_and_judge(LaidMap& map)
         for (auto& pair : map.map.circles.pairs)
             for (Circle& circle : pair) circle = {circle.center / largest, circle.radius / largest};
     }
-    map.faults = find_faults(map.tile, map.map.cut);
+    map.faults = find_faults(map.tile);
 }
 
 /// Flipped faces are turned back in tiles that are bounded elsewhere, too: their boundaries are held.
@@ -270,14 +277,14 @@ LaidMap laid(CutMap map, const FinerFaces& faces, const std::vector<Index>& poly
         const FundamentalCircles beside = circles_beside(plane, circles, factor);
         if (!beside.apart) continue;
         SchottkyTile tile = tiling.by_circles(plane, beside);
-        if (find_faults(tile, result.map.cut).any()) continue;
+        if (find_faults(tile).any()) continue;
         result.tile = std::move(tile);
         result.map.circles = beside;
         fit_and_judge(result);
         return result;
     }
     SchottkyTile by_cut = tiling.as_cut(plane);
-    if (find_faults(by_cut, result.map.cut).any()) return result;
+    if (find_faults(by_cut).any()) return result;
     result.tile = std::move(by_cut);
     result.by_circles = false;
     fit_and_judge(result);
@@ -340,13 +347,8 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
 
     result.by_circles = best.by_circles;
     result.uv = corner_uvs(triangles, cut, best.tile);
-    for (std::size_t k = 0; k < cut.holes; ++k) {
-        SchottkyHole& hole = result.holes.emplace_back();
-        for (const Index v : cut.loops[k].vertices)
-            if (cut.original[v] < result.vertex_count) hole.vertices.push_back(cut.original[v]);
-        hole.circle = plane.holes[k];
-        hole.roundness = plane.roundness[k];
-    }
+    for (std::size_t k = 0; k < cut.holes; ++k)
+        result.holes.push_back(hole_in(best.tile, plane, cut, k, result.vertex_count));
     for (int j = 0; j < cut.handles; ++j) {
         SchottkyHandle& handle = result.handles.emplace_back();
         handle.cut = paths[j];
@@ -361,7 +363,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     result.turned = surface.reoriented;
     result.sweeps = static_cast<int>(best.map.changes.size());
     result.changes = best.map.changes;
-    result.distortion = distortion_of(best.tile, cut);
+    result.distortion = {distortion_of(best.tile, cut), judge_corners(vertices, triangles, result.uv, result.turned)};
     result.converged = best.map.converged && !best.faults.any();
     warn(circles, best.faults, best.map.converged, options.normalization, result);
     result.seconds.finish = stage.lap();
@@ -400,17 +402,20 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
                  "where equal circles have room the map is not one to one: this is the one of the "
                  "least area distortion"});
     }
+    take_verdict({.most_lost = options.most_lost}, result);
     return result;
 }
 
-void name_result(const CanonicalMesh& mesh, SchottkyResult& result)
+void name_schottky(const CanonicalMesh& mesh, SchottkyResult& result)
 {
     mesh.name_corners(result.uv);
-    for (SchottkyHole& hole : result.holes) mesh.name_loop(hole.vertices);
+    for (SchottkyHole& hole : result.holes) {
+        mesh.name_loop(hole.vertices);
+        mesh.name_vertices(hole.off_circle);
+    }
     for (SchottkyHandle& handle : result.handles) mesh.name_path(handle.cut);
-    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
-        mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_faces(result.turned);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -429,7 +434,7 @@ SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles
             here.polygon = mesh.of_faces(options.polygon);
             return schottky_map_here(mesh.vertices, mesh.triangles, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_schottky);
     });
 }
 

@@ -26,7 +26,8 @@ struct SchottkyOptions {
     SchottkyNormalization normalization = SchottkyNormalization::area;
     double tolerance = 1e-6;  ///< on the relative change, in a sweep, of the matrices of the disks that fill the loops
     int max_sweeps = 50;
-    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    double most_lost = most_lost_area;  ///< where a larger share of the area is lost as stored, the map is not done
+    std::vector<Index> polygon = {};    ///< (F) faces of one number are not cut apart; empty: each is one by itself
 };
 
 /// A handle: all in the plane of the unit disk, z = 2 (u + i v) - 1 - i.
@@ -41,25 +42,20 @@ struct SchottkyHandle {
 /// A hole of the surface.
 struct SchottkyHole {
     VertexLoop vertices;  ///< in order, the surface on the left
-    Circle circle;        ///< where the map has it; the copy in the UVs may be another
+    Circle circle;        ///< where the UVs have it; of one that the cut of the UVs tears, where the map has it
     Roundness roundness;  ///< of the image before it was put on its circle
+    std::vector<Index> off_circle;  ///< vertices that are not on the circle, rising
 };
 
-struct SchottkyResult {
-    PlanarPoints uv;  ///< (3F, 2) in [0, 1]^2 of corner 3 f + k of the input's face f
-    Index vertex_count = 0, face_count = 0;
+struct SchottkyResult : MapReport {
+    PlanarPoints uv;                      ///< (3F, 2) in [0, 1]^2 of corner 3 f + k of the input's face f
     std::vector<SchottkyHole> holes;      ///< by falling length, the first on the unit circle
     std::vector<SchottkyHandle> handles;  ///< by falling length of their cuts
     bool by_circles = false;    ///< the UVs are cut along the pairs of circles, as exactly as faces can be; else along
                                 ///< the edges of the cuts, as the circles meet each other or a hole
     std::vector<Index> turned;  ///< faces that were turned to the orientation of the others
-    bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;  ///< in each sweep
-    Distortion distortion;        ///< of the UVs
-    StageSeconds seconds;
-    double peak_memory_mb = 0.0;
-    std::vector<Warning> warnings;
 };
 
 /// Maps a surface of genus 1 and more, with any number of holes, conformally to a fundamental domain of a Schottky

@@ -1,14 +1,17 @@
 #include "domains/schottky_tile.h"
 
+#include "circles/off_circle.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/tolerances.h"
 #include "foldover/untangle.h"
 #include "planar/boundary_crossings.h"
-#include "quality/distortion.h"
+#include "quality/stored_uv.h"
+#include "quality/verdict.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -278,19 +281,43 @@ void SchottkyTiling::turn_back(const SchottkyTile& tile, SchottkyPlane& plane, c
                 if (letter_[v] != 0) plane.z[v] = applied({letter_[v]}, plane.generators, plane.z[first_side_[v]]);
 }
 
-SchottkyFaults find_faults(const SchottkyTile& tile, const HandleCut& cut)
+SchottkyHole hole_in(const SchottkyTile& tile, const SchottkyPlane& plane, const HandleCut& cut, std::size_t k,
+                     Index vertex_count)
+{
+    SchottkyHole hole;
+    std::vector<char> here(cut.original.size(), 0);
+    for (const Index v : cut.loops[k].vertices) {
+        here[v] = 1;
+        if (cut.original[v] < vertex_count) hole.vertices.push_back(cut.original[v]);
+    }
+    hole.circle = plane.holes[k];
+    hole.roundness = plane.roundness[k];
+    const GroupWord* copy = nullptr;
+    bool torn = false;
+    for (std::size_t i = 0; i < tile.vertex.size(); ++i) {
+        if (here[tile.vertex[i]] == 0) continue;
+        torn |= copy && *copy != tile.word[i];
+        copy = &tile.word[i];
+        const auto at = tile.points.row(static_cast<Eigen::Index>(i));
+        if (is_off_circle(applied(*copy, plane.generators, plane.holes[k]), {at[0], at[1]}))
+            hole.off_circle.push_back(cut.original[tile.vertex[i]]);
+    }
+    if (copy && !torn) hole.circle = applied(*copy, plane.generators, plane.holes[k]);
+    std::ranges::sort(hole.off_circle);
+    hole.off_circle.erase(std::unique(hole.off_circle.begin(), hole.off_circle.end()), hole.off_circle.end());
+    return hole;
+}
+
+SchottkyFaults find_faults(const SchottkyTile& tile)
 {
     SchottkyFaults faults;
     if (!tile.points.allFinite()) {
         faults.boundary = true;
         return faults;
     }
-    Vertices vertices(static_cast<Eigen::Index>(tile.vertex.size()), 3);
-    for (std::size_t i = 0; i < tile.vertex.size(); ++i)
-        vertices.row(static_cast<Eigen::Index>(i)) = cut.vertices.row(tile.vertex[i]);
-    const Distortion distortion = measure_distortion(vertices, tile.triangles, tile.points);
-    faults.flipped = distortion.flipped;
-    faults.below_resolution = distortion.below_resolution;
+    faults.flipped = flipped_faces(tile.triangles, tile.points);
+    std::ranges::copy_if(faults.flipped, std::back_inserter(faults.below_resolution),
+                         [&](Index f) { return StoredFace(tile.triangles, tile.points, f).below_resolution(); });
     for (std::size_t k = 0; k < tile.loops.size(); ++k)
         faults.boundary |= (enclosed_area(tile.loops[k], tile.points) > 0.0) != (k == 0);
     faults.boundary |= !crossing_boundary_edges(tile.loops, tile.points, 2.0 * uv_resolution).empty();

@@ -5,6 +5,7 @@
 #include "domains/finer_faces.h"
 #include "domains/handle_cut.h"
 #include "domains/schottky_group.h"
+#include "domains/schottky_map.h"
 
 #include <vector>
 
@@ -69,6 +70,11 @@ private:
     std::vector<int> letter_;                   // (V) what brings it from there; 0 for itself
 };
 
-SchottkyFaults find_faults(const SchottkyTile& tile, const HandleCut& cut);
+/// The k-th hole as the tile has it: its vertices in the input's numbers, its circle there, and who is off it.
+/// @param vertex_count of the input: vertices beyond are inside its edges, and not named
+SchottkyHole hole_in(const SchottkyTile& tile, const SchottkyPlane& plane, const HandleCut& cut, std::size_t k,
+                     Index vertex_count);
+
+SchottkyFaults find_faults(const SchottkyTile& tile);
 
 }  // namespace koebe

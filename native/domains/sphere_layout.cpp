@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace koebe {
@@ -37,7 +38,28 @@ struct Placed {
     bool crossing = false, torn = false;
 };
 
-Placed equirectangular(const FaceCorners& p)
+/// Longitudes of a face round a pole, in turns: each step the shorter way, the third one left out. Which step that is,
+/// the area tells: the face shall be upright.
+std::array<double, 3> once_round(const std::array<double, 3>& turns, const std::array<double, 3>& heights, bool turned)
+{
+    std::array<double, 3> best{};
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t first = 0; first < 3; ++first) {
+        std::array<double, 3> own = turns;
+        for (std::size_t k = 1; k < 3; ++k) {
+            double& next = own[(first + k) % 3];
+            next -= std::round(next - own[(first + k + 2) % 3]);
+        }
+        const double area =
+            (own[1] - own[0]) * (heights[2] - heights[0]) - (own[2] - own[0]) * (heights[1] - heights[0]);
+        if ((turned ? -area : area) <= most) continue;
+        most = turned ? -area : area;
+        best = own;
+    }
+    return best;
+}
+
+Placed equirectangular(const FaceCorners& p, bool turned)
 {
     Placed placed;
     std::array<double, 3> turns{};
@@ -59,15 +81,13 @@ Placed equirectangular(const FaceCorners& p)
         turns[k] = on_uv_steps(at_pole(p[a]) ? turns[b] : at_pole(p[b]) ? turns[a] : 0.5 * (turns[a] + turns[b]));
     }
     placed.torn = poles == 0 && (contains(p, {0.0, 0.0, 1.0}) || contains(p, {0.0, 0.0, -1.0}));
-    if (placed.torn) {
-        // Once round: from the first corner on, each step the shorter way.
-        for (std::size_t k = 1; k < 3; ++k) turns[k] -= std::round(turns[k] - turns[k - 1]);
-    }
-    const double least = *std::ranges::min_element(turns);
-    const double back = std::floor(least);
+    std::array<double, 3> heights{};
+    for (std::size_t k = 0; k < 3; ++k)
+        heights[k] = on_uv_steps(std::atan2(p[k][2], std::hypot(p[k][0], p[k][1])) / std::numbers::pi + 0.5);
+    if (placed.torn) turns = once_round(turns, heights, turned);
+    const double back = std::floor(*std::ranges::min_element(turns));
     for (std::size_t k = 0; k < 3; ++k) {
-        const double latitude = std::atan2(p[k][2], std::hypot(p[k][0], p[k][1]));
-        placed.uv[k] << turns[k] - back, on_uv_steps(latitude / std::numbers::pi + 0.5);
+        placed.uv[k] << turns[k] - back, heights[k];
         placed.crossing |= placed.uv[k][0] >= 1.0;
     }
     return placed;
@@ -144,7 +164,9 @@ PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, c
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
         FaceCorners p;
         for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = points.row(triangles(f, k)).transpose();
-        const Placed placed = layout == SphereLayout::octahedral ? octahedral(p) : equirectangular(p);
+        const Placed placed = layout == SphereLayout::octahedral
+                                  ? octahedral(p)
+                                  : equirectangular(p, turned[static_cast<std::size_t>(f)] != 0);
         for (int k = 0; k < 3; ++k) uv.row(3 * f + k) = placed.uv[static_cast<std::size_t>(k)];
         marks.crossing[static_cast<std::size_t>(f)] = placed.crossing ? 1 : 0;
         marks.torn[static_cast<std::size_t>(f)] = placed.torn ? 1 : 0;
@@ -152,16 +174,8 @@ PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, c
     join_polygons(triangles, points, polygon, layout, uv, marks);
     report = {};
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
-        std::array<Eigen::RowVector2d, 3> stored;
-        for (int k = 0; k < 3; ++k)
-            stored[static_cast<std::size_t>(k)] = uv.row(3 * f + k).cast<float>().cast<double>();
         if (marks.crossing[static_cast<std::size_t>(f)]) report.crossing.push_back(f);
         if (marks.torn[static_cast<std::size_t>(f)]) report.torn.push_back(f);
-        const Eigen::RowVector2d a = stored[1] - stored[0], b = stored[2] - stored[0], c = stored[2] - stored[1];
-        const double area = (a[0] * b[1] - a[1] * b[0]) * (turned[static_cast<std::size_t>(f)] ? -1.0 : 1.0);
-        if (area > 0.0) continue;
-        report.flipped.push_back(f);
-        if (std::max({a.norm(), b.norm(), c.norm()}) < uv_resolution) report.below_resolution.push_back(f);
     }
     return uv;
 }

@@ -10,7 +10,8 @@ namespace koebe {
 ///
 /// equirectangular: u = (longitude + pi) / 2 pi, v = (latitude + pi / 2) / pi. The pattern has the period 1 along u. A
 /// face across the cut goes on beyond 1, so u is in [0, 2). A corner at a pole has no longitude: it takes the mean of
-/// its face's other two. A face round a pole is torn: its corners go round once, and their third step is left out.
+/// its face's other two. A face round a pole is torn: its corners go round once, and one of the three steps is left out,
+/// so that the face is upright if it can be.
 ///
 /// octahedral: the point over |x| + |y| + |z|, the upper half as |u'| + |v'| <= 1 in [-1, 1]^2, the lower faces folded
 /// out over its sides, u = (1 + u') / 2, v = (1 + v') / 2. The cut runs from (0, 0, -1) to the four corners of the

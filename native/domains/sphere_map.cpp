@@ -1,18 +1,20 @@
 #include "domains/sphere_map.h"
 
+#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
+#include "core/stopwatch.h"
 #include "domains/closed_sphere.h"
 #include "domains/opened_sphere.h"
 #include "domains/sphere_check.h"
 #include "domains/sphere_layout.h"
 #include "domains/sphere_repair.h"
 #include "domains/spherical_balance.h"
-#include "domains/stopwatch.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "pipeline/canonical_mesh.h"
+#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
 #include "surface/laplacian.h"
 
@@ -53,6 +55,7 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
     map_options.outer = OuterLoop::longest;
     map_options.tolerance = options.tolerance;
     map_options.max_sweeps = options.max_sweeps;
+    map_options.most_lost = 1.0;  // the sphere has its own verdict
     const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
     PlaneMap map;
     map.z.resize(domain.surface.vertex_count);
@@ -202,7 +205,7 @@ Vertices directions_of(const PeriodicSurface& domain, const VectorXd& weights)
 }
 
 /// Every face flat, with corners of its own: the triangle between its corners on the sphere.
-Distortion distortion_on_sphere(const PeriodicSurface& domain, const Vertices& points)
+ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Vertices& points)
 {
     const Triangles& triangles = domain.surface.triangles;
     Triangles apart(triangles.rows(), 3);
@@ -275,11 +278,7 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
     else if (!balanced)
         result.warnings.push_back({WarningKind::not_converged,
                                    "no even spread over the sphere was found: half of the surface shrinks to a point"});
-    if (!sphere.off_circle.empty())
-        result.warnings.push_back({WarningKind::off_circle,
-                                   counted(sphere.off_circle.size(), "vertex") +
-                                       " of loops moved off their circles, as faces would be turned over",
-                                   named(domain, sphere.off_circle)});
+    warn_off_circle(named(domain, sphere.off_circle), result.warnings);
     if (!faults.lost_holes.empty())
         result.warnings.push_back({WarningKind::lost_circles,
                                    counted(faults.lost_holes.size(), "loop") + " too deep for 64-bit coordinates",
@@ -375,13 +374,19 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     for (const Index f : result.turned) turned[f] = 1;
     result.uv = sphere_layout(triangles, result.points, turned, options.polygon, options.layout, result.layout);
     result.loops = loops_on_sphere(domain, map, sphere);
-    result.distortion = distortion_on_sphere(domain, sphere.points);
-    result.distortion.flipped = faults.flipped;
-    result.distortion.below_resolution = faults.below_resolution;
+    result.distortion = {distortion_on_sphere(domain, sphere.points),
+                         judge_corners(vertices, triangles, result.uv, result.turned)};
+    result.layout.flipped = result.distortion.flipped;
+    result.layout.below_resolution = result.distortion.below_resolution;
+    result.flipped_on_sphere = faults.flipped;
+    result.below_sphere_resolution = faults.below_resolution;
     result.converged = map.converged && !faults.any() && (balance.balanced || drawn || opened);
     result.sweeps = map.sweeps;
     result.changes = map.changes;
     warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
+    take_verdict(
+        {.most_lost = options.most_lost, .advice = "Finer faces, the other layout or parts (koebe parts) lose less"},
+        result);
     result.seconds.finish = stage.lap();
     result.seconds.total = total.elapsed();
     result.peak_memory_mb = peak_memory_mb();
@@ -389,7 +394,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     return result;
 }
 
-void name_result(const CanonicalMesh& mesh, SphereResult& result)
+void name_sphere(const CanonicalMesh& mesh, SphereResult& result)
 {
     const Vertices points = std::move(result.points);
     result.points.resize(points.rows(), 3);
@@ -400,10 +405,10 @@ void name_result(const CanonicalMesh& mesh, SphereResult& result)
         mesh.name_vertices(loop.off_circle);
     }
     for (auto* faces :
-         {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution, &result.layout.crossing,
+         {&result.turned, &result.flipped_on_sphere, &result.below_sphere_resolution, &result.layout.crossing,
           &result.layout.torn, &result.layout.flipped, &result.layout.below_resolution})
         mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -422,7 +427,7 @@ SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, co
             here.polygon = mesh.of_faces(options.polygon);
             return sphere_map_here(mesh, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_sphere);
     });
 }
 

@@ -25,7 +25,8 @@ struct SphereOptions {
     double tolerance = 1e-6;  ///< on the circles' change in a sweep, in the unit disk; closed: on the points' change
     int max_sweeps = 50;
     SphereLayout layout = SphereLayout::equirectangular;
-    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    double most_lost = most_lost_area;  ///< where a larger share of the area is lost as stored, the map is not done
+    std::vector<Index> polygon = {};    ///< (F) faces of one number are not cut apart; empty: each is one by itself
 };
 
 /// A loop on the sphere.
@@ -45,24 +46,21 @@ struct SphereLayoutReport {
     std::vector<Index> below_resolution;  ///< those of them whose longest edge is under uv_resolution
 };
 
-struct SphereResult {
-    Vertices points;  ///< (V, 3) unit vectors in the input's order; vertices of no face are at (0, 0, 1)
-    PlanarPoints uv;  ///< (3F, 2) of corner 3 f + k of the input's face f
-    Index vertex_count = 0, face_count = 0;
+/// angle_error_deg and the like are of the flat faces between their corners on the sphere; the verdict, with what is
+/// flipped and below resolution, is on the UVs.
+struct SphereResult : MapReport {
+    Vertices points;                ///< (V, 3) unit vectors in the input's order; vertices of no face are at (0, 0, 1)
+    PlanarPoints uv;                ///< (3F, 2) of corner 3 f + k of the input's face f
     std::vector<SphereLoop> loops;  ///< by falling length
     std::vector<Index> turned;      ///< faces that were turned to the orientation of the others
     double mean_point =
         0.0;  ///< length of the mean of the surface's points, by area: 0 but for what was moved after the balance
-    bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;  ///< in each sweep, with holes in each of its steps
-    /// Of the faces between their corners on the sphere, not of the UVs. Flipped are those that are not upright in
-    /// exact arithmetic, below resolution those of them whose longest edge is under sphere_resolution.
-    Distortion distortion;
+    /// Faces that are not upright on the sphere in exact arithmetic, and those of them whose longest edge there is
+    /// under sphere_resolution.
+    std::vector<Index> flipped_on_sphere, below_sphere_resolution;
     SphereLayoutReport layout;
-    StageSeconds seconds;
-    double peak_memory_mb = 0.0;
-    std::vector<Warning> warnings;
 };
 
 /// Maps a surface of genus 0, closed or with any number of holes, conformally to the unit sphere, its holes round caps.

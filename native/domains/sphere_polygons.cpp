@@ -1,6 +1,7 @@
 #include "domains/sphere_polygons.h"
 
 #include "domains/sphere_layout.h"
+#include "quality/stored_uv.h"
 
 #include <algorithm>
 #include <array>
@@ -184,7 +185,7 @@ private:
         for (const Index f : faces) {
             auto own = uv_.middleRows(3 * f, 3);
             if (own.cwiseAbs().maxCoeff() <= farthest_whole) continue;
-            own = own.cast<float>().cast<double>().eval();
+            own = own.unaryExpr(&as_stored).eval();
             marks_.torn[static_cast<std::size_t>(f)] = 1;
         }
     }

@@ -169,7 +169,7 @@ std::int64_t twice_area(GridPoint a, GridPoint b) { return a[0] * b[1] - a[1] * 
 GridPoint difference(GridPoint a, GridPoint b) { return {a[0] - b[0], a[1] - b[1]}; }
 
 /// The tile as a mesh of the plane with a vertex for each fan of corners that are joined in it.
-struct Sheet {
+struct TileSheet {
     Surface surface;
     Vertices vertices;          // (n, 3) in space
     PlanarPoints uv;            // (n, 2) in [-1, 1]
@@ -179,7 +179,7 @@ struct Sheet {
     Complex middle{0.0, 0.0};   // of the map's plane, at 0
 };
 
-Sheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std::vector<Lift>& lift)
+TileSheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std::vector<Lift>& lift)
 {
     SeamedMesh mesh;
     mesh.corners = domain.surface.triangles;
@@ -187,7 +187,7 @@ Sheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std::vec
     for (Index h = 0; h < mesh.halfedge_count(); ++h)
         if (domain.surface.twin[h] > h && is_seam(domain, lift, h)) mesh.cut(h);
     number_fans(mesh);
-    Sheet sheet;
+    TileSheet sheet;
     sheet.surface = analyze_surface(mesh.fans, mesh.fan_count);
     sheet.source.resize(mesh.fan_count);
     sheet.lift.resize(mesh.fan_count);
@@ -214,7 +214,7 @@ Sheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std::vec
 void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, HoleShape shape, FlatMap& map,
                   ExecutionContext& context)
 {
-    Sheet sheet = sheet_of(domain, map, lift);
+    TileSheet sheet = sheet_of(domain, map, lift);
     std::vector<Index> hole_of(domain.surface.vertex_count, -1);
     for (std::size_t k = domain.first_hole; k < domain.loops.size(); ++k)
         for (const Index v : domain.loops[k]) hole_of[v] = static_cast<Index>(k);
@@ -286,7 +286,7 @@ void slide_along_lines(const PeriodicSurface& domain, const std::vector<Lift>& l
 {
     constexpr double far = 1e4;        // radius of the circle that stands for a line, over the tile's
     constexpr double rounding = 4e-7;  // what a face can lose, over its longest edge
-    Sheet sheet = sheet_of(domain, map, lift);
+    TileSheet sheet = sheet_of(domain, map, lift);
     const Triangles& triangles = sheet.surface.triangles;
     const auto area = [&](const PlanarPoints& uv, Index f) {
         const Eigen::RowVector2d a = uv.row(triangles(f, 1)) - uv.row(triangles(f, 0));

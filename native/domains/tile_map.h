@@ -27,6 +27,7 @@ struct TileOptions {
     int max_sweeps = 50;
     RingHoles holes = RingHoles::circles;  ///< of a ring
     Index outer = -1, inner = -1;          ///< of a ring, vertices of the two rims; -1: the longest loops
+    double most_lost = most_lost_area;     ///< where a larger share of the area is lost as stored, the map is not done
     std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each is one by itself
 };
 
@@ -42,22 +43,17 @@ struct TileLoop {
     std::array<std::array<double, 2>, 2> slit{};  ///< its ends in UVs
 };
 
-struct TileResult {
+/// Its distortion is that of the tile, in units of UVs.
+struct TileResult : MapReport {
     PlanarPoints uv;  ///< (3F, 2) u and v of corner 3 f + k of the input's face f, in [0, 1]^2: 32-bit floats
     std::vector<std::array<double, 2>> periods;  ///< in UVs: of a torus two, of a ring one, along u
     /// Of a torus the ratio of its periods, reduced; of a ring i times its height over its period, log(R / r) / 2 pi.
     Complex modulus;
-    Index vertex_count = 0, face_count = 0;
     std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim first
     std::vector<Index> turned;    ///< faces that were turned to the orientation of the others
     double cut_length = 0.0;      ///< of the cut in the UVs, over the root of the surface's area
-    bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;  ///< of the circles in each sweep
-    Distortion distortion;        ///< of the tile, in units of UVs
-    StageSeconds seconds;
-    double peak_memory_mb = 0.0;
-    std::vector<Warning> warnings;
 };
 
 /// Maps a surface of genus 1 with any number of holes conformally to a flat torus, its holes round (torus_circles.h).

@@ -1,5 +1,6 @@
 #include "domains/tile_result.h"
 
+#include "circles/off_circle.h"
 #include "core/connectivity.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
@@ -30,7 +31,7 @@ PlanarPoints corner_uvs(const Triangles& triangles, const PeriodicSurface& domai
 }
 
 /// Every face with corners of its own.
-Distortion distortion_of(const PeriodicSurface& domain, const Tile& tile)
+ComputedDistortion distortion_of(const PeriodicSurface& domain, const Tile& tile)
 {
     const Triangles& triangles = domain.surface.triangles;
     Triangles apart(triangles.rows(), 3);
@@ -109,15 +110,9 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
     if (!map.apart)
         result.warnings.push_back(
             {WarningKind::no_circles, "the circles of two holes meet: the mesh is too coarse between them"});
-    if (!map.off_circle.empty()) {
-        std::vector<Index> vertices;
-        for (const Index v : map.off_circle) vertices.push_back(domain.original[v]);
-        std::ranges::sort(vertices);
-        result.warnings.push_back(
-            {WarningKind::off_circle,
-             counted(vertices.size(), "vertex") + " of loops moved off their places, as faces would be turned over",
-             std::move(vertices)});
-    }
+    std::vector<Index> off_circle;
+    for (const Index v : map.off_circle) off_circle.push_back(domain.original[v]);
+    warn_off_circle(std::move(off_circle), result.warnings);
     if (!faults.below_resolution.empty())
         result.warnings.push_back({WarningKind::below_resolution,
                                    counted(faults.below_resolution.size(), "face") + " too small for 32-bit UVs",
@@ -138,16 +133,15 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
     result.warnings.push_back(std::move(warning));
 }
 
-void name_result(const CanonicalMesh& mesh, TileResult& result)
+void name_tile(const CanonicalMesh& mesh, TileResult& result)
 {
     mesh.name_corners(result.uv);
     for (TileLoop& loop : result.loops) {
         mesh.name_loop(loop.vertices);
         mesh.name_vertices(loop.off_circle);
     }
-    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
-        mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_faces(result.turned);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -163,7 +157,7 @@ TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, 
             here.polygon = mesh.of_faces(options.polygon);
             return map(mesh.vertices, mesh.triangles, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_tile);
     });
 }
 
@@ -189,9 +183,7 @@ TileResult tile_result(const Vertices& vertices, const Triangles& triangles, con
     result.converged = map.converged && map.apart && !faults.any();
     result.sweeps = static_cast<int>(map.changes.size());
     result.changes = map.changes;
-    result.distortion = distortion_of(domain, tile);
-    result.distortion.flipped = faults.flipped;
-    result.distortion.below_resolution = faults.below_resolution;
+    result.distortion = {distortion_of(domain, tile), judge_corners(vertices, triangles, result.uv, result.turned)};
     result.peak_memory_mb = peak_memory_mb();
     warn(domain, map, faults, result);
     if (domain.first_hole == 0)

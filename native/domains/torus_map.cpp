@@ -1,8 +1,9 @@
-#include "domains/stopwatch.h"
+#include "core/stopwatch.h"
 #include "domains/tile_map.h"
 #include "domains/tile_result.h"
 #include "domains/torus_circles.h"
 #include "linear/dense_spd.h"
+#include "pipeline/take_verdict.h"
 
 namespace koebe {
 namespace {
@@ -27,6 +28,7 @@ TileResult torus_map_here(const Vertices& vertices, const Triangles& triangles, 
     context.begin_stage("finish", 0.9, 1.0);
     TileResult result = tile_result(vertices, triangles, domain, HoleShape::open, map, context);
     result.modulus = map.periods[1] / map.periods[0];
+    take_verdict({.most_lost = options.most_lost}, result);
     seconds.finish = stage.lap();
     seconds.total = total.elapsed();
     result.seconds = seconds;

@@ -11,7 +11,7 @@ namespace {
 constexpr int no_loop = -1, several_loops = -2;
 
 /// What is left of the surface between the chords: a node of a tree, since a chord of one loop separates.
-struct Part {
+struct Block {
     std::vector<Index> faces;
     std::vector<Index> chords;  // half-edges of this part on a chord
     int loop = no_loop;         // whose boundary edges it and all that was peeled off it carry
@@ -70,7 +70,7 @@ private:
         for (Index seed = 0; seed < static_cast<Index>(part_of_.size()); ++seed) {
             if (part_of_[seed] >= 0) continue;
             const Index id = static_cast<Index>(parts_.size());
-            Part part;
+            Block part;
             part.faces.push_back(seed);
             part_of_[seed] = id;
             for (std::size_t head = 0; head < part.faces.size(); ++head) {
@@ -103,10 +103,10 @@ private:
         for (std::size_t p = 0; p < parts_.size(); ++p)
             if (parts_[p].open_chords == 1) leaves.push_back(p);
         for (std::size_t head = 0; head < leaves.size(); ++head) {
-            Part& leaf = parts_[leaves[head]];
+            Block& leaf = parts_[leaves[head]];
             if (leaf.open_chords != 1 || (loops_.size() == 1 && leaves[head] == kept)) continue;
             for (const Index h : leaf.chords) {
-                Part& next = parts_[part_of_[face_of(surface_.twin[h])]];
+                Block& next = parts_[part_of_[face_of(surface_.twin[h])]];
                 if (next.peeled) continue;
                 if (joined(leaf.loop, loop_of_[origin(surface_.triangles, h)]) == several_loops) break;
                 leaf.peeled = true;
@@ -131,7 +131,7 @@ private:
         std::vector<Index> reached{part_of_[face_of(surface_.twin[hinge])]};
         std::vector<Index> from{surface_.twin[hinge]};
         for (std::size_t head = 0; head < reached.size(); ++head) {
-            const Part& part = parts_[reached[head]];
+            const Block& part = parts_[reached[head]];
             const Index entered_by = from[head];
             flap.faces.insert(flap.faces.end(), part.faces.begin(), part.faces.end());
             for (const Index h : part.chords)
@@ -154,7 +154,7 @@ private:
     std::vector<int> loop_of_;
     std::vector<Index> place_;    // in its loop
     std::vector<Index> part_of_;  // per face
-    std::vector<Part> parts_;
+    std::vector<Block> parts_;
     bool any_chord_ = false;
 };
 

@@ -3,6 +3,7 @@
 
 #include "circles/circle.h"
 #include "core/topology.h"
+#include "planar/planar_predicates.h"
 
 #include <cmath>
 #include <span>
@@ -94,7 +95,5 @@ private:
     std::vector<Slide> slides_;
     Index counted_ = 0;
 };
-
-inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
 }  // namespace koebe

@@ -16,15 +16,15 @@ namespace {
 
 using Mobility = AngleMap::Mobility;
 
-constexpr int most_passes = 6;         // of Newton
-constexpr double large = 0.1;          // relative fall of the angle error that another is made for
-constexpr double least_share = 0.25;   // of such a step
-constexpr int first_sweeps = 2;        // before the Newton step, which weighs by what they leave
-constexpr int most_sweeps = 8;         // after it
-constexpr double worthwhile = 1e-3;    // relative fall of the angle error that another sweep is made for
-constexpr double least_error = 0.3;    // at which a weight is taken, over the mean
-constexpr double noticeable = 1e-6;    // relative fall that a result is kept for: above what angle_of is off
-constexpr int most_restorations = 16;  // of vertices around faces that became too small
+constexpr int most_passes = 6;             // of Newton
+constexpr double large = 0.1;              // relative fall of the angle error that another is made for
+constexpr double least_step_share = 0.25;  // of such a step
+constexpr int first_sweeps = 2;            // before the Newton step, which weighs by what they leave
+constexpr int most_sweeps = 8;             // after it
+constexpr double worthwhile = 1e-3;        // relative fall of the angle error that another sweep is made for
+constexpr double least_error = 0.3;        // at which a weight is taken, over the mean
+constexpr double noticeable = 1e-6;        // relative fall that a result is kept for: above what angle_of is off
+constexpr int most_restorations = 16;      // of vertices around faces that became too small
 
 class AnglePolish {
 public:
@@ -119,7 +119,7 @@ private:
             context.advance(0.15 + 0.35 * pass / most_passes);
             if (!newton.solve(least(error))) break;
             const double before = error;
-            for (double share = 1.0; share >= least_share && error == before; share *= 0.5)
+            for (double share = 1.0; share >= least_step_share && error == before; share *= 0.5)
                 error = with_step(newton.places(share), error);
             if (!(error < (1.0 - large) * before)) break;
         }

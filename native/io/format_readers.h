@@ -1,7 +1,8 @@
 // One reader for each format, from the file's bytes: CGAL's, and what it leaves unchecked. Called by read_mesh only,
-// which checks the indices and the coordinates.
+// which checks the indices and the coordinates. And what a file that was read holds beside vertices and faces.
 #pragma once
 
+#include "io/file_losses.h"
 #include "io/polygon_mesh.h"
 
 #include <string_view>
@@ -12,5 +13,10 @@ PolygonMesh read_obj(std::string_view bytes);
 PolygonMesh read_off(std::string_view bytes);
 PolygonMesh read_ply(std::string_view bytes);
 PolygonMesh read_stl(std::string_view bytes);
+
+FileLosses obj_contents(std::string_view bytes);
+FileLosses off_contents(std::string_view bytes);
+FileLosses ply_contents(std::string_view bytes);
+FileLosses stl_contents(std::string_view bytes);
 
 }  // namespace koebe::io

@@ -20,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Reader = PolygonMesh (*)(std::string_view);
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 Reader reader_for(const std::string& filed)
 {
     const std::string extension = io::lower(filed);
@@ -83,18 +85,25 @@ void require_a_mesh(const PolygonMesh& mesh)
 
 PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension)
 {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
     PolygonMesh mesh = reader_for(extension)(bytes);
     require_a_mesh(mesh);
     return mesh;
 }
 
+MeshFile read_mesh_file(const std::filesystem::path& path)
+{
+    MeshFile file{{}, io::lower_extension(path)};
+    reader_for(file.extension);  // no file of another format is read
+    file.bytes = read_bytes(path);
+    if (file.bytes.starts_with(byte_order_mark)) file.bytes.erase(0, byte_order_mark.size());
+    return file;
+}
+
 PolygonMesh read_mesh(const std::filesystem::path& path)
 {
-    const std::string extension = path.extension().string();
-    reader_for(extension);  // no file of another format is read
-    return parse_mesh(read_bytes(path), extension);
+    const MeshFile file = read_mesh_file(path);
+    return parse_mesh(file.bytes, file.extension);
 }
 
 }  // namespace koebe

@@ -9,11 +9,21 @@
 
 namespace koebe {
 
+/// The bytes of a mesh file, which hold more than the mesh: what is written keeps the rest of it.
+struct MeshFile {
+    std::string bytes;      ///< without a byte order mark
+    std::string extension;  ///< in lower case, with the dot; empty: no file
+};
+
+/// @throws FileError, InputError as read_mesh; the bytes are not looked at
+MeshFile read_mesh_file(const std::filesystem::path& path);
+
 /// Reads a mesh file; the extension, in any case, names the format.
 ///
 /// OBJ; OFF, text only; PLY, text and binary of both byte orders; STL, text and binary, with corners of identical
 /// position made one vertex, numbered by first appearance. Vertices of no face stay. Numbers of a text are read to the
-/// nearest 64-bit float. Normals, colours, texture coordinates, groups and materials are passed over.
+/// nearest 64-bit float. Normals, colours, texture coordinates, groups and materials are passed over
+/// here, and kept by the writers (mesh_writer.h).
 ///
 /// The parsers are CGAL's. OpenMesh's keep 32-bit positions, and leave a vertex that is not a number out, which
 /// renumbers all that follow.

@@ -19,29 +19,64 @@ std::optional<WrittenFormat> written_format(const std::filesystem::path& target)
     return {};
 }
 
-void write_with_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh, const PlanarPoints& disk_points)
+namespace {
+
+bool has_format(const FiledMesh& filed, WrittenFormat format)
 {
-    const auto write = format == WrittenFormat::ply ? write_ply_with_uvs : write_obj_with_uvs;
-    write(file, mesh, disk_points);
+    return filed.file.extension == (format == WrittenFormat::ply ? ".ply" : ".obj");
 }
 
-void write_with_corner_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
-                           const PlanarPoints& corner_uvs)
+FiledObj obj_of(const FiledMesh& filed)
 {
-    const auto write = format == WrittenFormat::ply ? write_ply_with_corner_uvs : write_obj_with_corner_uvs;
-    write(file, mesh, corner_uvs);
+    return has_format(filed, WrittenFormat::obj) ? FiledObj{filed.file.bytes, filed.moved} : FiledObj{};
 }
 
-void write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
-                        const std::vector<Index>& patch)
+FiledPly ply_of(const FiledMesh& filed)
 {
-    if (format == WrittenFormat::ply) return write_ply_with_patches(file, mesh, patch);
-    std::vector<Index> group(patch);
-    for (Index& g : group) ++g;
-    std::vector<std::string> names{"surface"};
-    for (Index k = 0; !patch.empty() && k <= std::ranges::max(patch); ++k)
-        names.push_back("patch_" + std::to_string(k));
-    write_obj_with_groups(file, mesh, group, names);
+    return has_format(filed, WrittenFormat::ply) ? FiledPly{filed.file.bytes, filed.moved} : FiledPly{};
+}
+
+/// @param losses where the format is kept
+std::vector<Warning> warnings_after(const FiledMesh& filed, WrittenFormat format, const io::FileLosses& losses)
+{
+    return loss_warnings(has_format(filed, format) ? losses : io::losses_of_all(filed.file, true));
+}
+
+}  // namespace
+
+std::vector<Warning> write_with_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
+                                    const PlanarPoints& disk_points, const FiledMesh& filed)
+{
+    return warnings_after(filed, format,
+                          format == WrittenFormat::ply ? write_ply_with_uvs(file, mesh, disk_points, ply_of(filed))
+                                                       : write_obj_with_uvs(file, mesh, disk_points, obj_of(filed)));
+}
+
+std::vector<Warning> write_with_corner_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
+                                           const PlanarPoints& corner_uvs, const FiledMesh& filed)
+{
+    return warnings_after(filed, format,
+                          format == WrittenFormat::ply
+                              ? write_ply_with_corner_uvs(file, mesh, corner_uvs, ply_of(filed))
+                              : write_obj_with_corner_uvs(file, mesh, corner_uvs, obj_of(filed)));
+}
+
+std::vector<Warning> write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
+                                        const std::vector<Index>& patch, const std::vector<char>& turned,
+                                        const FiledMesh& filed)
+{
+    const bool kept = format == WrittenFormat::obj && has_format(filed, format);
+    if (format == WrittenFormat::ply) {
+        write_ply_with_patches(file, mesh, patch);
+    } else {
+        std::vector<Index> group(patch);
+        for (Index& g : group) ++g;
+        std::vector<std::string> names{"surface"};
+        for (Index k = 0; !patch.empty() && k <= std::ranges::max(patch); ++k)
+            names.push_back("patch_" + std::to_string(k));
+        write_obj_with_groups(file, mesh, group, names, obj_of(filed), turned);
+    }
+    return kept ? std::vector<Warning>{} : loss_warnings(io::losses_of_all(filed.file, false));
 }
 
 }  // namespace koebe

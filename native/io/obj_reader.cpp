@@ -1,4 +1,5 @@
 #include "io/format_readers.h"
+#include "io/obj_text.h"
 #include "io/polygon_soup.h"
 #include "io/text_numbers.h"
 
@@ -14,8 +15,8 @@ PolygonMesh read_obj(std::string_view bytes)
     std::vector<double> coordinates;
     PolygonMesh mesh;
     TextLines lines(bytes);
-    while (lines.next_line()) {
-        const std::string_view keyword = lines.next_word();
+    while (lines.next_statement()) {
+        const std::string_view keyword = lines.next_word_of_joined_lines();
         const std::size_t vertex_count = coordinates.size() / 3;
         if (keyword == "v") {
             for (int axis = 0; axis < 3; ++axis) {
@@ -41,6 +42,12 @@ PolygonMesh read_obj(std::string_view bytes)
     mesh.vertices =
         Eigen::Map<const Vertices>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size() / 3), 3);
     return mesh;
+}
+
+FileLosses obj_contents(std::string_view bytes)
+{
+    const ObjText text(bytes);
+    return {text.texture_coordinates() > 0, text.contents()};
 }
 
 }  // namespace koebe::io

@@ -1,35 +1,30 @@
 #include "io/obj_writer.h"
 
+#include "core/counted.h"
+#include "io/obj_text.h"
 #include "io/text_writer.h"
 #include "io/texture_coordinates.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace koebe {
 namespace {
 
 using io::TextWriter;
 
-void add_vertices(TextWriter& text, const Vertices& vertices)
+constexpr std::string_view first_line = "# Koebe UV " KOEBE_VERSION;
+
+void add_vertices(TextWriter& text, const Vertices& vertices, Index begin)
 {
-    text.add("# Koebe UV " KOEBE_VERSION "\n");
-    text.add_each(static_cast<Index>(vertices.rows()), [&](TextWriter& part, Index v) {
+    text.add_each(static_cast<Index>(vertices.rows()) - begin, [&](TextWriter& part, Index i) {
         part.add('v');
         for (int axis = 0; axis < 3; ++axis) {
             part.add(' ');
-            part.add_number(vertices(v, axis));
+            part.add_number(vertices(begin + i, axis));
         }
         part.add('\n');
     });
-}
-
-void add_texture_coordinate(TextWriter& text, const Eigen::RowVector2d& uv)
-{
-    text.add("vt ");
-    text.add_number(uv[0]);
-    text.add(' ');
-    text.add_number(uv[1]);
-    text.add('\n');
 }
 
 /// (C) numbers of the places, by first appearance.
@@ -47,81 +42,118 @@ std::vector<Index> places_of_corners(const PolygonMesh& mesh, const PlanarPoints
     return place;
 }
 
-void add_texture_coordinates(TextWriter& text, const PlanarPoints& disk_points)
+void add_texture_coordinate(TextWriter& text, double u, double v, std::string_view end_of_line)
 {
-    text.add_each(static_cast<Index>(disk_points.rows()), [&](TextWriter& part, Index v) {
-        part.add('v');
-        part.add('t');
-        for (int axis = 0; axis < 2; ++axis) {
-            part.add(' ');
-            part.add_number(io::texture_coordinate(disk_points(v, axis)));
-        }
-        part.add('\n');
-    });
+    text.add("vt ");
+    text.add_number(u);
+    text.add(' ');
+    text.add_number(v);
+    text.add(end_of_line);
 }
 
-void add_face(TextWriter& text, std::span<const Index> face, bool with_texture)
+/// @param texture (C) numbers of texture coordinates; empty: none
+void add_face(TextWriter& text, const PolygonMesh& mesh, Index f, std::span<const Index> texture)
 {
     text.add('f');
-    for (const Index v : face) {
+    for (Index corner = mesh.face_begin[f]; corner < mesh.face_begin[f + 1]; ++corner) {
         text.add(' ');
-        if (with_texture)
-            text.add_twice(v + 1, '/');
+        const Index vertex = mesh.corners[corner];
+        if (texture.empty())
+            text.add_number(vertex + 1);
         else
-            text.add_number(v + 1);
+            io::add_obj_corner(text, vertex, texture[corner]);
     }
     text.add('\n');
 }
 
-}  // namespace
-
-void write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points)
+/// The mesh as it is, or the text that it was read from, with texture coordinates between.
+/// @param texture (C) numbers of those
+template <class AddTextureCoordinates>
+io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<const Index> texture,
+                         const FiledObj& filed, const AddTextureCoordinates& add_texture_coordinates)
 {
-    io::require_point_for_each_vertex(mesh, disk_points);
     TextWriter text(file);
-    add_vertices(text, mesh.vertices);
-    add_texture_coordinates(text, disk_points);
-    text.add_each(mesh.face_count(), [&](TextWriter& part, Index f) { add_face(part, mesh.face(f), true); });
+    text.add(first_line);
+    if (filed.text.empty()) {
+        text.add('\n');
+        add_vertices(text, mesh.vertices, 0);
+        add_texture_coordinates(text, "\n");
+        text.add_each(mesh.face_count(), [&](TextWriter& part, Index f) { add_face(part, mesh, f, texture); });
+        text.flush();
+        return {};
+    }
+    const io::ObjText own(filed.text);
+    const io::ObjChange change{.mesh = mesh, .texture = texture, .moved = filed.moved};
+    text.add(own.end_of_line());
+    own.add_head(text, change);
+    add_texture_coordinates(text, own.end_of_line());
+    const std::size_t without_normals = own.add_rest(text, change);
     text.flush();
+    io::FileLosses losses{own.texture_coordinates() > 0, {}};
+    if (filed.moved && own.normals() > 0) losses.others.emplace_back("normals");
+    if (without_normals > 0)
+        losses.others.push_back("normals of " + counted(without_normals, "face") + " that name a missing one");
+    return losses;
 }
 
-void write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs)
+}  // namespace
+
+io::FileLosses write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points,
+                                  const FiledObj& filed)
+{
+    io::require_point_for_each_vertex(mesh, disk_points);
+    return write_obj(file, mesh, mesh.corners, filed, [&](TextWriter& text, std::string_view end_of_line) {
+        text.add_each(static_cast<Index>(disk_points.rows()), [&](TextWriter& part, Index v) {
+            add_texture_coordinate(part, io::texture_coordinate(disk_points(v, 0)),
+                                   io::texture_coordinate(disk_points(v, 1)), end_of_line);
+        });
+    });
+}
+
+io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs,
+                                         const FiledObj& filed)
 {
     io::require_point_for_each_corner(mesh, corner_uvs);
-    TextWriter text(file);
-    add_vertices(text, mesh.vertices);
     const std::vector<Index> place = places_of_corners(mesh, corner_uvs);
-    Index count = 0;
-    for (std::size_t i = 0; i < place.size(); ++i) {
-        if (place[i] < count) continue;
-        ++count;
-        add_texture_coordinate(text, corner_uvs.row(static_cast<Eigen::Index>(i)));
-    }
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        text.add('f');
-        for (Index i = mesh.face_begin[f]; i < mesh.face_begin[f + 1]; ++i) {
-            text.add(' ');
-            text.add_number(mesh.corners[i] + 1);
-            text.add('/');
-            text.add_number(place[i] + 1);
+    return write_obj(file, mesh, place, filed, [&](TextWriter& text, std::string_view end_of_line) {
+        Index count = 0;
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (place[i] < count) continue;
+            ++count;
+            const auto uv = corner_uvs.row(static_cast<Eigen::Index>(i));
+            add_texture_coordinate(text, uv[0], uv[1], end_of_line);
         }
-        text.add('\n');
-    }
-    text.flush();
+    });
 }
 
 void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std::vector<Index>& group,
-                           const std::vector<std::string>& names)
+                           const std::vector<std::string>& names, const FiledObj& filed,
+                           const std::vector<char>& turned)
 {
     TextWriter text(file);
-    add_vertices(text, mesh.vertices);
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        if (f == 0 || group[f] != group[f - 1]) {
-            text.add("g ");
-            text.add(names.at(static_cast<std::size_t>(group[f])));
-            text.add('\n');
-        }
-        add_face(text, mesh.face(f), false);
+    text.add(first_line);
+    text.add('\n');
+    Index last = -1;
+    const auto add_group = [&](Index f) {
+        if (group[f] == std::exchange(last, group[f])) return;
+        text.add("g ");
+        text.add(names.at(static_cast<std::size_t>(group[f])));
+        text.add('\n');
+    };
+    Index first_vertex = 0, first_face = 0;
+    if (!filed.text.empty()) {
+        const io::ObjText own(filed.text);
+        const io::ObjChange change{.mesh = mesh, .texture = {}, .turned = turned};
+        own.add_head(text, change);
+        if (!own.holds("groups")) add_group(0);
+        own.add_rest(text, change);
+        first_vertex = static_cast<Index>(own.vertices());
+        first_face = static_cast<Index>(own.faces());
+    }
+    add_vertices(text, mesh.vertices, first_vertex);
+    for (Index f = first_face; f < mesh.face_count(); ++f) {
+        add_group(f);
+        add_face(text, mesh, f, {});
     }
     text.flush();
 }

@@ -6,6 +6,7 @@
 #include <CGAL/IO/OFF.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdint>
@@ -120,6 +121,38 @@ PolygonMesh read_off(std::string_view bytes)
         mesh.face_begin.push_back(static_cast<Index>(mesh.corners.size()));
     }
     return mesh;
+}
+
+/// A fault is no matter here, as read_off has told it.
+FileLosses off_contents(std::string_view bytes)
+{
+    std::string_view text = bytes;
+    const std::string_view keyword = next_word(text);
+    std::array<std::size_t, 2> counts{};
+    for (std::size_t& count : counts) {
+        const std::string_view word = next_word(text);
+        std::from_chars(word.data(), word.data() + word.size(), count);
+    }
+    next_word(text);
+    FileLosses losses;
+    losses.texture_coordinates = keyword.starts_with("ST");
+    const bool has_normals = keyword.find('N') != keyword.npos, is_homogeneous = keyword.find('4') != keyword.npos;
+    if (has_normals) losses.others.emplace_back("normals");
+    const std::size_t known = 3 + is_homogeneous + 3 * has_normals + 2 * losses.texture_coordinates;
+    TextLines lines(text);
+    const auto has_more_words = [&](std::size_t than) {
+        while (than > 0 && !lines.next_word().empty()) --than;
+        return !lines.next_word().empty();
+    };
+    bool of_vertices = false, of_faces = false;
+    for (std::size_t v = 0; v < counts[0]; ++v) of_vertices |= !first_word(lines).empty() && has_more_words(known - 1);
+    for (std::size_t f = 0; f < counts[1]; ++f) {
+        Index corners = 0;
+        of_faces |= to_number(first_word(lines), corners) && has_more_words(static_cast<std::size_t>(corners));
+    }
+    if (of_vertices) losses.others.emplace_back("vertex colours");
+    if (of_faces) losses.others.emplace_back("face colours");
+    return losses;
 }
 
 }  // namespace koebe::io

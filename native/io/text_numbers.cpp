@@ -61,12 +61,29 @@ bool to_number(std::string_view word, Index& number)
     return !word.empty() && end == last && error == std::errc();
 }
 
+bool joins_next_line(std::string_view line)
+{
+    const std::size_t last = line.find_last_not_of(blanks);
+    return last != line.npos && line[last] == '\\' && line.find('#') == line.npos;
+}
+
 bool TextLines::next_line()
 {
     if (begun_ && !rest_.empty())
         rest_.remove_prefix(rest_.front() == '\n' ? 1 : std::min(rest_.find('\n'), rest_.size() - 1) + 1);
     begun_ = !rest_.empty();
     return begun_;
+}
+
+bool TextLines::next_statement()
+{
+    for (bool joined = begun_; joined;) {
+        if (rest_.starts_with('\n')) break;  // nearly always
+        const std::string_view line = rest_of_line();
+        joined = line.size() < rest_.size() && joins_next_line(line);
+        if (joined) rest_.remove_prefix(line.size() + 1);
+    }
+    return next_line();
 }
 
 std::string_view TextLines::next_word()

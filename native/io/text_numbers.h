@@ -13,6 +13,9 @@ bool to_number(std::string_view word, double& number);
 /// The same for an integer of 32 bits.
 bool to_number(std::string_view word, Index& number);
 
+/// Whether a backslash joins the line, which has no end, with the next one. One in a comment joins nothing.
+bool joins_next_line(std::string_view line);
+
 /// The words of one line after the other. '#' begins a comment, which ends with the line.
 class TextLines {
 public:
@@ -20,6 +23,15 @@ public:
 
     /// Leaves what is left of this line, and goes to the next. @return false after the last
     bool next_line();
+
+    /// The same; lines that a backslash joins with this one are left too.
+    bool next_statement();
+
+    /// Where the text goes on.
+    const char* here() const { return rest_.data(); }
+
+    /// What is left of this line, without its end; it stays.
+    std::string_view rest_of_line() const { return rest_.substr(0, rest_.find('\n')); }
 
     /// The next word of this line; empty at its end.
     std::string_view next_word();

@@ -61,9 +61,8 @@ private:
 }  // namespace
 
 /// Pieces are begun in their order, so that whose turn it is is always at work.
-void TextWriter::add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add)
+void TextWriter::add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add, std::size_t at_a_time)
 {
-    constexpr std::size_t at_a_time = 8192;
     if (ThreadShare::here() == 1 || static_cast<std::size_t>(count) <= at_a_time) {
         for (Index i = 0; i < count; ++i) add(*this, i);
         return;

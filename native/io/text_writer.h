@@ -31,7 +31,8 @@ public:
     }
     void add(std::string_view word)
     {
-        for (const char c : word) add(c);
+        for (; word.size() > buffer_.size(); word.remove_prefix(buffer_.size())) append(word.substr(0, buffer_.size()));
+        append(word);
     }
     template <typename Number>
     void add_number(Number number)
@@ -54,9 +55,9 @@ public:
         std::memcpy(buffer_.data() + used_ + 1, buffer_.data() + begin, length);
         used_ += length + 1;
     }
-    /// Calls add(text, i) once for each i < count, which adds what item i is, on this thread's share of threads; the
-    /// text is that of one after the other.
-    void add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add);
+    /// Calls add(text, i) once for each i < count, which adds what item i is, on this thread's share of threads, so
+    /// many at a time; the text is that of one after the other.
+    void add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add, std::size_t at_a_time = 8192);
     /// @throws FileError
     void flush()
     {
@@ -69,6 +70,13 @@ private:
 
     /// Of a piece, which is kept until its turn.
     TextWriter() : buffer_(std::size_t{1} << 18, '\0') {}
+    void append(std::string_view word)
+    {
+        reserve(word.size());
+        if (!word.empty()) std::memcpy(buffer_.data() + used_, word.data(), word.size());
+        used_ += word.size();
+    }
+    /// @param count no more than the buffer holds
     void reserve(std::size_t count)
     {
         if (used_ + count <= buffer_.size()) return;

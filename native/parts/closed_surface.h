@@ -15,9 +15,7 @@ namespace koebe {
 std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertices& vertices,
                                          const std::vector<Index>& polygon);
 
-/// Two halves, or a few more pieces: the shortest closed curve between the 35 % and the 65 % of the area that are
-/// nearest the two ends of the surface, which are vertices far apart. @return faces of each, rising; none if no curve
-/// was found, as polygons may stand in the way
+/// The pieces that halving (halving.h) cuts it into. @return faces of each, rising; none if no curve was found
 std::vector<std::vector<Index>> halves(const CutSurface& closed);
 
 }  // namespace koebe

@@ -13,7 +13,7 @@
 namespace koebe {
 namespace {
 
-constexpr Index least_piece = 10;  // faces
+constexpr Index least_piece = 4;  // faces: a limb of three sides has no more at its tip
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
 using Graph = boost::adjacency_list<

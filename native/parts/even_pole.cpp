@@ -12,7 +12,7 @@
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index most_samples = 350;
+constexpr Eigen::Index most_pole_samples = 350;
 constexpr double least_hole = 0.08;     // disk units: to turn a map inside out about a smaller hole is never even
 constexpr double worth_turning = 0.85;  // of the overflow, for another loop outside
 constexpr double hopeless = 1.5;        // of the least overflow so far, on the coarse grid: not refined
@@ -53,7 +53,7 @@ private:
     {
         if (std::abs(a) > most_radius) return;
         const VectorXd u = sample_.u.array() - pole_distance(sample_.centers, a).array().log();
-        const double overflow = u.allFinite() ? rough_overflow(u, sample_.areas) : 6.0 * sample_.areas.sum();
+        const double overflow = u.allFinite() ? rough_overflow(u, sample_.areas) : lost_cost * sample_.areas.sum();
         if (overflow >= least_) return;
         least_ = overflow;
         best_ = a;
@@ -79,7 +79,7 @@ MapSample sampled(const VectorXd& areas, const PartMap& map)
     std::vector<Eigen::Index> kept;
     for (Eigen::Index f = 0; f < areas.size(); ++f)
         if (!map.lost[f]) kept.push_back(f);
-    const Eigen::Index stride = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kept.size()) / most_samples);
+    const Eigen::Index stride = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kept.size()) / most_pole_samples);
     std::vector<Eigen::Index> picked;
     for (std::size_t i = 0; i < kept.size(); i += stride) picked.push_back(kept[i]);
     return {map.centers(picked), map.u(picked), areas(picked)};

@@ -10,22 +10,34 @@
 namespace koebe {
 namespace {
 
-constexpr double cap = 6.0;  // of a face's distance to the window, in u
+using Density = std::pair<double, double>;  // u and area of a face
+
+/// The faces that are not lost, by u.
+std::vector<Density> by_density(const VectorXd& u, const VectorXd& areas, const std::vector<char>& lost)
+{
+    std::vector<Density> order;
+    order.reserve(static_cast<std::size_t>(u.size()));
+    for (Eigen::Index f = 0; f < u.size(); ++f)
+        if (lost.empty() || !lost[f]) order.emplace_back(u[f], areas[f]);
+    std::sort(order.begin(), order.end());
+    return order;
+}
 
 }  // namespace
 
-Evenness evenness(const VectorXd& u, const VectorXd& areas)
+Evenness evenness(const VectorXd& u, const VectorXd& areas, const std::vector<char>& lost)
 {
     Evenness result;
-    const Eigen::Index count = u.size();
+    const std::vector<Density> order = by_density(u, areas, lost);
+    const auto count = static_cast<Eigen::Index>(order.size());
+    double known = 0.0;
+    for (const Density& face : order) known += face.second;
+    result.overflow = lost.empty() ? 0.0 : lost_cost * std::max(areas.sum() - known, 0.0);
     if (count == 0) return result;
-    std::vector<std::pair<double, double>> order(static_cast<std::size_t>(count));
-    for (Eigen::Index f = 0; f < count; ++f) order[f] = {u[f], areas[f]};
-    std::sort(order.begin(), order.end());
 
     // The overflow's slope in `from` is area below less area above: walk through the places where it changes.
     Eigen::Index low = 0, high = 0;
-    double below = 0.0, above = areas.sum();
+    double below = 0.0, above = known;
     double least = 0.0, most = 0.0;  // where the slope is 0
     bool found = false;
     while (low < count) {
@@ -50,10 +62,10 @@ Evenness evenness(const VectorXd& u, const VectorXd& areas)
         }
     }
     result.from = 0.5 * (least + most);
-    for (Eigen::Index f = 0; f < count; ++f) {
-        const double distance = std::max({result.from - u[f], u[f] - result.from - even_range, 0.0});
-        result.overflow += areas[f] * std::min(distance, cap);
-        if (distance == 0.0) result.inside += areas[f];
+    for (const auto& [at, area] : order) {
+        const double distance = std::max({result.from - at, at - result.from - even_range, 0.0});
+        result.overflow += area * std::min(distance, lost_cost);
+        if (distance == 0.0) result.inside += area;
     }
     return result;
 }
@@ -70,7 +82,7 @@ double rough_overflow(const VectorXd& u, const VectorXd& areas)
     for (Eigen::Index f = 0; f < u.size(); ++f) {
         const double at = (u[f] - low) * per_step;
         const double held = std::clamp(at, 0.0, bins - 1e-9);
-        beyond += areas[f] * std::min(std::abs(at - held) * step, cap);
+        beyond += areas[f] * std::min(std::abs(at - held) * step, lost_cost);
         const auto bin = static_cast<std::size_t>(held);
         area[bin + 1] += areas[f];
         moment[bin + 1] += areas[f] * held;

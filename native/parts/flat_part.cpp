@@ -25,6 +25,8 @@ namespace koebe {
 namespace {
 
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
+constexpr double rounded_edge = 1e-11;  // of the image's extent: shorter edges are rounding alone
+constexpr double most_image = 4.0;      // UV area of a part over its area: what even texels never need
 constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges tell nothing of a loop's course
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
@@ -45,26 +47,38 @@ double signed_area(const PlanarPoints& p, const Triangles& triangles, Eigen::Ind
     return 0.5 * (a[0] * b[1] - a[1] * b[0]);
 }
 
+double longest_edge(const PlanarPoints& p, const Triangles& triangles, Eigen::Index f)
+{
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k)
+        longest = std::max(longest, (p.row(triangles(f, k)) - p.row(triangles(f, (k + 1) % 3))).norm());
+    return longest;
+}
+
 /// UV area as area in the mean of u, what is outside the window of least overflow taken as at its ends: so parts that
-/// lie within their windows have one texel density.
+/// lie within their windows have one texel density. Faces that are too small to be told from rounding have none. A part
+/// whose even faces are a small piece of its image is not blown up for them: it would take the square from the others.
 void scale_evenly(const PartMesh& mesh, FlatPart& flat)
 {
-    std::vector<double> u, areas;
-    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) {
+    const Eigen::Index count = flat.surface.triangles.rows();
+    const double floor = rounded_edge * (flat.points.colwise().maxCoeff() - flat.points.colwise().minCoeff()).maxCoeff();
+    VectorXd u = VectorXd::Zero(count);
+    std::vector<char> lost(static_cast<std::size_t>(count), 0);
+    double image = 0.0;
+    for (Eigen::Index f = 0; f < count; ++f) {
         const double area = signed_area(flat.points, flat.surface.triangles, f);
-        if (!(area > 0.0) || !(mesh.areas[f] > 0.0)) continue;
-        u.push_back(0.5 * std::log(area / mesh.areas[f]));
-        areas.push_back(mesh.areas[f]);
+        image += std::max(area, 0.0);
+        lost[f] = !(area > 0.0) || !(mesh.areas[f] > 0.0) || !(longest_edge(flat.points, flat.surface.triangles, f) > floor);
+        if (!lost[f]) u[f] = 0.5 * std::log(area / mesh.areas[f]);
     }
-    if (u.empty()) return;
-    const Evenness even = evenness(Eigen::Map<VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())),
-                                   Eigen::Map<VectorXd>(areas.data(), static_cast<Eigen::Index>(areas.size())));
-    double sum = 0.0, area = 0.0;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        sum += areas[i] * std::clamp(u[i], even.from, even.from + even_range);
-        area += areas[i];
+    const Evenness even = evenness(u, mesh.areas, lost);
+    double sum = 0.0, known = 0.0;
+    for (Eigen::Index f = 0; f < count; ++f) {
+        if (lost[f]) continue;
+        sum += mesh.areas[f] * std::clamp(u[f], even.from, even.from + even_range);
+        known += mesh.areas[f];
     }
-    flat.points *= std::exp(-sum / area);
+    if (known > 0.0) flat.points *= std::min(std::exp(-sum / known), std::sqrt(most_image * mesh.area / image));
 }
 
 /// Faces turned over.
@@ -159,13 +173,20 @@ void settle(const PartMesh& mesh, const std::vector<Index>& own, const FlatOptio
     free_rims(flat.vertices, flat.surface, freedom, flat.points, context);
 }
 
-FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext& context)
+/// Without a slit, and without points yet.
+FlatPart unopened(const PartMesh& mesh)
 {
     FlatPart flat;
-    flat.faces = part.mesh.faces;
-    flat.original = part.mesh.original;
-    flat.vertices = part.mesh.vertices;
-    flat.surface = part.mesh.surface;
+    flat.faces = mesh.faces;
+    flat.original = mesh.original;
+    flat.vertices = mesh.vertices;
+    flat.surface = mesh.surface;
+    return flat;
+}
+
+FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext& context)
+{
+    FlatPart flat = unopened(part.mesh);
     DiskPoints points(part.mesh);
     points.consider(part.map.positions);
     if (points.any_turned()) try {  // the map was made to be judged
@@ -236,6 +257,16 @@ FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContex
     return flat;
 }
 
+FlatPart flat_as_mapped(const PartMesh& mesh, const PlanarPoints& points)
+{
+    FlatPart flat = unopened(mesh);
+    flat.points = points;
+    flat.rims.assign(mesh.surface.loops.begin(), mesh.surface.loops.end());
+    flat.loops = original_loops(mesh);
+    scale_evenly(mesh, flat);
+    return flat;
+}
+
 std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
 {
     std::vector<double> off;
@@ -256,7 +287,7 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
 
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 {
-    const PlanarPoints stored = uv.cast<float>().cast<double>();
+    const PlanarPoints stored = uv.unaryExpr(&as_stored);
     return crossing_boundary_edges(part.surface.loops, stored, shortest_drawn).empty() &&
            turned_loops(part.surface.loops, stored, shortest_drawn).empty();
 }

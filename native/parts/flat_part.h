@@ -31,6 +31,9 @@ struct FlatOptions {
 /// than the disk's overflow, becomes a disk. Then free_rims.
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
 
+/// A part, or a whole piece, laid down as a map of the unit disk has it. @param points (V, 2)
+FlatPart flat_as_mapped(const PartMesh& mesh, const PlanarPoints& points);
+
 /// Of each loop, how far it is from the circle of a disk or the end of a tube's rectangle at most: over the circle's
 /// radius, or the end's length over a turn. @param uv (V, 2)
 std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv);

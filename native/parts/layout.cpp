@@ -8,9 +8,8 @@
 #include "parts/closed_surface.h"
 #include "parts/coarse_surface.h"
 #include "parts/fine_labels.h"
-#include "parts/flat_part.h"
+#include "parts/flat_parts.h"
 #include "parts/hidden_cuts.h"
-#include "parts/mirror_symmetry.h"
 #include "parts/packing.h"
 #include "parts/splitting.h"
 
@@ -28,7 +27,8 @@
 namespace koebe {
 namespace {
 
-constexpr double cut_share = 1.0;       // of a part's price, for a cut as long as the root of the area
+constexpr double own_piece = 0.25;      // of the area: a piece of less pays less for its parts,
+constexpr double small_piece = 0.01;    // and one of less than this pays in proportion to its area
 constexpr int rounds = 2;               // of splitting and merging
 constexpr double margin = 0.004;        // between parts, in the unit square
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
@@ -164,52 +164,12 @@ std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std:
     return slit;
 }
 
-/// @param slit (3F) half-edges of the whole
-void prefer_slits(PartMesh& part, const std::vector<char>& slit)
-{
-    part.slit.resize(3 * part.faces.size(), 0);
-    for (std::size_t i = 0; i < part.faces.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (slit[3 * static_cast<std::size_t>(part.faces[i]) + k]) part.slit[3 * i + k] = 1;
-}
-
-/// @param opened (3F) half-edges of the whole, changed in place
-void note_slit(const PartMesh& part, const FlatPart& flat, std::vector<char>& opened)
-{
-    for (std::size_t h = 0; h < part.surface.twin.size(); ++h)
-        if (part.surface.twin[h] != no_twin && flat.surface.twin[h] == no_twin)
-            opened[3 * static_cast<std::size_t>(part.faces[h / 3]) + h % 3] = 1;
-}
-
-/// The parts, flat, side by side; of a mirror image one after the other, as each slit follows those before it.
-/// @param parts let go of, one by one
-std::vector<FlatPart> flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
-                                 const FlatOptions& options, int threads, ExecutionContext& context,
-                                 SplitEffort& effort)
-{
-    std::vector<FlatPart> flats(parts.size());
-    std::vector<SplitEffort> efforts(parts.size());
-    std::vector<char> opened(whole.surface.twin.size(), 0);
-    const bool in_turn = !mirror.image.empty();
-    side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
-        Part& part = *parts[k];
-        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k]);
-        const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
-        if (in_turn && part.map.kind == PartKind::tube && !chosen)
-            prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
-        flats[k] = flat_part(part, {chosen ? 0.0 : options.slit_price, options.round_cuts}, own);
-        if (in_turn) note_slit(part.mesh, flats[k], opened);
-        parts[k].reset();
-    });
-    for (const SplitEffort& own : efforts) effort.maps += own.maps;
-    return flats;
-}
-
 /// Of each piece, its boundary edges that are cuts, as another boundary edge lies in the same place: by vertices of the
 /// input that stand for all of one place.
-class Seams {
+class SeamPlaces {
 public:
-    Seams(const OpenedSurface& opened, const Vertices& vertices) : place_(static_cast<std::size_t>(vertices.rows()))
+    SeamPlaces(const OpenedSurface& opened, const Vertices& vertices)
+        : place_(static_cast<std::size_t>(vertices.rows()))
     {
         std::vector<Index> order(place_.size());
         std::iota(order.begin(), order.end(), 0);
@@ -249,8 +209,18 @@ private:
     std::unordered_set<std::uint64_t> border_;
 };
 
+/// What the parts of a piece cost. The price is for the whole surface: by it a small piece would never be split, however
+/// many of its faces are lost. Lengths of cuts are in roots of the whole's area, of which a small piece has little.
+/// @param area of the piece; that of the whole is 1
+SplitOptions prices_for(double area, double price, int threads)
+{
+    const double share = area < small_piece ? std::sqrt(small_piece / own_piece) * area / small_piece
+                                            : std::min(1.0, std::sqrt(area / own_piece));
+    return {share * price, std::min(1.0, share / std::sqrt(area)) * price, threads};
+}
+
 /// The parts of a piece, flat.
-FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const Seams& seams,
+FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const SeamPlaces& seams,
                      const PartsOptions& options, int threads, ExecutionContext& context)
 {
     std::vector<Index> polygon;
@@ -267,7 +237,7 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     whole.slit = chosen_slits(piece, options.slits);
     whole.seam = seams.of(piece);
     SplitEffort effort;
-    const SplitOptions prices{options.price, cut_share * options.price, threads};
+    const SplitOptions prices = prices_for(whole.areas.sum(), options.price, threads);
     std::vector<PartPointer> parts = is_large ? parts_by_coarse_surface(whole, prices, context, effort)
                                               : even_parts(whole, std::move(first), prices, context, effort);
     if (parts.empty()) {  // no curve cuts it in two
@@ -286,8 +256,17 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
         merge_crumbs(whole, prices, parts, context, effort);
     }
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
-    FlatPiece flat{flat_parts(whole, mirror, parts, {prices.cut_price, options.round_cuts}, threads, context, effort),
-                   0.0};
+    std::shared_ptr<const Part> root = parts.front();
+    while (root->parent) root = root->parent;
+    if (root->mesh.faces.size() != static_cast<std::size_t>(whole.areas.size())) root = nullptr;
+    FlatParts flats =
+        flat_parts(whole, mirror, parts, {prices.cut_price, options.round_cuts}, threads, context, effort);
+    if (!is_large)
+        if (auto one = better_as_one(stays_closed ? opened() : whole, root.get(), flats, context)) {
+            flats.parts.clear();
+            flats.parts.push_back(std::move(*one));
+        }
+    FlatPiece flat{std::move(flats.parts), 0.0};
     flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
     for (FlatPart& part : flat.parts) {
         for (Index& f : part.faces) f = piece.source_face[f];
@@ -308,7 +287,7 @@ std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& 
     for (std::size_t i = 0; i < opened.pieces.size(); ++i)
         (8 * opened.pieces[i].triangles.rows() > total ? big : small).push_back(i);
     std::vector<FlatPiece> flats(opened.pieces.size());
-    const Seams seams(opened, vertices);
+    const SeamPlaces seams(opened, vertices);
     double done = 0.0;
     const auto stage = [&](double faces) {
         const double from = done;

@@ -107,7 +107,7 @@ bool map_annulus(const PartMesh& part, PartMap& map)
             return w;
         },
         0.0, map);
-    map.tube_overflow = evenness(map.u, part.areas).overflow;
+    map.tube_overflow = evenness(map.u, part.areas, map.lost).overflow;
     map.u += map.centers.real();
     map.centers = map.centers.array().exp();
     map.positions = map.strip.array().exp();
@@ -160,13 +160,13 @@ void finish(const PartMesh& part, PartMap& map)
             u[f] += std::log((1.0 - std::norm(centered.a)) /
                              std::max(std::abs(z - centered.a) * std::abs(1.0 - std::conj(centered.a) * z), 1e-300));
         }
-        map.tube_overflow = u.allFinite() ? evenness(u, part.areas).overflow : 6.0 * part.area;
+        map.tube_overflow = u.allFinite() ? evenness(u, part.areas, map.lost).overflow : lost_cost * part.area;
     }
     if (!two || map.circles[1 - map.outer].radius > deep_hole) {
         move_to_even_pole(part.areas, map);
         fit_circles(part, map);
     }
-    const Evenness disk = evenness(map.u, part.areas);
+    const Evenness disk = evenness(map.u, part.areas, map.lost);
     map.kind = PartKind::disk;
     map.overflow = map.disk_overflow = disk.overflow;
     map.from = disk.from;

@@ -142,4 +142,14 @@ std::vector<Index> connected_pieces(const PartMesh& part, const std::vector<int>
     return piece;
 }
 
+std::vector<std::vector<Index>> pieces_of(const PartMesh& part, const std::vector<int>& label)
+{
+    if (label.empty()) return {};
+    Index count = 0;
+    const std::vector<Index> piece = connected_pieces(part, label, count);
+    std::vector<std::vector<Index>> faces(count);
+    for (std::size_t f = 0; f < piece.size(); ++f) faces[piece[f]].push_back(part.faces[f]);
+    return faces;
+}
+
 }  // namespace koebe

@@ -51,4 +51,7 @@ PartMesh some_or_all(const CutSurface& whole, std::vector<Index> faces);
 /// @return the piece of each face, from 0
 std::vector<Index> connected_pieces(const PartMesh& part, const std::vector<int>& label, Index& count);
 
+/// The faces of the whole in each of these pieces, rising; none without a label.
+std::vector<std::vector<Index>> pieces_of(const PartMesh& part, const std::vector<int>& label);
+
 }  // namespace koebe

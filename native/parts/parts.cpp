@@ -3,10 +3,13 @@
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/memory_limit.h"
+#include "core/peak_memory.h"
 #include "linear/dense_spd.h"
 #include "parts/layout.h"
 #include "parts/part_mesh.h"
 #include "pipeline/canonical_mesh.h"
+#include "pipeline/take_verdict.h"
+#include "quality/stored_uv.h"
 
 #include <algorithm>
 #include <array>
@@ -17,11 +20,10 @@
 namespace koebe {
 namespace {
 
-/// What is stored: the report is true of it.
-PlanarPoints stored(const PlanarPoints& uv) { return uv.cast<float>().cast<double>(); }
+constexpr const char* lower_price = "A lower price makes more parts, and more even ones";
 
 /// Of some faces, each corner a vertex of its own.
-Distortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces)
+ComputedDistortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces)
 {
     const Eigen::Index count = static_cast<Eigen::Index>(faces.size());
     Vertices vertices(3 * count, 3);
@@ -34,10 +36,7 @@ Distortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, cons
             vertices.row(c) = layout.vertices.row(layout.triangles(faces[i], k));
             points.row(c) = 2.0 * uv.row(3 * static_cast<Eigen::Index>(faces[i]) + k).array() - 1.0;
         }
-    Distortion result = measure_distortion(vertices, triangles, points);
-    for (auto* list : {&result.flipped, &result.below_resolution})
-        for (Index& f : *list) f = faces[f];
-    return result;
+    return measure_distortion(vertices, triangles, points);
 }
 
 double uv_area(const PlanarPoints& uv, Eigen::Index f)
@@ -102,12 +101,10 @@ double seam_length(const PartsLayout& layout, const std::vector<Index>& faces)
     return length;
 }
 
-std::vector<Warning> warnings_of(const PartsLayout& layout, const PartsResult& result)
+std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<Index>& left_out,
+                                 const Distortion& distortion)
 {
     std::vector<Warning> warnings;
-    std::vector<Index> left_out;
-    for (std::size_t f = 0; f < layout.part.size(); ++f)
-        if (layout.part[f] < 0) left_out.push_back(static_cast<Index>(f));
     if (!left_out.empty())
         warnings.push_back({WarningKind::collapsed_faces,
                             counted(left_out.size(), "face") + " of no area or like another, in no part", left_out});
@@ -115,13 +112,13 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const PartsResult& r
         warnings.push_back({WarningKind::reoriented_faces,
                             counted(layout.reoriented.size(), "face") + " turned to the orientation of the others",
                             layout.reoriented});
-    if (!result.below_resolution.empty())
+    if (!distortion.below_resolution.empty())
         warnings.push_back({WarningKind::below_resolution,
-                            counted(result.below_resolution.size(), "face") + " below the resolution of 32-bit UVs",
-                            result.below_resolution, "A lower price makes more parts, and more even ones"});
-    if (result.flipped.size() > result.below_resolution.size()) {
+                            counted(distortion.below_resolution.size(), "face") + " below the resolution of 32-bit UVs",
+                            distortion.below_resolution, lower_price});
+    if (distortion.flipped.size() > distortion.below_resolution.size()) {
         std::vector<Index> flipped;
-        std::ranges::set_difference(result.flipped, result.below_resolution, std::back_inserter(flipped));
+        std::ranges::set_difference(distortion.flipped, distortion.below_resolution, std::back_inserter(flipped));
         warnings.push_back({WarningKind::flipped, counted(flipped.size(), "face") + " flipped as 32-bit UVs", flipped});
     }
     if (!layout.crossing.empty())
@@ -147,16 +144,20 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     require_memory_for_faces(triangles.rows());
     const SerialDenseKernels serial;
     PartsLayout layout = parts_layout(vertices, triangles, options, context);
-    const PlanarPoints uv = stored(layout.uv);
+    const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report is true of it
 
     PartsResult result;
-    std::vector<Index> mapped;
+    result.vertex_count = static_cast<Index>(vertices.rows());
+    result.face_count = static_cast<Index>(triangles.rows());
+    std::vector<Index> mapped, left_out;
     for (std::size_t f = 0; f < layout.part.size(); ++f)
-        if (layout.part[f] >= 0) mapped.push_back(static_cast<Index>(f));
-    Distortion distortion = distortion_of(layout, uv, mapped);
-    result.flipped = std::move(distortion.flipped);
-    result.below_resolution = std::move(distortion.below_resolution);
-    result.angle_error_deg = distortion.angle_error_deg;
+        (layout.part[f] >= 0 ? mapped : left_out).push_back(static_cast<Index>(f));
+    result.uv.resize(uv.rows(), 2);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            result.uv.row(3 * f + k) = layout.uv.row(3 * f + mapped_corner(layout, triangles, f, k));
+    result.distortion = {distortion_of(layout, uv, mapped),
+                         judge_corners(vertices, triangles, result.uv, layout.reoriented, left_out)};
     result.parts = std::move(layout.parts);
     for (PartReport& part : result.parts)
         part.angle_error_deg = distortion_of(layout, uv, part.faces).angle_error_deg.mean;
@@ -165,17 +166,17 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.slit_length = layout.slit_length;
     result.handles_cut = layout.handles_cut;
     result.maps = layout.maps;
-    result.warnings = warnings_of(layout, result);
-    result.uv.resize(uv.rows(), 2);
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            result.uv.row(3 * f + k) = layout.uv.row(3 * f + mapped_corner(layout, triangles, f, k));
+    result.converged =
+        layout.crossing.empty() && result.distortion.flipped.size() == result.distortion.below_resolution.size();
+    result.warnings = warnings_of(layout, left_out, result.distortion);
+    take_verdict({.most_lost = options.most_lost, .advice = lower_price}, result);
     result.part = std::move(layout.part);
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.peak_memory_mb = peak_memory_mb();
+    result.seconds.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
 }
 
-void name_result(const CanonicalMesh& mesh, PartsResult& result)
+void name_parts(const CanonicalMesh& mesh, PartsResult& result)
 {
     mesh.name_corners(result.uv);
     mesh.name_values(result.part);
@@ -183,8 +184,7 @@ void name_result(const CanonicalMesh& mesh, PartsResult& result)
         mesh.name_faces(part.faces);
         for (VertexLoop& loop : part.loops) mesh.name_loop(loop);
     }
-    for (auto* faces : {&result.flipped, &result.below_resolution}) mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const
             for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
             return compute(mesh.vertices, mesh.triangles, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_parts);
     });
 }
 

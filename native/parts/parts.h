@@ -4,9 +4,8 @@
 #include "core/api.h"
 #include "core/execution.h"
 #include "core/types.h"
-#include "core/warning.h"
 #include "parts/part_map.h"
-#include "quality/distortion.h"
+#include "pipeline/result.h"
 
 #include <array>
 #include <vector>
@@ -17,6 +16,7 @@ struct PartsOptions {
     /// What a part costs, in area share times the u that lies outside the even window; a cut as long as the root of the
     /// area costs as much. Higher: fewer parts. Positive.
     double price = 0.0037;
+    double most_lost = most_lost_area;  ///< where a larger share of the area is lost as stored, the parts are not done
     bool cut =
         true;  ///< any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
@@ -38,7 +38,8 @@ struct PartReport {
     double angle_error_deg = 0.0;  ///< mean
 };
 
-struct PartsResult {
+/// Converged are parts that are one to one, and lose little as stored (PartsOptions::most_lost).
+struct PartsResult : MapReport {
     /// (3F, 2) in [0, 1]^2, corner 3 f + k of the input's face f. Across a cut the two sides differ.
     PlanarPoints uv;
     std::vector<Index> part;  ///< (F) of each face; -1: in none, as it is degenerate or the double of another
@@ -46,13 +47,9 @@ struct PartsResult {
     double cut_length = 0.0;   ///< of cuts and slits, over the root of the area
     double slit_length = 0.0;  ///< of the slits among them
     int handles_cut = 0;
-    double density_ratio_5_95 = 1.0;               ///< texel density, 95 % over 5 % of the area
-    double even_area = 0.0;                        ///< share of the area within the best factor 3 of texel density
-    std::vector<Index> flipped, below_resolution;  ///< as Distortion has them
-    AngleError angle_error_deg;
-    double seconds = 0.0;
-    double maps = 0.0;  ///< faces mapped, in faces of the surface
-    std::vector<Warning> warnings;
+    double density_ratio_5_95 = 1.0;  ///< texel density, 95 % over 5 % of the area
+    double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
+    double maps = 0.0;                ///< faces mapped, in faces of the surface
 };
 
 /// Cuts a surface into parts where that makes texels more even than a part and its cuts cost.

@@ -113,7 +113,7 @@ std::vector<Complex> tips(const PartMesh& part, const PartMap& map, const Window
         if (!label[f]) continue;
         const auto face = static_cast<Eigen::Index>(f);
         Tip& tip = all[piece[f]];
-        tip.cost += part.areas[face] * std::min(window.from - map.u[face], 6.0);
+        tip.cost += part.areas[face] * std::min(window.from - map.u[face], lost_cost);
         if (map.u[face] < tip.u) {
             tip.u = map.u[face];
             tip.place = map.centers[face];

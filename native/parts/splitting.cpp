@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "core/side_by_side.h"
+#include "parts/halving.h"
 #include "parts/piece_forecast.h"
 #include "parts/proposals.h"
 
@@ -15,13 +16,14 @@ namespace koebe {
 namespace {
 
 constexpr double remaining = 0.6;          // of an uneven child's cost, after it is split in its turn
-constexpr double lost_cost = 0.25;         // in u: what is left of a face's cost where the parent's map says nothing
+constexpr double unknown_cost = 0.25;      // in u, of a face that the parent's map has lost: its own may not
 constexpr std::size_t most_looked_at = 8;  // proposals of a part
 constexpr std::size_t most_verified = 3;   // of them
 constexpr double crumb_leaves = 0.9;       // of a part's area
 constexpr double least_return = 0.5;       // of the price, in cost that is gone at once
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
+constexpr double hopeless = 1.0;           // overflow over area: so uneven that any cut in two is better than none
 constexpr std::size_t few_open = 3;        // parts: what is done for each goes side by side, too
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
                                            // is so large that its cost matters
@@ -35,12 +37,12 @@ struct Split {
 
 double cost_of(const PartMap& map)
 {
-    return map.measured ? map.overflow : std::max(map.overflow - (6.0 - lost_cost) * map.lost_area, 0.0);
+    return map.measured ? map.overflow : std::max(map.overflow - (lost_cost - unknown_cost) * map.lost_area, 0.0);
 }
 
 double cost_of(const PieceForecast& forecast)
 {
-    return std::max(forecast.overflow - (6.0 - lost_cost) * forecast.lost_area, 0.0);
+    return std::max(forecast.overflow - (lost_cost - unknown_cost) * forecast.lost_area, 0.0);
 }
 
 /// What is left of a child's cost in the end.
@@ -161,6 +163,19 @@ void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threa
     for (const SplitEffort& own : efforts) effort.maps += own.maps;
 }
 
+std::vector<PartPointer> halved(const CutSurface& whole, const PartPointer& part, int threads,
+                                ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<PartPointer> children;
+    std::vector<Part*> unmapped;
+    for (std::vector<Index>& faces : pieces_of(part->mesh, halving(part->mesh))) {
+        children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, part}));
+        unmapped.push_back(children.back().get());
+    }
+    map_all(whole, unmapped, threads, context, effort);
+    return children;
+}
+
 std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
                                      ExecutionContext& context, SplitEffort& effort)
 {
@@ -205,6 +220,9 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
             return step;
         }
     }
+    if (part->map.overflow > std::max(options.part_price, hopeless * part->mesh.area))
+        step.open = halved(whole, part, threads, context, step.effort);
+    if (!step.open.empty()) return step;
     part->settled = true;
     step.settled = part;
     return step;

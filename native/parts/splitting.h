@@ -42,6 +42,11 @@ void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threa
 std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
                                      ExecutionContext& context, SplitEffort& effort);
 
+/// The part cut in two across its length (halving.h), whatever its map says, each piece with a map of its own; none if
+/// no curve was found.
+std::vector<PartPointer> halved(const CutSurface& whole, const PartPointer& part, int threads,
+                                ExecutionContext& context, SplitEffort& effort);
+
 /// Splits each part by the proposal of most gain, children judged by the parent's map, until nothing pays.
 /// Children whose loops are not round there are mapped before they are judged. Every part that stays has a map of its
 /// own.

@@ -19,8 +19,6 @@ namespace {
 constexpr double hash_unit = 1e-3;  // of lengths in a hash, over the longest edge that a walk may begin with
 constexpr int hash_rounds = 24;     // edges that a neighbourhood reaches
 
-using Key = std::pair<std::uint64_t, std::uint64_t>;
-
 std::uint64_t mixed(std::uint64_t x)
 {
     // The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
@@ -33,6 +31,8 @@ std::uint64_t mixed(std::uint64_t x)
 std::uint64_t whole(double units) { return units < 0x1p62 ? static_cast<std::uint64_t>(std::llround(units)) : 0u; }
 
 class StartFinder {
+    using Key = std::pair<std::uint64_t, std::uint64_t>;
+
 public:
     StartFinder(const JoinedFaces& faces, const Vertices& positions)
         : faces_(faces), positions_(positions), longest_(static_cast<std::size_t>(faces.patches), 0.0)

@@ -1,6 +1,6 @@
 #include "pipeline/cut_sheet.h"
 
-#include "core/counted.h"
+#include "circles/off_circle.h"
 #include "core/topology.h"
 #include "foldover/untangle.h"
 #include "quality/stored_uv.h"
@@ -79,22 +79,9 @@ void Sheet::turn_back(std::size_t piece, const Circle& place, MappedPiece& mappe
             if (std::ranges::find(loop.vertices, v) != loop.vertices.end()) loop.off_circle.push_back(v);
         std::ranges::sort(loop.off_circle);
     }
-    if (report.freed.empty()) return;
-    Warning freed{WarningKind::off_circle, counted(report.freed.size(), "vertex") +
-                                               " taken off the circle, where rounding in a small disk asks for it"};
-    for (const Index v : report.freed) freed.elements.push_back(own.source_vertex[static_cast<std::size_t>(v)]);
-    std::ranges::sort(freed.elements);
-    mapped.map.warnings.push_back(std::move(freed));
-}
-
-Distortion Sheet::distortion() const
-{
-    Distortion distortion = measure_distortion(vertices_, triangles_, points_);
-    for (auto* list : {&distortion.flipped, &distortion.below_resolution}) {
-        for (Index& f : *list) f = faces_[f];
-        std::ranges::sort(*list);
-    }
-    return distortion;
+    std::vector<Index> freed;
+    for (const Index v : report.freed) freed.push_back(own.source_vertex[static_cast<std::size_t>(v)]);
+    warn_off_circle(std::move(freed), mapped.map.warnings);
 }
 
 PlanarPoints Sheet::corners(Index face_count) const

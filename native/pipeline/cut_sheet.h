@@ -23,8 +23,8 @@ public:
     /// @param mapped still in the piece's own numbers
     void turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context);
 
-    /// Of all pieces as one; flipped and below_resolution by the input's faces.
-    Distortion distortion() const;
+    /// Of all pieces as one.
+    ComputedDistortion distortion() const { return measure_distortion(vertices_, triangles_, points_); }
 
     /// (3F, 2) u and v of the corners of the input's faces; NaN where a face is in no piece.
     PlanarPoints corners(Index face_count) const;

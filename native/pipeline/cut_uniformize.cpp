@@ -11,6 +11,7 @@
 #include "pipeline/cut_warnings.h"
 #include "pipeline/disk_packing.h"
 #include "pipeline/domain.h"
+#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
 
 #include <Eigen/Geometry>
@@ -115,6 +116,7 @@ private:
     UniformizeOptions options_for(std::size_t i) const
     {
         UniformizeOptions own = options_;
+        own.most_lost = 1.0;  // the verdict is on all pieces where they lie
         own.center = center_.piece == i ? center_.local : -1;
         own.point = point_.piece == i ? point_.local : -1;
         if (own.outer == OuterLoop::vertex) {
@@ -279,15 +281,18 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
         result.pieces[i].place = places[i];
         PieceMapper::rename(opened.pieces[i], result.pieces[i].map);
     }
-    result.distortion = sheet.distortion();
     result.uv = sheet.corners(result.face_count);
     draw_left_out(opened.left_out, triangles, result.uv);
     result.cuts = std::move(opened.cuts);
     result.left_out = std::move(opened.left_out);
+    std::vector<Index> left_out;
+    for (const LeftOutFace& out : result.left_out) left_out.push_back(out.face);
+    result.distortion = {sheet.distortion(), judge_corners(vertices, triangles, result.uv, result.turned, left_out)};
     result.handles = opened.handles;
     result.converged =
         result.converged && result.distortion.flipped.size() == result.distortion.below_resolution.size();
     result.warnings = cut_warnings(result);
+    take_verdict({.most_lost = options.most_lost, .done = true}, result);
     result.seconds.topology += opening;
     result.seconds.total = seconds_since(begin);
     result.peak_memory_mb = peak_memory_mb();
@@ -311,12 +316,10 @@ void name_piece(const CanonicalMesh& mesh, MappedPiece& piece)
         mesh.name_vertices(loop.off_circle);
     }
     for (Index* vertex : {&piece.map.center, &piece.map.point}) mesh.name_vertex(*vertex);
-    mesh.name_faces(piece.map.distortion.flipped);
-    mesh.name_faces(piece.map.distortion.below_resolution);
-    mesh.name_all(piece.map.warnings);
+    mesh.name_report(piece.map);
 }
 
-void name_result(const CanonicalMesh& mesh, CutUniformizeResult& result)
+void name_pieces(const CanonicalMesh& mesh, CutUniformizeResult& result)
 {
     mesh.name_corners(result.uv);
     for (MappedPiece& piece : result.pieces) name_piece(mesh, piece);
@@ -329,9 +332,8 @@ void name_result(const CanonicalMesh& mesh, CutUniformizeResult& result)
         mesh.name_face(out.like);
     }
     std::ranges::sort(result.left_out, {}, &LeftOutFace::face);
-    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
-        mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_faces(result.turned);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -344,7 +346,7 @@ CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangl
         const auto work = [&](const CanonicalMesh& mesh) {
             return cut_map_and_pack(mesh, mesh.of_faces(polygon), canonical_options(mesh, options), own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_pieces);
     });
 }
 

@@ -18,21 +18,16 @@ struct MappedPiece {
     bool mapped = true;  ///< false: no map could be made, all its corners lie on one point
 };
 
-struct CutUniformizeResult {
+/// Converged are all pieces; distortion is that of all, where they lie in the end; warnings of one kind are together.
+struct CutUniformizeResult : MapReport {
     PlanarPoints uv;  ///< (3F, 2) of each corner, in [0, 1]^2
     Method method = Method::gk;
     Engine engine = Engine::condensed;
-    Index vertex_count = 0, face_count = 0;
     std::vector<MappedPiece> pieces;
     std::vector<SurfaceCut> cuts;
     std::vector<LeftOutFace> left_out;  ///< these are drawn where the face is that they are like; not in any figure
     std::vector<Index> turned;          ///< faces that were turned to the orientation of their piece
     int handles = 0;                    ///< that were cut
-    bool converged = false;             ///< all pieces
-    Distortion distortion;              ///< of all pieces, where they lie in the end
-    StageSeconds seconds;
-    double peak_memory_mb = 0.0;
-    std::vector<Warning> warnings;  ///< of all pieces, those of one kind together
 };
 
 /// Opens, cuts and splits whatever `uniformize` refuses (cut/open_surface.h), maps every piece, and packs the disks

@@ -1,32 +1,13 @@
 #include "pipeline/map_report.h"
 
 #include "circles/circle_fit.h"
-#include "core/thread_share.h"
-#include "core/tolerances.h"
-#include "quality/stored_uv.h"
+#include "circles/off_circle.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace koebe {
 namespace {
-
-/// Flipped faces as a reader of the result finds them, who takes areas from the first corner of the input's faces.
-void report_flips(const Domain& whole, const PlanarPoints& uv, Distortion& distortion)
-{
-    distortion.flipped.clear();
-    distortion.below_resolution.clear();
-    const Triangles& triangles = whole.surface.triangles;
-    for (const Index f : found_in_pieces(static_cast<Index>(triangles.rows()), [&](Index i) {
-             return StoredFace(triangles, uv, i, whole.first_corners[i]).flipped();
-         })) {
-        const StoredFace face(triangles, uv, f, whole.first_corners[f]);
-        distortion.flipped.push_back(whole.original_faces[f]);
-        if (face.below_resolution()) distortion.below_resolution.push_back(whole.original_faces[f]);
-    }
-    std::sort(distortion.flipped.begin(), distortion.flipped.end());
-    std::sort(distortion.below_resolution.begin(), distortion.below_resolution.end());
-}
 
 LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
 {
@@ -40,8 +21,7 @@ LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
     for (const Index v : whole.loops[k]) {
         const Complex point(map.uv(v, 0), map.uv(v, 1));
         report.vertices.push_back(whole.original[v]);
-        if (std::ranges::binary_search(map.off_circle, v) ||
-            !(std::abs(std::abs(point - report.circle.center) - report.circle.radius) <= circle_tolerance))
+        if (std::ranges::binary_search(map.off_circle, v) || is_off_circle(report.circle, point))
             report.off_circle.push_back(whole.original[v]);
         else
             points[count++] = point;
@@ -55,14 +35,15 @@ LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
 
 }  // namespace
 
-void report_map(const Domain& whole, const CircleMap& map, UniformizeResult& result)
+void report_map(const Vertices& vertices, const Triangles& triangles, const Domain& whole, const CircleMap& map,
+                UniformizeResult& result)
 {
     result.loops.clear();
     for (std::size_t k = 0; k < whole.loops.size(); ++k) result.loops.push_back(report_loop(whole, map, k));
-    result.distortion = measure_distortion(whole.vertices, whole.surface.triangles, map.uv);
-    report_flips(whole, map.uv, result.distortion);
     result.uv = PlanarPoints::Zero(result.vertex_count, 2);
     result.uv(whole.original, Eigen::all) = map.uv;
+    result.distortion = {measure_distortion(whole.vertices, whole.surface.triangles, map.uv),
+                         judge_disk(vertices, triangles, result.uv, whole.surface.reoriented)};
 }
 
 }  // namespace koebe

@@ -9,7 +9,9 @@ namespace koebe {
 
 /// Fills uv, loops and distortion of the result. A loop vertex is off its circle if the map says so or if it lies
 /// farther from it than circle_tolerance.
-/// @param map of the domain @param result of a mesh of result.vertex_count vertices
-void report_map(const Domain& whole, const CircleMap& map, UniformizeResult& result);
+/// @param vertices, triangles of the input: as a reader of the result has them @param map of the domain
+/// @param result of a mesh of result.vertex_count vertices
+void report_map(const Vertices& vertices, const Triangles& triangles, const Domain& whole, const CircleMap& map,
+                UniformizeResult& result);
 
 }  // namespace koebe

@@ -1,5 +1,6 @@
 #include "pipeline/map_warnings.h"
 
+#include "circles/off_circle.h"
 #include "core/connectivity.h"
 #include "core/counted.h"
 #include "quality/stored_uv.h"
@@ -183,13 +184,9 @@ std::vector<Warning> flip_warnings(const Domain& whole, const PlanarPoints& uv, 
                                 "error " +
                                 figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh"});
     if (!flaps.empty()) warnings.push_back(flap_warning(whole, flaps));
-    if (!untangled.freed.empty()) {
-        Warning freed{WarningKind::off_circle, counted(untangled.freed.size(), "vertex") +
-                                                   " taken off the circle, where straight triangles cannot follow it"};
-        for (const Index v : untangled.freed) freed.elements.push_back(whole.original[v]);
-        std::sort(freed.elements.begin(), freed.elements.end());
-        warnings.push_back(std::move(freed));
-    }
+    std::vector<Index> freed;
+    for (const Index v : untangled.freed) freed.push_back(whole.original[v]);
+    warn_off_circle(std::move(freed), warnings);
     for (const LostRegion& region : lost_regions(whole, uv))
         warnings.push_back(
             {WarningKind::below_resolution,

@@ -4,6 +4,7 @@
 #include "core/types.h"
 #include "iteration/koebe_mesh_options.h"
 #include "iteration/koebe_outcome.h"
+#include "quality/verdict.h"
 
 #include <vector>
 
@@ -24,7 +25,8 @@ struct UniformizeOptions : IterationOptions {
     /// With Balance::area, of each vertex, 0 to 1: the balance takes the surface there for most_important^w times as
     /// large in length, so that it gets more texels; empty: all alike. Equal ones change nothing.
     std::vector<double> importance = {};
-    bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    double most_lost = most_lost_area;  ///< a warning comes first where a larger share of the area is lost as stored
+    bool polish = false;                ///< least angle error with the circles as they are, at the end (angle_polish.h)
     bool repair = true;  ///< false: as the iteration leaves it, faces may be turned over; for maps that are only judged
     /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};

@@ -51,8 +51,10 @@ VectorXcd places_of_loops(const Problem& problem);
 /// any.
 void lay_over_first(Problem& problem);
 
-/// The map of a problem, and its report. @param prepare makes the problem ready; its time counts as topology
-UniformizeResult map_problem(const std::function<Problem&()>& prepare, const UniformizeOptions& options,
+/// The map of a problem, and its report. @param vertices, triangles of the input, which the report is on
+/// @param prepare makes the problem ready; its time counts as topology
+UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangles,
+                             const std::function<Problem&()>& prepare, const UniformizeOptions& options,
                              ExecutionContext& context);
 
 }  // namespace koebe

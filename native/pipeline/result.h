@@ -39,26 +39,30 @@ struct StageSeconds {
     }
 };
 
-struct UniformizeResult {
+/// What every map reports, whatever its domain.
+struct MapReport {
+    Index vertex_count = 0, face_count = 0;
+    bool converged = false;  ///< false: the map is not done, and a warning says why
+    Distortion distortion;
+    StageSeconds seconds;
+    double peak_memory_mb = 0.0;
+    std::vector<Warning> warnings;
+};
+
+struct UniformizeResult : MapReport {
     PlanarPoints uv;  ///< (V, 2) points of the closed unit disk, in the input's vertex order
     Method method = Method::gk;
     Engine engine = Engine::condensed;
-    Index vertex_count = 0, face_count = 0;
     std::vector<LoopReport> loops;  ///< the outer loop first
     int outer_loop = 0;             ///< lowest-vertex rank of the outer loop among the input's loops
     Index center = -1, point = -1;  ///< vertices at 0 and at 1, as they were asked for
-    bool converged = false;
     int sweeps = 0, steps = 0;
     std::vector<KoebeStep> history;
     /// (V, 2) per step, if asked for: its own image, the first loop that it opened on the unit circle; NaN for vertices
     /// that are not in it, or that it could not place.
     std::vector<PlanarPoints> step_images;
-    Distortion distortion;
     std::optional<AreaDistortion> unbalanced_area;         ///< before the balance, if one was asked for
     std::optional<AngleError> unpolished_angle_error_deg;  ///< before the polish, if one was asked for
-    StageSeconds seconds;
-    double peak_memory_mb = 0.0;
-    std::vector<Warning> warnings;
 };
 
 }  // namespace koebe

@@ -67,7 +67,7 @@ UniformizeResult SurfaceSolver::uniformize(const Vertices& vertices, ExecutionCo
             problem->first_places = places;
             return *problem;
         };
-        return map_problem(prepare, options, own);
+        return map_problem(vertices, *triangles, prepare, options, own);
     };
     UniformizeResult result = run_detachable<UniformizeResult>(context, compute);
     if (impl_->first_places.size() == 0 && result.converged) impl_->first_places = places_of_loops(*problem);

@@ -6,6 +6,7 @@
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/peak_memory.h"
+#include "core/stopwatch.h"
 #include "core/thread_share.h"
 #include "embedding/embedded_map.h"
 #include "embedding/fixed_places.h"
@@ -19,9 +20,9 @@
 #include "pipeline/normalization.h"
 #include "pipeline/outer_loop.h"
 #include "pipeline/problem.h"
+#include "pipeline/take_verdict.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -31,21 +32,6 @@
 
 namespace koebe {
 namespace {
-
-class Stopwatch {
-public:
-    /// Seconds since the last lap.
-    double lap()
-    {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// Least angles between the vertices of the outer loop: three neighbours s apart make a face s^2 / 2 high, which 32-bit
 /// UVs must tell from none.
@@ -145,7 +131,8 @@ void rename(std::vector<Index>& numbers, const std::vector<Index>& names)
 
 }  // namespace
 
-UniformizeResult map_problem(const std::function<Problem&()>& prepare, const UniformizeOptions& options,
+UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangles,
+                             const std::function<Problem&()>& prepare, const UniformizeOptions& options,
                              ExecutionContext& context)
 {
     UniformizeResult result;
@@ -225,7 +212,7 @@ UniformizeResult map_problem(const std::function<Problem&()>& prepare, const Uni
             measure_distortion(whole.vertices, whole.surface.triangles, map->uv).angle_error_deg;
         polish(whole, *map, faults, context);
     }
-    report_map(whole, *map, result);
+    report_map(vertices, triangles, whole, *map, result);
     if (!options.vertex_names.empty()) rename(problem.whole.original, options.vertex_names);
     if (!options.face_names.empty()) rename(problem.whole.original_faces, options.face_names);
     append(result.warnings, circle_warnings(*map));
@@ -243,6 +230,7 @@ UniformizeResult map_problem(const std::function<Problem&()>& prepare, const Uni
         result.warnings.push_back(
             faults.warning("no one-to-one map was found: ", whole.original, whole.original_faces));
     }
+    take_verdict({.most_lost = options.most_lost, .done = true}, result);
     result.seconds.finish += stage.lap();
     result.seconds.total = total.lap();
     result.peak_memory_mb = peak_memory_mb();
@@ -254,8 +242,9 @@ UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& tria
                                  ExecutionContext& context)
 {
     Problem problem;
-    return map_problem([&]() -> Problem& { return problem = prepare_problem(vertices, triangles, options); }, options,
-                       context);
+    return map_problem(
+        vertices, triangles, [&]() -> Problem& { return problem = prepare_problem(vertices, triangles, options); },
+        options, context);
 }
 
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,

@@ -9,11 +9,11 @@
 namespace koebe {
 namespace {
 
-struct Edge {
+struct LoopEdge {
     Index from, to;
 };
 
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Edge>;
+using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
 
 }  // namespace
 
@@ -21,10 +21,10 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
                                                              const PlanarPoints& points, double shortest)
 {
     const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
-    std::vector<Box> boxes;
+    std::vector<EdgeBox> boxes;
     for (const VertexLoop& loop : loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Edge edge{loop[i], loop[(i + 1) % loop.size()]};
+            const LoopEdge edge{loop[i], loop[(i + 1) % loop.size()]};
             const Complex a = at(edge.from), b = at(edge.to);
             if (!(std::abs(b - a) >= shortest)) continue;
             double low[2] = {std::min(a.real(), b.real()), std::min(a.imag(), b.imag())};
@@ -32,8 +32,8 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
             boxes.emplace_back(low, high, edge);
         }
     std::vector<std::pair<Index, Index>> crossings;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& first, const Box& second) {
-        const Edge e = first.info(), f = second.info();
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const EdgeBox& first, const EdgeBox& second) {
+        const LoopEdge e = first.info(), f = second.info();
         if (e.from == f.from || e.from == f.to || e.to == f.from || e.to == f.to) return;
         if (segments_meet(at(e.from), at(e.to), at(f.from), at(f.to)))
             crossings.emplace_back(std::minmax(e.from, f.from));

@@ -168,6 +168,7 @@ PYBIND11_MODULE(_koebe, m)
         .def_readwrite("center", &UniformizeOptions::center)
         .def_readwrite("point", &UniformizeOptions::point)
         .def_readwrite("tolerance", &UniformizeOptions::tolerance)
+        .def_readwrite("most_lost", &UniformizeOptions::most_lost)
         .def_readwrite("max_sweeps", &UniformizeOptions::max_sweeps)
         .def_readwrite("balance", &UniformizeOptions::balance)
         .def_readwrite("importance", &UniformizeOptions::importance)
@@ -178,15 +179,16 @@ PYBIND11_MODULE(_koebe, m)
     for (int k = 0; k <= static_cast<int>(WarningKind::not_mapped); ++k)
         warning_elements[to_string(static_cast<WarningKind>(k))] = to_string(elements_of(static_cast<WarningKind>(k)));
     m.attr("warning_elements") = warning_elements;
-    py::class_<UniformizeResult>(m, "UniformizeResult")
+    py::class_<MapReport>(m, "MapReport").def_property_readonly("flipped_faces", [](const MapReport& r) {
+        return array_of(r.distortion.flipped);
+    });
+    py::class_<UniformizeResult, MapReport>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
         .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; })
-        .def_property_readonly("flipped_faces", [](const UniformizeResult& r) { return r.distortion.flipped; })
         .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
 
-    py::class_<CutUniformizeResult>(m, "CutUniformizeResult")
+    py::class_<CutUniformizeResult, MapReport>(m, "CutUniformizeResult")
         .def_property_readonly("uv", [](const CutUniformizeResult& r) { return r.uv; })
-        .def_property_readonly("flipped_faces", [](const CutUniformizeResult& r) { return r.distortion.flipped; })
         .def("report", [](const CutUniformizeResult& r) { return to_object(to_json(r)); });
 
     py::class_<MappedSurface>(m, "MappedSurface")
@@ -228,23 +230,28 @@ PYBIND11_MODULE(_koebe, m)
                                                  });
         }));
     });
-    py::class_<PartsResult>(m, "PartsResult")
+    py::class_<PartsResult, MapReport>(m, "PartsResult")
         .def_property_readonly("uv", [](const PartsResult& r) { return r.uv; })
         .def_property_readonly("part",
                                [](const PartsResult& r) { return py::array_t<Index>(r.part.size(), r.part.data()); })
-        .def_property_readonly("flipped_faces", [](const PartsResult& r) { return r.flipped; })
         .def("report", [](const PartsResult& r) { return to_object(to_json(r)); });
     m.attr("default_price") = PartsOptions{}.price;
-    m.def("parts", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                      double price, bool cut, const std::vector<Index>& polygon,
-                      const std::vector<std::array<Index, 2>>& slits, bool round_cuts, const py::object& progress,
-                      const CancelToken& cancel) {
-        return without_gil(progress, cancel, [&](ExecutionContext& context) {
-            return parts_of(vertices, triangles,
-                            {.price = price, .cut = cut, .polygon = polygon, .slits = slits, .round_cuts = round_cuts},
-                            context);
-        });
-    });
+    m.attr("most_lost_area") = most_lost_area;
+    m.def("parts",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles, double price,
+             bool cut, const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& slits,
+             bool round_cuts, double most_lost, const py::object& progress, const CancelToken& cancel) {
+              return without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return parts_of(vertices, triangles,
+                                  {.price = price,
+                                   .most_lost = most_lost,
+                                   .cut = cut,
+                                   .polygon = polygon,
+                                   .slits = slits,
+                                   .round_cuts = round_cuts},
+                                  context);
+              });
+          });
     py::enum_<RingHoles>(m, "RingHoles")
         .value("circles", RingHoles::circles)
         .value("concentric", RingHoles::concentric)
@@ -252,14 +259,14 @@ PYBIND11_MODULE(_koebe, m)
     py::class_<TileOptions>(m, "TileOptions")
         .def(py::init<>())
         .def_readwrite("tolerance", &TileOptions::tolerance)
+        .def_readwrite("most_lost", &TileOptions::most_lost)
         .def_readwrite("max_sweeps", &TileOptions::max_sweeps)
         .def_readwrite("holes", &TileOptions::holes)
         .def_readwrite("outer", &TileOptions::outer)
         .def_readwrite("inner", &TileOptions::inner)
         .def_readwrite("polygon", &TileOptions::polygon);
-    py::class_<TileResult>(m, "TileResult")
+    py::class_<TileResult, MapReport>(m, "TileResult")
         .def_property_readonly("uv", [](const TileResult& r) { return r.uv; })
-        .def_property_readonly("flipped_faces", [](const TileResult& r) { return r.distortion.flipped; })
         .def("report", [](const TileResult& r) { return to_object(to_json(r)); });
     m.def("torus_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                           const TileOptions& options, const py::object& progress, const CancelToken& cancel) {
@@ -277,13 +284,13 @@ PYBIND11_MODULE(_koebe, m)
     py::class_<SphereOptions>(m, "SphereOptions")
         .def(py::init<>())
         .def_readwrite("tolerance", &SphereOptions::tolerance)
+        .def_readwrite("most_lost", &SphereOptions::most_lost)
         .def_readwrite("max_sweeps", &SphereOptions::max_sweeps)
         .def_readwrite("layout", &SphereOptions::layout)
         .def_readwrite("polygon", &SphereOptions::polygon);
-    py::class_<SphereResult>(m, "SphereResult")
+    py::class_<SphereResult, MapReport>(m, "SphereResult")
         .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
         .def_property_readonly("uv", [](const SphereResult& r) { return r.uv; })
-        .def_property_readonly("flipped_faces", [](const SphereResult& r) { return r.distortion.flipped; })
         .def("report", [](const SphereResult& r, SphereLayout layout) { return to_object(to_json(r, layout)); });
     m.def("sphere_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const SphereOptions& options, const py::object& progress, const CancelToken& cancel) {
@@ -298,11 +305,11 @@ PYBIND11_MODULE(_koebe, m)
         .def(py::init<>())
         .def_readwrite("normalization", &SchottkyOptions::normalization)
         .def_readwrite("tolerance", &SchottkyOptions::tolerance)
+        .def_readwrite("most_lost", &SchottkyOptions::most_lost)
         .def_readwrite("max_sweeps", &SchottkyOptions::max_sweeps)
         .def_readwrite("polygon", &SchottkyOptions::polygon);
-    py::class_<SchottkyResult>(m, "SchottkyResult")
+    py::class_<SchottkyResult, MapReport>(m, "SchottkyResult")
         .def_property_readonly("uv", [](const SchottkyResult& r) { return r.uv; })
-        .def_property_readonly("flipped_faces", [](const SchottkyResult& r) { return r.distortion.flipped; })
         .def("report", [](const SchottkyResult& r) { return to_object(to_json(r)); });
     m.def("schottky_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                              const SchottkyOptions& options, const py::object& progress, const CancelToken& cancel) {
@@ -360,10 +367,10 @@ PYBIND11_MODULE(_koebe, m)
     });
     m.def("distortion", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const Eigen::Ref<const PlanarPoints>& uv) {
-        return to_object(
-            to_json(detached([positions = Vertices(vertices), faces = Triangles(triangles),
-                              points = PlanarPoints(uv)] { return measure_distortion(positions, faces, points); },
-                             triangles.rows() < small_mesh)));
+        const auto measure = [positions = Vertices(vertices), faces = Triangles(triangles), points = PlanarPoints(uv)] {
+            return Distortion{measure_distortion(positions, faces, points), judge_disk(positions, faces, points)};
+        };
+        return to_object(to_json(detached(measure, triangles.rows() < small_mesh)));
     });
     m.def("conformal_module", [](const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& order) {
         return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); },

@@ -1,60 +1,26 @@
 #include "quality/distortion.h"
 
-#include "core/length.h"
 #include "core/thread_share.h"
-#include "quality/stored_uv.h"
-#include "surface/laplacian.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace koebe {
 namespace {
 
-constexpr double degrees = 180.0 / std::numbers::pi;
-constexpr double thin = 1e-10;  // twice the area over the squared longest edge, dimensionless
 constexpr double log_area_floor = 1e-300;
-
-/// A triangle of the surface laid into the plane: corners 0, p1 = (length, 0), p2.
-struct FlatTriangle {
-    double p1x, p2x, p2y;
-};
-
-FlatTriangle lay_flat(const Vertices& vertices, const Triangles& triangles, Eigen::Index f)
-{
-    const Eigen::RowVector3d e1 = vertices.row(triangles(f, 1)) - vertices.row(triangles(f, 0));
-    const Eigen::RowVector3d e2 = vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 0));
-    const double length = length_of(e1);
-    if (!(length > 0.0)) return {0.0, 0.0, 0.0};
-    const Eigen::RowVector3d direction = e1 / length;
-    return {length, direction.dot(e2), length_of(direction.cross(e2))};
-}
-
-/// The angle from the corner (a, b) to the corner (c, d), both counted as positive and below pi.
-double angle_change(double ax, double ay, double bx, double by, double cx, double cy, double dx, double dy)
-{
-    const double cos1 = ax * bx + ay * by, sin1 = std::abs(ax * by - ay * bx);
-    const double cos2 = cx * dx + cy * dy, sin2 = std::abs(cx * dy - cy * dx);
-    return std::atan2(sin2 * cos1 - cos2 * sin1, cos1 * cos2 + sin1 * sin2);
-}
 
 /// What some faces add to the measures.
 struct FaceSums {
-    double angle_sum = 0.0, angle_squares = 0.0, angle_max = 0.0, corners = 0.0;
+    AngleSums angles;
     double mu_sum = 0.0, mu_max = 0.0, surface_area = 0.0, log_sum = 0.0, log_squares = 0.0;
     double dirichlet = 0.0, image_area = 0.0;
     double log_min = std::numeric_limits<double>::infinity(), log_max = -log_min;
 
     void add(const FaceSums& more)
     {
-        angle_sum += more.angle_sum;
-        angle_squares += more.angle_squares;
-        angle_max = std::max(angle_max, more.angle_max);
-        corners += more.corners;
+        angles.add(more.angles);
         mu_sum += more.mu_sum;
         mu_max = std::max(mu_max, more.mu_max);
         surface_area += more.surface_area;
@@ -69,24 +35,15 @@ struct FaceSums {
 
 /// A face on the surface and in the plane, its first corner in 0.
 struct FacePair {
-    FacePair(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index f)
-        : flat(lay_flat(vertices, triangles, f)),
+    FacePair(const FlatFaces& faces, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index f)
+        : flat(faces(f)),
           ax(uv(triangles(f, 1), 0) - uv(triangles(f, 0), 0)),
           ay(uv(triangles(f, 1), 1) - uv(triangles(f, 0), 1)),
           bx(uv(triangles(f, 2), 0) - uv(triangles(f, 0), 0)),
           by(uv(triangles(f, 2), 1) - uv(triangles(f, 0), 1)),
           uv_area(0.5 * (ax * by - ay * bx)),
-          area(0.5 * flat.p1x * flat.p2y)
+          area(flat.area())
     {
-    }
-
-    /// Whether it has angles to speak of.
-    bool counts() const
-    {
-        const double height_squared = flat.p2y * flat.p2y, rest = flat.p2x - flat.p1x;
-        const double longest_squared =
-            std::max({flat.p1x * flat.p1x, flat.p2x * flat.p2x + height_squared, rest * rest + height_squared});
-        return 2.0 * area > thin * longest_squared;
     }
 
     double log_area_ratio() const { return std::log(std::max(std::abs(uv_area), log_area_floor) / area); }
@@ -101,18 +58,9 @@ void add_face(const FacePair& face, double log_origin, FaceSums& sums)
     const FlatTriangle& flat = face.flat;
     const double ax = face.ax, ay = face.ay, bx = face.bx, by = face.by, area = face.area;
     sums.image_area += face.uv_area;
-    if (!face.counts()) return;
+    if (!flat.has_angles()) return;
 
-    // Corners 0 and 1 of the triangles 0, p1, p2 and 0, a, b; the third takes up what they change.
-    const double first = angle_change(flat.p1x, 0.0, flat.p2x, flat.p2y, ax, ay, bx, by);
-    const double second = angle_change(-flat.p1x, 0.0, flat.p2x - flat.p1x, flat.p2y, -ax, -ay, bx - ax, by - ay);
-    for (const double change : {first, second, first + second}) {
-        const double error = degrees * std::abs(change);
-        sums.angle_sum += error;
-        sums.angle_squares += error * error;
-        sums.angle_max = std::max(sums.angle_max, error);
-        sums.corners += 1.0;
-    }
+    sums.angles.add(angle_errors(flat, ax, ay, bx, by));
 
     // Jacobian columns d/dx and d/dy; f_z and f_zbar from them.
     const double fx_x = ax / flat.p1x, fx_y = ay / flat.p1x;
@@ -136,9 +84,10 @@ FaceSums sums_over_faces(const Vertices& vertices, const Triangles& triangles, c
 {
     constexpr std::size_t at_a_time = 65536;  // up to which the sums are those of one pass
     const std::size_t faces = static_cast<std::size_t>(triangles.rows());
+    const FlatFaces flat(vertices, triangles);
     double log_origin = 0.0;  // the first ratio
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        if (const FacePair face(vertices, triangles, uv, f); face.counts()) {
+        if (const FacePair face(flat, triangles, uv, f); face.flat.has_angles()) {
             log_origin = face.log_area_ratio();
             break;
         }
@@ -146,7 +95,7 @@ FaceSums sums_over_faces(const Vertices& vertices, const Triangles& triangles, c
     in_pieces(faces, at_a_time, [&](std::size_t begin, std::size_t end) {
         FaceSums sums;
         for (std::size_t f = begin; f < end; ++f)
-            add_face(FacePair(vertices, triangles, uv, static_cast<Eigen::Index>(f)), log_origin, sums);
+            add_face(FacePair(flat, triangles, uv, static_cast<Eigen::Index>(f)), log_origin, sums);
         parts[begin / at_a_time] = sums;
     });
     FaceSums result;
@@ -156,28 +105,12 @@ FaceSums sums_over_faces(const Vertices& vertices, const Triangles& triangles, c
 
 }  // namespace
 
-std::vector<Index> flipped_faces(const Triangles& triangles, const PlanarPoints& uv)
+ComputedDistortion measure_distortion(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv)
 {
-    return found_in_pieces(static_cast<Index>(triangles.rows()),
-                           [&](Index f) { return StoredFace(triangles, uv, f).flipped(); });
-}
-
-Distortion measure_distortion(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv)
-{
-    Distortion result;
-    result.flipped = flipped_faces(triangles, uv);
-    for (const Index f : result.flipped)
-        if (StoredFace(triangles, uv, f).below_resolution()) result.below_resolution.push_back(f);
-
+    ComputedDistortion result;
     const FaceSums sums = sums_over_faces(vertices, triangles, uv);
-    result.angle_error_deg.max = sums.angle_max;
+    result.angle_error_deg = sums.angles.error();
     result.beltrami.max = sums.mu_max;
-    if (sums.corners > 0.0) {
-        result.angle_error_deg.mean = sums.angle_sum / sums.corners;
-        const double variance =
-            sums.angle_squares / sums.corners - result.angle_error_deg.mean * result.angle_error_deg.mean;
-        result.angle_error_deg.sd = std::sqrt(std::max(variance, 0.0));
-    }
     if (sums.surface_area > 0.0) {
         const double log_mean = sums.log_sum / sums.surface_area;
         result.beltrami.mean = sums.mu_sum / sums.surface_area;

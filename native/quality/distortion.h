@@ -3,14 +3,10 @@
 
 #include "core/api.h"
 #include "core/types.h"
-
-#include <vector>
+#include "quality/angle_error.h"
+#include "quality/verdict.h"
 
 namespace koebe {
-
-struct AngleError {  ///< degrees, |angle in UV - angle on the surface| over all corners
-    double mean = 0.0, sd = 0.0, max = 0.0;
-};
 
 struct Beltrami {  ///< |mu| of the face-wise linear maps, dimensionless
     double mean = 0.0, max = 0.0;
@@ -21,25 +17,24 @@ struct AreaDistortion {
     double log_sd = 0.0, log_min = 0.0, log_max = 0.0;
 };
 
-struct Distortion {
+/// Of a map in 64 bits.
+struct ComputedDistortion {
     AngleError angle_error_deg;
     Beltrami beltrami;
     AreaDistortion area;
     double conformal_energy = 0.0;  ///< Dirichlet energy - area of the map (0 iff conformal), unit-disk area units
-    std::vector<Index> flipped;     ///< faces with signed area <= 0, u and v rounded to 32 bits
-    std::vector<Index> below_resolution;  ///< those of them whose longest UV edge is under uv_resolution
 };
 
-/// Angle error, Beltrami coefficient, area distortion, conformal energy and flips of a map into the plane.
+/// Of a map as it was computed and as it is stored.
+struct Distortion : ComputedDistortion, Verdict {};
+
+/// Angle error, Beltrami coefficient, area distortion and conformal energy of a map into the plane.
 ///
 /// Angles are compared corner by corner, |angle in UV - angle on the surface|; corners of faces that have no area on
 /// the surface have no angle and are left out. mu = f_zbar / f_z of the linear map of each face. The conformal energy
 /// is the Dirichlet energy of the map less its area, 1/2 sum cot |dz|^2 - area (Pinkall and Polthier 1993).
-/// Flips are judged with u and v rounded to 32-bit floats, in the UV convention u = (1 + x) / 2, v = (1 + y) / 2.
 /// @param vertices (V, 3) @param triangles (F, 3) @param uv (V, 2) points of the unit disk
-KOEBE_API Distortion measure_distortion(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv);
-
-/// Faces whose signed area is not positive with u and v rounded to 32-bit floats and the area computed in 64 bits.
-std::vector<Index> flipped_faces(const Triangles& triangles, const PlanarPoints& uv);
+KOEBE_API ComputedDistortion measure_distortion(const Vertices& vertices, const Triangles& triangles,
+                                                const PlanarPoints& uv);
 
 }  // namespace koebe

@@ -13,14 +13,24 @@ struct StoredPoint {
     double u, v;
 };
 
+/// As a 32-bit float has it. Through memory: GCC 12 leaves the rounding out where it does that to two numbers at once.
+inline double as_stored(double coordinate)
+{
+    const volatile float stored = static_cast<float>(coordinate);
+    return stored;
+}
+
 inline StoredPoint stored_point(const PlanarPoints& points, Index vertex)
 {
-    return {static_cast<double>(static_cast<float>(0.5 * (1.0 + points(vertex, 0)))),
-            static_cast<double>(static_cast<float>(0.5 * (1.0 + points(vertex, 1))))};
+    return {as_stored(0.5 * (1.0 + points(vertex, 0))), as_stored(0.5 * (1.0 + points(vertex, 1)))};
 }
 
 /// A face as stored; area and edge are computed in 64 bits.
 struct StoredFace {
+    StoredFace(const StoredPoint& first, const StoredPoint& second, const StoredPoint& third)
+        : a(first), b(second), c(third)
+    {
+    }
     /// @param first the corner that the area is taken from: its last digits depend on that
     StoredFace(const Triangles& triangles, const PlanarPoints& points, Eigen::Index f, int first = 0)
         : a(stored_point(points, triangles(f, first))),

@@ -44,26 +44,17 @@ Json left_out_json(const std::vector<LeftOutFace>& left_out)
 
 Json to_json(const CutUniformizeResult& result)
 {
-    Json report{{"version", KOEBE_VERSION},
-                {"input", ""},
-                {"vertices", result.vertex_count},
-                {"faces", result.face_count},
-                {"method", to_string(result.method)},
-                {"engine", to_string(result.engine)},
-                {"cut", true},
-                {"converged", result.converged},
-                {"cuts", cuts_json(result.cuts)},
-                {"handles_cut", result.handles},
-                {"left_out", left_out_json(result.left_out)},
-                {"turned", result.turned}};
     Json pieces = Json::array();
     for (const MappedPiece& piece : result.pieces) pieces.push_back(piece_json(piece));
-    report["pieces"] = std::move(pieces);
-    report.update(to_json(result.distortion));
-    report["seconds"] = to_json(result.seconds);
-    report["peak_memory_mb"] = result.peak_memory_mb;
-    report["warnings"] = to_json(result.warnings);
-    return report;
+    return report_json(result, {{"method", to_string(result.method)},
+                                {"engine", to_string(result.engine)},
+                                {"cut", true},
+                                {"converged", result.converged},
+                                {"cuts", cuts_json(result.cuts)},
+                                {"handles_cut", result.handles},
+                                {"left_out", left_out_json(result.left_out)},
+                                {"turned", result.turned},
+                                {"pieces", std::move(pieces)}});
 }
 
 }  // namespace koebe

@@ -49,6 +49,8 @@ Json area_json(const AreaDistortion& area)
     return {{"log_sd", area.log_sd}, {"log_min", area.log_min}, {"log_max", area.log_max}};
 }
 
+Json angle_json(const AngleError& error) { return {{"mean", error.mean}, {"sd", error.sd}, {"max", error.max}}; }
+
 Json warning_json(const Warning& warning)
 {
     return {{"kind", to_string(warning.kind)}, {"elements", warning.elements}, {"text", warning.text()}};
@@ -70,10 +72,9 @@ const char* to_string(Engine engine) noexcept { return engine == Engine::condens
 
 Json to_json(const Distortion& distortion)
 {
-    return {{"angle_error_deg",
-             {{"mean", distortion.angle_error_deg.mean},
-              {"sd", distortion.angle_error_deg.sd},
-              {"max", distortion.angle_error_deg.max}}},
+    return {{"angle_error_deg", angle_json(distortion.angle_error_deg)},
+            {"angle_error_stored_deg", angle_json(distortion.angle_error_stored_deg)},
+            {"lost_area", distortion.lost_area},
             {"beltrami", {{"mean", distortion.beltrami.mean}, {"max", distortion.beltrami.max}}},
             {"area_distortion", area_json(distortion.area)},
             {"conformal_energy", distortion.conformal_energy},
@@ -90,27 +91,34 @@ Json to_json(const StageSeconds& seconds)
 
 Json to_json(const std::vector<Warning>& warnings) { return array_json(warnings, warning_json); }
 
+Json report_json(const MapReport& map, const Json& own)
+{
+    Json report{{"version", KOEBE_VERSION}, {"input", ""}, {"vertices", map.vertex_count}, {"faces", map.face_count}};
+    report.update(own);
+    report["converged"] = map.converged;
+    report.update(to_json(map.distortion));
+    report.update({{"seconds", to_json(map.seconds)},
+                   {"peak_memory_mb", map.peak_memory_mb},
+                   {"warnings", to_json(map.warnings)}});
+    return report;
+}
+
 Json to_json(const UniformizeResult& result)
 {
-    Json report{{"version", KOEBE_VERSION},           {"input", ""},
-                {"vertices", result.vertex_count},    {"faces", result.face_count},
-                {"method", to_string(result.method)}, {"engine", to_string(result.engine)},
-                {"outer_loop", result.outer_loop}};
-    if (result.center >= 0) report["center"] = result.center;
-    if (result.point >= 0) report["point"] = result.point;
-    report.update({{"converged", result.converged},
-                   {"sweeps", result.sweeps},
-                   {"steps", result.steps},
-                   {"history", array_json(result.history, step_json)},
-                   {"loops", array_json(result.loops, loop_json)},
-                   {"mean_roundness", mean_roundness_json(result.loops)}});
-    report.update(to_json(result.distortion));
+    Json own{
+        {"method", to_string(result.method)}, {"engine", to_string(result.engine)}, {"outer_loop", result.outer_loop}};
+    if (result.center >= 0) own["center"] = result.center;
+    if (result.point >= 0) own["point"] = result.point;
+    own.update({{"converged", result.converged},
+                {"sweeps", result.sweeps},
+                {"steps", result.steps},
+                {"history", array_json(result.history, step_json)},
+                {"loops", array_json(result.loops, loop_json)},
+                {"mean_roundness", mean_roundness_json(result.loops)}});
+    Json report = report_json(result, own);
     if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);
     if (result.unpolished_angle_error_deg)
         report["angle_error_deg"]["before_polish"] = result.unpolished_angle_error_deg->mean;
-    report.update({{"seconds", to_json(result.seconds)},
-                   {"peak_memory_mb", result.peak_memory_mb},
-                   {"warnings", to_json(result.warnings)}});
     return report;
 }
 

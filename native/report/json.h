@@ -17,8 +17,12 @@ KOEBE_API const char* to_string(Engine engine) noexcept;
 /// finite becomes null. "input" is empty: the front end that read a file puts its name there.
 KOEBE_API nlohmann::ordered_json to_json(const UniformizeResult& result);
 
-/// The part of it that judges a map: angle_error_deg, beltrami, area_distortion, conformal_energy, flipped,
-/// below_resolution (the last two as counts).
+/// What all maps report, round the entries that one kind has for itself: version, input, vertices, faces; those;
+/// converged, unless they have it in its place; the distortion, seconds, peak_memory_mb, warnings.
+nlohmann::ordered_json report_json(const MapReport& map, const nlohmann::ordered_json& own);
+
+/// The part of it that judges a map: angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion,
+/// conformal_energy, flipped, below_resolution (the last two as counts).
 KOEBE_API nlohmann::ordered_json to_json(const Distortion& distortion);
 
 /// Seconds of each stage by its name.

@@ -14,23 +14,16 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                          {"angle_error_deg", part.angle_error_deg},
                          {"loops", part.loops},
                          {"off_round", part.off_round}});
-    return {{"version", KOEBE_VERSION},
-            {"input", ""},
-            {"parts", std::move(parts)},
-            {"cut_length", result.cut_length},
-            {"slit_length", result.slit_length},
-            {"handles_cut", result.handles_cut},
-            {"density_ratio_5_95", result.density_ratio_5_95},
-            {"even_area", result.even_area},
-            {"flipped", result.flipped.size()},
-            {"below_resolution", result.below_resolution.size()},
-            {"angle_error_deg",
-             {{"mean", result.angle_error_deg.mean},
-              {"sd", result.angle_error_deg.sd},
-              {"max", result.angle_error_deg.max}}},
-            {"seconds", result.seconds},
-            {"maps", result.maps},
-            {"warnings", to_json(result.warnings)}};
+    Json report = report_json(result, {{"parts", std::move(parts)},
+                                       {"converged", result.converged},
+                                       {"cut_length", result.cut_length},
+                                       {"slit_length", result.slit_length},
+                                       {"handles_cut", result.handles_cut},
+                                       {"density_ratio_5_95", result.density_ratio_5_95},
+                                       {"even_area", result.even_area},
+                                       {"maps", result.maps}});
+    report["seconds"] = result.seconds.total;
+    return report;
 }
 
 }  // namespace koebe

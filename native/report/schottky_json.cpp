@@ -28,6 +28,7 @@ Json hole_json(const SchottkyHole& hole)
     json.update(circle_entry(hole.circle));
     json["roundness"] = hole.roundness.paper;
     json["roundness_least_squares"] = hole.roundness.least_squares;
+    json["off_circle"] = hole.off_circle;
     return json;
 }
 
@@ -38,17 +39,13 @@ Json to_json(const SchottkyResult& result)
     Json handles = Json::array(), holes = Json::array();
     for (const SchottkyHandle& handle : result.handles) handles.push_back(handle_json(handle));
     for (const SchottkyHole& hole : result.holes) holes.push_back(hole_json(hole));
-    Json report{{"version", KOEBE_VERSION},        {"input", ""},
-                {"vertices", result.vertex_count}, {"faces", result.face_count},
-                {"converged", result.converged},   {"sweeps", result.sweeps},
-                {"changes", result.changes},       {"by_circles", result.by_circles},
-                {"handles", std::move(handles)},   {"loops", std::move(holes)},
-                {"turned", result.turned}};
-    report.update(to_json(result.distortion));
-    report.update(Json{{"seconds", to_json(result.seconds)},
-                       {"peak_memory_mb", result.peak_memory_mb},
-                       {"warnings", to_json(result.warnings)}});
-    return report;
+    return report_json(result, {{"converged", result.converged},
+                                {"sweeps", result.sweeps},
+                                {"changes", result.changes},
+                                {"by_circles", result.by_circles},
+                                {"handles", std::move(handles)},
+                                {"loops", std::move(holes)},
+                                {"turned", result.turned}});
 }
 
 }  // namespace koebe

@@ -65,8 +65,8 @@ std::string schottky_svg(const SchottkyResult& result)
 {
     std::string faces;
     for (Eigen::Index c = 0; c < result.uv.rows(); ++c) {
-        faces += (c % 3 == 0 ? "M" : "L") + place_of(2.0 * result.uv(c, 0) - 1.0) + " " +
-                 place_of(1.0 - 2.0 * result.uv(c, 1));
+        faces += c % 3 == 0 ? 'M' : 'L';
+        faces += place_of(2.0 * result.uv(c, 0) - 1.0) + " " + place_of(1.0 - 2.0 * result.uv(c, 1));
         if (c % 3 == 2) faces += "z";
     }
     const double width = std::clamp(600.0 / std::sqrt(static_cast<double>(result.face_count) + 1.0), 2.0, 40.0);

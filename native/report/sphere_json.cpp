@@ -23,27 +23,21 @@ Json to_json(const SphereResult& result, SphereLayout layout)
 {
     Json loops = Json::array();
     for (const SphereLoop& loop : result.loops) loops.push_back(cap_json(loop));
-    Json report{{"version", KOEBE_VERSION},
-                {"input", ""},
-                {"vertices", result.vertex_count},
-                {"faces", result.face_count},
-                {"converged", result.converged},
-                {"sweeps", result.sweeps},
-                {"changes", result.changes},
-                {"mean_point", result.mean_point},
-                {"loops", std::move(loops)},
-                {"turned", result.turned},
-                {"layout",
-                 {{"kind", to_string(layout)},
-                  {"crossing", result.layout.crossing},
-                  {"torn", result.layout.torn},
-                  {"flipped", result.layout.flipped},
-                  {"below_resolution", result.layout.below_resolution}}}};
-    report.update(to_json(result.distortion));
-    report.update(Json{{"seconds", to_json(result.seconds)},
-                       {"peak_memory_mb", result.peak_memory_mb},
-                       {"warnings", to_json(result.warnings)}});
-    return report;
+    return report_json(result, {{"converged", result.converged},
+                                {"sweeps", result.sweeps},
+                                {"changes", result.changes},
+                                {"mean_point", result.mean_point},
+                                {"loops", std::move(loops)},
+                                {"turned", result.turned},
+                                {"on_sphere",
+                                 {{"flipped", result.flipped_on_sphere.size()},
+                                  {"below_resolution", result.below_sphere_resolution.size()}}},
+                                {"layout",
+                                 {{"kind", to_string(layout)},
+                                  {"crossing", result.layout.crossing},
+                                  {"torn", result.layout.torn},
+                                  {"flipped", result.layout.flipped},
+                                  {"below_resolution", result.layout.below_resolution}}}});
 }
 
 }  // namespace koebe

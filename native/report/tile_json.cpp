@@ -27,23 +27,14 @@ Json to_json(const TileResult& result)
 {
     Json loops = Json::array();
     for (const TileLoop& loop : result.loops) loops.push_back(loop_json(loop));
-    Json report{{"version", KOEBE_VERSION},
-                {"input", ""},
-                {"vertices", result.vertex_count},
-                {"faces", result.face_count},
-                {"converged", result.converged},
-                {"sweeps", result.sweeps},
-                {"changes", result.changes},
-                {"periods", result.periods},
-                {"modulus", {result.modulus.real(), result.modulus.imag()}},
-                {"loops", std::move(loops)},
-                {"turned", result.turned},
-                {"cut_length", result.cut_length}};
-    report.update(to_json(result.distortion));
-    report.update(Json{{"seconds", to_json(result.seconds)},
-                       {"peak_memory_mb", result.peak_memory_mb},
-                       {"warnings", to_json(result.warnings)}});
-    return report;
+    return report_json(result, {{"converged", result.converged},
+                                {"sweeps", result.sweeps},
+                                {"changes", result.changes},
+                                {"periods", result.periods},
+                                {"modulus", {result.modulus.real(), result.modulus.imag()}},
+                                {"loops", std::move(loops)},
+                                {"turned", result.turned},
+                                {"cut_length", result.cut_length}});
 }
 
 }  // namespace koebe

@@ -11,15 +11,15 @@
 namespace koebe {
 namespace {
 
-constexpr double least_height = 1e-3;  // of the longest edge, dimensionless
+constexpr double least_relative_height = 1e-3;  // of the longest edge, dimensionless
 
 /// A face laid into the plane, counter-clockwise, scaled to area 1/2.
 std::array<Complex, 3> lay_flat(double l01, double l12, double l20)
 {
     const double longest = std::max({l01, l12, l20});
     if (!(longest > 0.0)) return {Complex(0.0, 0.0), Complex(1.0, 0.0), Complex(0.0, 1.0)};
-    const double area = std::max(triangle_area(l01, l12, l20), 0.5 * least_height * longest * longest);
-    const double base = std::max(l01, least_height * longest);
+    const double area = std::max(triangle_area(l01, l12, l20), 0.5 * least_relative_height * longest * longest);
+    const double base = std::max(l01, least_relative_height * longest);
     const double x = (base * base + l20 * l20 - l12 * l12) / (2.0 * base), y = 2.0 * area / base;
     const double scale = 1.0 / std::sqrt(2.0 * area);
     return {Complex(0.0, 0.0), Complex(scale * base, 0.0), scale * Complex(x, y)};

@@ -127,6 +127,46 @@ def test_handles_are_those_of_the_operator(batch, tmp_path, normalization):
     assert (len(entry["handles"]), len(entry["loops"])) == (2, 1)
 
 
+def test_parts_are_those_of_the_operator(batch, tmp_path):
+    obj = scenes.add_cube("Cube")
+    done = batch("--output", "out.blend", "--report", "out.json", "--parts", "--evenness", "0.2", "--layer", "Own",
+                 "--write-seams")  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("Cube: ") == 1 and "part" in done.stdout
+    scenes.select(obj)
+    bpy.ops.uv.koebe_parts(evenness=0.2, layer="Own", write_seams=True)
+    expected, seams = scenes.corner_uv(obj.data, "Own").copy(), scenes.read(obj.data.edges, "use_seam", bool)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    mesh = bpy.data.objects["Cube"].data
+    assert np.array_equal(scenes.corner_uv(mesh, "Own"), expected)
+    assert np.array_equal(scenes.read(mesh.edges, "use_seam", bool), seams) and seams.any()
+    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    assert sorted(face for part in entry["parts"] for face in part["faces"]) == list(range(len(mesh.polygons)))
+    assert entry["object"] == "Cube" and entry["flipped"] == 0 and entry["angle_error_deg"]["mean"] < 60.0
+
+
+@pytest.mark.parametrize("words, said", [
+    ("--importance Weight --balance none", "--importance: it weighs the balance: take --balance area"),
+    ("--symmetry auto --center 3", "--symmetry: it excludes"),
+    ("--max-sweeps 0", "--max-sweeps: 0 is less than 1"),
+    ("--domain ring --tolerance 0", "--tolerance: 0.0 is not"),
+    ("--layer .own", "--layer: Blender keeps"),
+    ("--sequence FRAMES --frames 1:9999999", "from -1048574 to 1048574"),
+    ("--sequence FRAMES --frames 3:1", "--frames: the last frame is before the first one"),
+    ("--sequence SHAPE_KEYS --play", "--play needs --sequence FRAMES"),
+    ("--evenness 0.5", "--evenness needs --parts"),
+    ("--parts --evenness 2", "--evenness: 2.0 is not in [0, 1]"),
+    ("--parts --tolerance 1e-3", "--tolerance is not of --parts"),
+    ("--parts --domain torus", "--domain is not of --parts"),
+    ("--parts --sequence FRAMES", "--parts is not of --sequence"),
+])  # fmt: skip
+def test_wrong_usage_names_flags_and_limits(addon, words, said):
+    ends = addon("headless.exit_and_signals")
+    with pytest.raises(ends.Stop) as raised:
+        addon("headless.arguments").parse(["--output", "out.blend", *words.split()])
+    assert raised.value.code == ends.USAGE and said in raised.value.reason
+
+
 def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):
     tori.add_torus()
     done = batch("--output", "out.blend", "--report", "out.json", "--domain", "ring")
@@ -301,3 +341,11 @@ def test_a_sequence_that_is_refused_writes_nothing(batch, tmp_path):
     assert not (tmp_path / "out.blend").exists()
     done = batch("--output", "out.blend", "--sequence", "SHAPE_KEYS")
     assert done.returncode == 3 and "it has no shape keys" in done.stderr
+
+
+def test_the_first_and_the_last_frame_that_blender_has(addon):
+    """The limit that --frames names is Blender's."""
+    last, scene = addon("headless.arguments").LARGEST_FRAME, bpy.context.scene
+    for frame in (-last, last):
+        scene.frame_set(frame)
+        assert scene.frame_current == frame

@@ -60,7 +60,7 @@ def test_a_folder_is_mapped_file_by_file_and_resumed(addon_name, koebe, library,
     assert codes == {"a.blend": 0, "closed.blend": 3, "more/b.blend": 0}
     assert table["a.blend"]["faces"] > 0 == table["a.blend"]["flipped"] and table["a.blend"]["angle_error_deg"] > 0.0
     assert sorted(table["a.blend"]["options"]["arguments"]) == ["--layer=Mine", "--no-cut", "--no-upright"]
-    assert table["closed.blend"]["error"] is not None and not (out / "closed.blend").exists()
+    assert table["closed.blend"]["error"] == "TopologyError(closed)" and not (out / "closed.blend").exists()
     for name in ("a", "more/b"):
         bpy.ops.wm.open_mainfile(filepath=str(out / f"{name}.blend"))
         assert "Mine" in bpy.data.objects["Panel"].data.uv_layers
@@ -81,6 +81,18 @@ def test_two_files_are_a_library_too(addon_name, koebe, library, tmp_path):
     )
     assert code == 0, err
     assert set(rows(tmp_path / "out")) == {"a.blend", "b.blend"}
+
+
+def test_a_file_without_the_object_is_told_by_itself(addon_name, koebe, library, tmp_path):
+    code, printed, err = run(
+        addon_name, tmp_path, library / "a.blend", library / "closed.blend", "--output", tmp_path / "out",
+        "--objects", "Panel",
+    )  # fmt: skip
+    assert code == 3, err
+    table = rows(tmp_path / "out")
+    assert table["a.blend"]["exit_code"] == 0
+    assert table["closed.blend"]["error"] == "UsageError"
+    assert "there is no object named 'Panel'" in table["closed.blend"]["error_text"]
 
 
 def test_a_folder_without_files_is_2(addon_name, koebe, tmp_path):

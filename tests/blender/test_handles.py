@@ -68,7 +68,7 @@ def test_it_is_what_the_package_makes_of_it(koebe, case, polygons):
     assert entry.flipped == result.flipped and entry.density > 1
     assert entry.handles == len(result.handles) == {"a ring": 1, "a ring with a hole": 1, "three": 3}.get(case, 2)
     assert entry.by_circles == result.by_circles and entry.sweeps == result.sweeps
-    assert entry.angle_error == pytest.approx(result.angle_error_deg["mean"], rel=1e-6)
+    assert entry.angle_error == pytest.approx(result.angle_error_stored_deg["mean"], rel=1e-6)
     assert {frozenset(json.loads(loop.vertices)) for loop in entry.loops} == {
         frozenset(loop) for loop in scenes.boundary_loops(obj.data)
     }

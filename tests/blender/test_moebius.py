@@ -180,3 +180,20 @@ def test_frames_while_dragging_and_esc_restore_every_bit(addon, koebe):
     }
     job.put_back()
     assert fingerprint.differences(before, fingerprint.fingerprint()) == []
+
+
+@pytest.mark.parametrize("run", [
+    lambda: bpy.ops.uv.koebe_moebius(rim=1), lambda: bpy.ops.uv.koebe_moebius(rotation=1.0),
+    lambda: bpy.ops.uv.koebe_symmetrize(), lambda: bpy.ops.object.koebe_flat_copy(),
+], ids=["rim", "turn", "symmetrize", "flat"])  # fmt: skip
+@pytest.mark.parametrize("place", [np.nan, np.inf])
+def test_a_vertex_that_is_nowhere_since_the_map_is_told_and_nothing_changes(run, place):
+    vertices = mapped().data.vertices
+    places = scenes.read(vertices, "co", np.float32, 3)
+    places[17, 2] = place  # set alone it would be made a number
+    vertices.foreach_set("co", places.ravel())
+    before = fingerprint.fingerprint()
+    with pytest.raises(RuntimeError, match="one of its vertices has a coordinate that is NaN or infinite") as raised:
+        run()
+    assert "Traceback" not in str(raised.value)
+    assert fingerprint.fingerprint() == before

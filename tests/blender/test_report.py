@@ -2,12 +2,17 @@
 
 import contextlib
 import errno
+import json
 import os
 
+import balls
 import bpy
+import fingerprint
+import handles
 import numpy as np
 import pytest
 import scenes
+import tori
 from test_bad_meshes import FAN, selected
 from test_islands import add_seamed_panel
 
@@ -197,3 +202,174 @@ def test_an_error_about_many_objects_is_a_few_lines_and_the_report_has_all():
     lines = str(caught.value).strip().splitlines()
     assert len(lines) <= 8 and max(map(len, lines)) < 160 and "34 more" in lines[-1]
     assert [entry.object_name for entry in islands()] == [cube.name for cube in cubes]
+
+
+@pytest.mark.parametrize("run", ["parts", "sphere", "schottky", "torus", "ring"])
+def test_warnings_count_and_name_the_faces_of_the_mesh(run, capfd):
+    """The solver has two triangles for each quadrilateral."""
+    make = {"schottky": handles.plate_arrays, "torus": tori.torus_arrays,
+            "ring": tori.tube_arrays}.get(run, balls.ball_arrays)  # fmt: skip
+    vertices, faces = make()
+    turned = (40, 41, 42)
+    faces = [list(face)[::-1] if number in turned else face for number, face in enumerate(faces)]
+    scenes.select(scenes.add_object("Turned", vertices, faces))
+    assert getattr(bpy.ops.uv, f"koebe_{run}")() == {"FINISHED"}
+    said = "3 faces turned to the orientation of the others; the first face is 40"
+    assert said in islands()[0].message and said in capfd.readouterr().out
+
+
+def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
+    island = addon("maps.parts").Numbers(np.arange(20) // 2, np.arange(100, 120))
+    in_mesh = addon("maps.wording").in_mesh
+
+    def said(kind, elements, text):
+        made = in_mesh(island, koebe._result.Warning(kind=kind, elements=elements, text=text))
+        return made["elements"], made["text"]
+
+    assert said("flipped", [6, 7, 9], "3 faces flipped, 2 of them too small; the first face is 6") == (
+        [3, 4], "2 faces flipped, 2 triangles of them too small; the first face is 3")  # fmt: skip
+    assert said("below_resolution", [0, 1], "2 faces around vertex 7, near loop 1, 1 face of them to no area") == (
+        [0], "1 face around vertex 107, near loop 1, 1 triangle of them to no area")  # fmt: skip
+    assert said("off_circle", [4, 5], "2 vertices taken off the circle; the first vertex is 4") == (
+        [104, 105], "2 vertices taken off the circle; the first vertex is 104")  # fmt: skip
+    assert said("flaps", [1], "1 part of 1 face in all, the first behind the edge 3-12, hang on 4 loops") == (
+        [0], "1 part of 1 face in all, the first behind the edge 103-112, hang on 4 loops")  # fmt: skip
+
+
+# ---------------------------------------------------------------- what is lost
+
+
+def fingered(run):
+    """An object of the right kind, with a limb so long that its end has no area in one map's UVs."""
+    points, faces = {"schottky": handles.plate_arrays, "torus": tori.torus_arrays, "ring": tori.tube_arrays}.get(
+        run, balls.ball_arrays)()  # fmt: skip
+    points, faces = tori.with_finger(np.asarray(points), [list(face) for face in faces], 60, length=60)
+    obj = scenes.add_object("Limb", points, faces)
+    scenes.select(obj)
+    return obj
+
+
+@pytest.mark.parametrize("run", ["schottky", "torus", "ring", "sphere"])
+def test_a_map_that_loses_a_limb_is_not_done(run):
+    obj = fingered(run)
+    operator = getattr(bpy.ops.uv, f"koebe_{run}")
+    before = fingerprint.fingerprint()
+    with pytest.raises(RuntimeError, match=r"Limb: \d+(\.\d+)? % of its area is lost.*Unwrap to Parts"):
+        operator()
+    assert fingerprint.differences(before, fingerprint.fingerprint()) == ["file: report"]
+    (entry,) = islands()
+    assert not entry.mapped and entry.offer == "parts"
+    lost = json.loads(entry.offenders)[1]
+    assert operator(most_lost=1.0, checker=False) == {"FINISHED"}
+    areas = shoelace(obj)
+    assert set(np.flatnonzero(areas <= 0.0)) <= set(lost) and islands()[0].flipped >= len(lost) > 0
+
+
+def shoelace(obj):
+    """UV areas of the faces, twice over."""
+    uv = scenes.corner_uv(obj.data, "Koebe").astype(float)
+    return np.array([
+        sum(uv[i][0] * uv[j][1] - uv[j][0] * uv[i][1] for i, j in zip(loops, [*loops[1:], loops[0]]))
+        for loops in (list(face.loop_indices) for face in obj.data.polygons)
+    ])  # fmt: skip
+
+
+def test_one_map_of_a_limb_is_written_and_says_first_what_is_lost(capfd):
+    obj = fingered("ring")
+    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    assert islands()[0].message.split(" ", 1)[1].startswith("% of its area is lost: ")
+    out = capfd.readouterr().out
+    assert out.index("Warning: Limb: LOST ") < out.index("of its area is lost") and "Koebe" in obj.data.uv_layers
+
+
+def test_parts_that_lose_too_much_are_not_done(koebe, monkeypatch):
+    scenes.select(scenes.add_cube())
+    parts = koebe.parts
+
+    def losing(*arguments, **options):
+        result = parts(*arguments, **options)
+        result.lost_area, result.flipped_faces = 0.5, np.arange(6, dtype=np.int32)
+        return result
+
+    monkeypatch.setattr(koebe, "parts", losing)
+    before = fingerprint.fingerprint()
+    with pytest.raises(RuntimeError, match="50 % of its area is lost.*Koebe Uniformize serves here"):
+        bpy.ops.uv.koebe_parts()
+    assert fingerprint.differences(before, fingerprint.fingerprint()) == ["file: report"]
+    assert islands()[0].offer == "uniformize" and not islands()[0].mapped
+
+
+def test_figures_are_those_of_the_stored_uvs(koebe):
+    """Of many islands in one square, each of which is small there."""
+    vertices, faces = scenes.panel_arrays()
+    count, copies = len(vertices), 150
+    points = np.concatenate([np.asarray(vertices) + (3.0 * k, 0, 0) for k in range(copies)])
+    obj = scenes.add_object("Many", points, [[v + k * count for v in face] for k in range(copies) for face in faces])
+    scenes.select(obj)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    corner_vertex, corners = scenes.triangles(obj.data)
+    chosen = (corner_vertex < count).all(axis=1)
+    uv = scenes.corner_uv(obj.data, "Koebe")[corners[chosen]].reshape(-1, 2).astype(float)
+    apart = np.arange(len(uv), dtype=np.int32).reshape(-1, 3)
+    expected = koebe.distortion(points[corner_vertex[chosen].ravel()], apart, 2.0 * uv - 1.0)
+    assert islands()[0].angle_error == pytest.approx(expected["angle_error_stored_deg"]["mean"], rel=1e-5)
+
+
+# ---------------------------------------------------------------- in the file
+
+
+def saved_and_opened(path):
+    """The report's values before, and after another file was open."""
+    before = fingerprint.group(bpy.context.window_manager.koebe_uv)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=False)
+    assert not islands()  # that of a file which has none
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    after = fingerprint.group(bpy.context.window_manager.koebe_uv)
+    for report in (before, after):
+        for entry in report["islands"]:
+            del entry["history"], entry["corners"]
+    return before, after
+
+
+@pytest.mark.parametrize("run", ["uniformize", "parts", "schottky", "moebius"])
+def test_the_report_comes_back_with_the_file(tmp_path, run):
+    obj = handles.add_plate(holes=handles.HOLES) if run == "schottky" else scenes.add_panel()
+    scenes.select(obj, scenes.add_cube("Bad") if run == "uniformize" else obj)
+    if run == "moebius":
+        bpy.ops.uv.koebe_uniformize()
+        bpy.ops.uv.koebe_moebius(rim=1)
+    else:
+        getattr(bpy.ops.uv, f"koebe_{run}")(**({"cut": False} if run == "uniformize" else {}))
+    before, after = saved_and_opened(tmp_path / "file.blend")
+    assert after == before and len(before["islands"]) == 1 + (run == "uniformize")
+    if run != "parts":
+        bpy.context.window_manager.koebe_uv.active = 0
+        assert bpy.ops.uv.koebe_select_loop(loop=1) == {"FINISHED"}
+    if run == "moebius":
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert bpy.ops.uv.koebe_moebius(rotation=0.5) == {"FINISHED"}
+        assert islands()[0].moved == "moved by hand"
+
+
+def test_content_that_is_no_report_is_passed_over(addon):
+    saved, report = addon("state.saved_report"), bpy.context.window_manager.koebe_uv
+    scenes.add_panel()
+    bpy.ops.uv.koebe_uniformize()
+    text = saved.packed(report)
+    content = json.loads(text)
+
+    def changed(name, value, **others):
+        return json.dumps({**content, "islands": [{**content["islands"][0], name: value}], **others})
+
+    for damaged in (
+        "", "{", "null", "[1]", "7", text[: len(text) // 2], json.dumps({**content, "version": 2}),
+        json.dumps({"version": 1}), changed("flipped", "many"), changed("flipped", 2**40), changed("mapped", 1),
+        changed("flipped_faces", "[1, -2]"), changed("flipped_faces", "{}"), changed("cuts", "[[1, 2.5]]"),
+        changed("offenders", '["faces"]'), changed("loops", [{"uv_center": [1.0]}]), changed("loops", [3]),
+        changed("object_name", None), changed("flipped", 0, active="first"), "[" * 10**5,
+    ):  # fmt: skip
+        saved.unpack(damaged, report)
+        assert not report.islands and report.active == 0, damaged[:200]
+    saved.unpack(changed("unknown", 3), report)
+    assert len(report.islands) == 1 and saved.packed(report) == text

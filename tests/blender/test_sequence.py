@@ -150,7 +150,7 @@ def test_no_keys_are_told():
 def test_frames_become_attributes_of_points_and_the_scene_stays_in_its_frame():
     obj = add_waving()
     before = scenes.mesh_state(obj.data)
-    assert unwrap() == {"FINISHED"}
+    assert unwrap(play=False) == {"FINISHED"}
     assert bpy.context.scene.frame_current == 7 and scenes.mesh_state(obj.data) == before
     names = [f"Koebe_000{frame}" for frame in (1, 2, 3, 4)]
     assert not obj.data.uv_layers and all(
@@ -335,6 +335,9 @@ def test_an_attribute_that_cannot_be_written_leaves_none(addon, monkeypatch):
 @pytest.mark.parametrize("target", ["ATTRIBUTE", "LAYERS"])
 def test_in_edit_mode_the_selected_faces(source, target):
     obj = add_keyed()
+    for frame in (1, 2):
+        obj.data.shape_keys.key_blocks["Smile"].value = frame - 1.0
+        obj.data.shape_keys.key_blocks["Smile"].keyframe_insert("value", frame=frame)
     chosen = range(0, 180)
     scenes.select_faces(obj, chosen)
     assert unwrap(source=source, target=target, frame_start=1, frame_end=2) == {"FINISHED"}
@@ -351,60 +354,69 @@ def test_in_edit_mode_the_selected_faces(source, target):
     assert [face.select for face in obj.data.polygons] == [index in chosen for index in range(len(written))]
 
 
-def test_nodes_read_the_attribute_of_the_frame_as_the_guide_says():
+def played(obj, name="Koebe"):
+    """UVs of the corners as the modifiers leave them: in 3.4 nodes store vectors in the place of a UV layer."""
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    if name in mesh.uv_layers:
+        return scenes.corner_uv(mesh, name).copy()
+    return scenes.read(mesh.attributes[name].data, "vector", np.float32, 3)[:, :2].copy()
+
+
+@pytest.mark.parametrize("start, step", [(1, 1), (-3, 3), (9998, 1)])
+def test_a_modifier_plays_the_frames(start, step):
     obj = add_waving()
-    assert unwrap() == {"FINISHED"}
-    obj.modifiers.new("Shown", "NODES").node_group = reading_nodes()
-    for frame in (2, 4):
+    obj.modifiers["Wave"].time_offset = start - 20.0
+    assert unwrap(frame_start=start, frame_end=start + 3 * step, frame_step=step) == {"FINISHED"}
+    assert unwrap(frame_start=start, frame_end=start + 3 * step, frame_step=step, layer="Other") == {"FINISHED"}
+    assert len([one for one in obj.modifiers if one.type == "NODES"]) == 1  # that of the last run
+    corner = scenes.read(obj.data.loops, "vertex_index", np.int32)
+    shown = []
+    for frame in range(start - 1, start + 3 * step + 2):
         bpy.context.scene.frame_set(frame)
-        mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-        shown = scenes.read(mesh.attributes["Shown"].data, "vector", np.float32, 3)
-        assert np.array_equal(shown, vectors(obj, f"Koebe_000{frame}"))
+        last = start + step * min(max((frame - start) // step, 0), 3)
+        shown.append(played(obj, "Other"))
+        assert np.array_equal(shown[-1], vectors(obj, f"Other_{last:04d}")[corner, :2])
+    assert not np.array_equal(shown[0], shown[-1])
+    assert np.array_equal(scenes.corner_uv(obj.data, "Other"), vectors(obj, f"Other_{start:04d}")[corner, :2])
 
 
-def reading_nodes():
-    """The node group that docs/guide.md describes."""
-    tree = bpy.data.node_groups.new("Reading", "GeometryNodeTree")
-    if hasattr(tree, "interface"):
-        for direction in ("INPUT", "OUTPUT"):
-            tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
-    else:
-        tree.inputs.new("NodeSocketGeometry", "Geometry")
-        tree.outputs.new("NodeSocketGeometry", "Geometry")
+def test_faces_that_are_not_mapped_keep_their_uvs_while_it_plays():
+    obj = add_waving()
+    assert bpy.ops.uv.koebe_uniformize(checker=False) == {"FINISHED"}
+    before = scenes.corner_uv(obj.data, "Koebe").copy()
+    scenes.select_faces(obj, range(0, 180))
+    assert unwrap() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.scene.frame_set(3)
+    kept = np.concatenate([list(face.loop_indices) for face in obj.data.polygons[300:]])
+    now = played(obj)
+    assert np.array_equal(now[kept], before[kept])
+    assert np.abs(now - before).max() > 1e-3
 
-    def node(kind, **settings):
-        made = tree.nodes.new(kind)
-        for name, value in settings.items():
-            setattr(made, name, value)
-        return made
 
-    def named(sockets, name):
-        return next(socket for socket in sockets if socket.name == name and socket.enabled)
+@pytest.mark.parametrize("moves", [False, True])
+def test_where_nothing_changes_one_map_is_written_and_that_is_said(capfd, moves):
+    obj = add_waving(modifier=False)
+    if moves:  # as a whole
+        for frame in (1, 4):
+            obj.location.x, obj.rotation_euler.y = frame, 0.3 * frame
+            obj.scale = [frame] * 3
+            for path in ("location", "rotation_euler", "scale"):
+                obj.keyframe_insert(path, frame=frame)
+        bpy.context.scene.frame_set(7)
+    assert unwrap() == {"FINISHED"}
+    assert "nothing moves" in capfd.readouterr().out
+    assert [one.name for one in obj.data.attributes if one.name.startswith("Koebe_")] == ["Koebe_0001"]
+    assert not obj.modifiers and len(entries()) == 1
+    corner = scenes.read(obj.data.loops, "vertex_index", np.int32)
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), vectors(obj, "Koebe_0001")[corner, :2])
 
-    def joined(start, end):
-        text, join = node("FunctionNodeInputString", string=start), node("GeometryNodeStringJoin")
-        tree.links.new(named(join.inputs, "Strings"), end)
-        tree.links.new(named(join.inputs, "Strings"), text.outputs[0])  # the last link comes first
-        return join.outputs[0]
 
-    value = node("FunctionNodeValueToString")
-    tree.links.new(value.inputs[0], named(node("GeometryNodeInputSceneTime").outputs, "Frame"))
-    padded, cut = joined("000", value.outputs[0]), node("FunctionNodeSliceString")
-    length, less = node("FunctionNodeStringLength"), node("ShaderNodeMath", operation="SUBTRACT")
-    less.inputs[1].default_value = 4.0
-    tree.links.new(length.inputs[0], padded)
-    tree.links.new(less.inputs[0], length.outputs[0])
-    tree.links.new(named(cut.inputs, "String"), padded)
-    tree.links.new(named(cut.inputs, "Position"), less.outputs[0])
-    named(cut.inputs, "Length").default_value = 4
-    found = node("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
-    tree.links.new(named(found.inputs, "Name"), joined("Koebe_", cut.outputs[0]))
-    store = node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="POINT")
-    named(store.inputs, "Name").default_value = "Shown"
-    tree.links.new(named(store.inputs, "Value"), named(found.outputs, "Attribute"))
-    tree.links.new(named(store.inputs, "Geometry"), node("NodeGroupInput").outputs[0])
-    tree.links.new(node("NodeGroupOutput").inputs[0], named(store.outputs, "Geometry"))
-    return tree
+def test_a_map_that_the_modifier_hides_is_said(capfd):
+    add_waving()
+    unwrap()
+    bpy.ops.uv.koebe_uniformize()
+    assert "its modifier 'Koebe Sequence' shows the UVs of its frames" in capfd.readouterr().out
 
 
 # ---------------------------------------------------------------- around it

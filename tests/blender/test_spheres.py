@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import scenes
 from balls import LAYOUTS, add_ball, are_continued, ball_arrays, join_faces, last_run, led_back, sides_of_edges
+from test_handles import signed_areas
 from tori import add_torus
 from wild import damaged, wild
 
@@ -51,8 +52,10 @@ def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
     assert entry.mapped and entry.converged and entry.domain == "sphere" and entry.layout == layout
     assert json.loads(entry.torn_faces) == torn.tolist()
     assert 1 <= len(torn) <= (2 if layout == "equirectangular" else 4)
-    assert entry.flipped == len(np.setdiff1d(ball.layout["flipped"], ball.layout["torn"]))
-    assert entry.angle_error == pytest.approx(ball.angle_error_deg["mean"], rel=1e-6)
+    assert entry.flipped == ball.flipped
+    assert entry.angle_error == pytest.approx(ball.angle_error_stored_deg["mean"], rel=1e-6)
+    down = signed_areas(uv, scenes.triangles(obj.data)[1]) <= 0.0
+    assert np.array_equal(np.flatnonzero(down), ball.flipped_faces)
     assert 1.0 <= entry.density < 10.0 and "torn in the UVs: none fit there" in entry.note
     assert [loop.radius for loop in entry.loops] == pytest.approx(ball.caps[:, 3].tolist(), rel=1e-6)
     assert len(entry.loops) == len(scenes.boundary_loops(obj.data))
@@ -72,7 +75,7 @@ def test_a_face_without_three_corners_apart_is_no_obstacle(layout):
     tetrahedron = scenes.add_object("Tetrahedron", [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)],
                                     [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])  # fmt: skip
     scenes.select(cube, tetrahedron)
-    assert sphere(layout=layout) == {"FINISHED"}
+    assert sphere(layout=layout, most_lost=1.0) == {"FINISHED"}  # of the cube one of four longitudes is left out
     entries = list(bpy.context.window_manager.koebe_uv.islands)
     assert [entry.mapped and entry.converged for entry in entries] == [True, True]
 

@@ -69,7 +69,7 @@ void check_distortion(const Program& program)
     const Triangles triangles = program.soup.triangles();
     validate_arrays(vertices, triangles);
     const PlanarPoints uv = flat_points(program);
-    const Distortion distortion = measure_distortion(vertices, triangles, uv);
+    const Distortion distortion{measure_distortion(vertices, triangles, uv), judge_disk(vertices, triangles, uv)};
     require(distortion.flipped == flipped_faces(triangles, uv), "flips are counted alike");
     require(!to_json(distortion).dump().empty(), "the report is JSON");
 }

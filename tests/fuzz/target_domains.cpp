@@ -167,9 +167,15 @@ void require_in_square(const PlanarPoints& uv)
     require(uv.size() == 0 || (uv.minCoeff() >= 0.0 && uv.maxCoeff() <= 1.0), "UVs are in the unit square");
 }
 
-bool all_upright(const Distortion& distortion)
+/// What every map promises of its UVs. @param flips of the UVs
+void check_verdict(const MapReport& report, const Flips& flips)
 {
-    return distortion.flipped.size() == distortion.below_resolution.size();
+    const Distortion& told = report.distortion;
+    require(flips.flipped == told.flipped, "the flips are those of the report");
+    require(flips.tiny == told.below_resolution, "so are those below resolution");
+    require(std::isfinite(told.angle_error_stored_deg.mean), "the stored angle error is a number");
+    require(told.lost_area >= 0.0 && told.lost_area <= 1.0, "the lost area is a share");
+    require(!report.converged || told.lost_area <= most_lost_area, "what converged has lost little");
 }
 
 /// What tiles and Schottky maps promise alike.
@@ -178,9 +184,8 @@ void check_plane(const Result& result)
 {
     require_in_square(result.uv);
     const Flips flips = flips_of(result.uv, result.turned);
-    require(flips.flipped == result.distortion.flipped, "the flips are those of the report");
-    require(flips.tiny == result.distortion.below_resolution, "so are those below resolution");
-    require(!result.converged || all_upright(result.distortion), "what converged has no flips");
+    check_verdict(result, flips);
+    require(!result.converged || flips.flipped == flips.tiny, "what converged has no flips");
     require(!to_json(result).dump().empty(), "the report is JSON");
 }
 
@@ -208,7 +213,9 @@ void check_sphere(const SphereResult& result, SphereLayout layout)
     require(result.points.allFinite() && result.uv.allFinite(), "points and UVs are finite");
     for (Eigen::Index v = 0; v < result.points.rows(); ++v)
         require(std::abs(result.points.row(v).norm() - 1.0) < 1e-12, "points are on the unit sphere");
-    require(!result.converged || all_upright(result.distortion), "what converged has no flips");
+    check_verdict(result, flips_of(result.uv, result.turned));
+    require(!result.converged || result.flipped_on_sphere == result.below_sphere_resolution,
+            "what converged has no flips");
     for (const SphereLoop& loop : result.loops)
         require(std::isfinite(loop.cap.radius) && loop.cap.radius > 0.0, "caps have a positive radius");
     require(!to_json(result, layout).dump().empty(), "the report is JSON");
@@ -223,8 +230,8 @@ void check_parts(const PartsResult& result)
     Flips flips = flips_of(result.uv, turned);
     for (std::vector<Index>* faces : {&flips.flipped, &flips.tiny})
         std::erase_if(*faces, [&](Index f) { return result.part[f] < 0; });
-    require(flips.flipped == result.flipped, "the flips are those of the report");
-    require(flips.tiny == result.below_resolution, "so are those below resolution");
+    check_verdict(result, flips);
+    require(!result.converged || flips.flipped == flips.tiny, "what converged has no flips");
     require(std::isfinite(result.density_ratio_5_95) && std::isfinite(result.cut_length), "figures are finite");
     require(!to_json(result).dump().empty(), "the report is JSON");
 }

@@ -5,6 +5,7 @@
 #include "pipeline/cut_uniformize.h"
 #include "pipeline/disk_packing.h"
 #include "pipeline/uniformize.h"
+#include "quality/stored_uv.h"
 
 #include <gtest/gtest.h>
 
@@ -18,18 +19,13 @@ using namespace koebe::test;
 
 namespace {
 
-struct StoredCorner {
-    double u, v;
-};
-
 /// The signed area and the longest edge of a face as 32-bit UVs have it, with the corners in their piece's order.
 std::pair<double, double> stored_face(const CutUniformizeResult& result, Index f, bool turned)
 {
-    StoredCorner corners[3];
+    StoredPoint corners[3];
     for (int k = 0; k < 3; ++k) {
         const Eigen::Index row = 3 * static_cast<Eigen::Index>(f) + (turned && k > 0 ? 3 - k : k);
-        corners[k] = {static_cast<double>(static_cast<float>(result.uv(row, 0))),
-                      static_cast<double>(static_cast<float>(result.uv(row, 1)))};
+        corners[k] = {as_stored(result.uv(row, 0)), as_stored(result.uv(row, 1))};
     }
     const auto& [a, b, c] = corners;
     double longest = 0.0;

@@ -35,6 +35,7 @@ UniformizeResult sample_result()
                       {2, {1, 0}, 0.125, {{0.0625, 0.05}, {0.125, 0.1}}, {}}};
     result.distortion.flipped = {1, 2};
     result.distortion.below_resolution = {2};
+    result.distortion.lost_area = 0.25;
     result.distortion.conformal_energy = 1.0 / 3.0;
     result.seconds.total = 1.5;
     result.warnings = {{WarningKind::flipped, "2 faces flipped", {3, 5}}};
@@ -53,12 +54,30 @@ using Keys = std::vector<std::string>;
 TEST(Json, HasTheKeysOfTheContractInItsOrder)
 {
     const auto report = to_json(sample_result());
-    EXPECT_EQ(
-        keys_of(report),
-        (Keys{"version",          "input",           "vertices",       "faces",           "method",           "engine",
-              "outer_loop",       "converged",       "sweeps",         "steps",           "history",          "loops",
-              "mean_roundness",   "angle_error_deg", "beltrami",       "area_distortion", "conformal_energy", "flipped",
-              "below_resolution", "seconds",         "peak_memory_mb", "warnings"}));
+    EXPECT_EQ(keys_of(report), (Keys{"version",
+                                     "input",
+                                     "vertices",
+                                     "faces",
+                                     "method",
+                                     "engine",
+                                     "outer_loop",
+                                     "converged",
+                                     "sweeps",
+                                     "steps",
+                                     "history",
+                                     "loops",
+                                     "mean_roundness",
+                                     "angle_error_deg",
+                                     "angle_error_stored_deg",
+                                     "lost_area",
+                                     "beltrami",
+                                     "area_distortion",
+                                     "conformal_energy",
+                                     "flipped",
+                                     "below_resolution",
+                                     "seconds",
+                                     "peak_memory_mb",
+                                     "warnings"}));
     EXPECT_EQ(keys_of(report["history"][0]),
               (Keys{"step", "pair", "change", "mean_roundness", "mean_roundness_holes"}));
     EXPECT_EQ(keys_of(report["loops"][0]), (Keys{"vertices", "center", "radius", "roundness", "roundness_least_squares",
@@ -81,6 +100,7 @@ TEST(Json, SaysWhatTheResultHolds)
     EXPECT_EQ(report["loops"][1]["center"], nlohmann::json({0.25, -0.5}));
     EXPECT_EQ(report["flipped"], 2);
     EXPECT_EQ(report["below_resolution"], 1);
+    EXPECT_EQ(report["lost_area"], 0.25);
     EXPECT_EQ(report["conformal_energy"].get<double>(), 1.0 / 3.0);  // to the last bit
     EXPECT_EQ(report["warnings"][0]["kind"], "flipped");
     EXPECT_EQ(report["warnings"][0]["elements"], nlohmann::json({3, 5}));

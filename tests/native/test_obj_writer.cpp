@@ -2,6 +2,7 @@
 #include "io/obj_writer.h"
 
 #include "core/errors.h"
+#include "core/thread_share.h"
 #include "io/mesh_reader.h"
 #include "io/text_writer.h"
 #include "random_polygons.h"
@@ -90,6 +91,59 @@ TEST(ObjWriter, FacesNameTheTextureCoordinateOfTheirVertex)
     mesh.face_begin = {0, 3, 7};
     const std::string text = written_with_uvs(folder, mesh, PlanarPoints::Zero(4, 2));
     EXPECT_NE(text.find("\nf 4/4 1/1 2/2\nf 1/1 2/2 3/3 4/4\n"), std::string::npos) << text;
+}
+
+/// A mesh that was read from a text, written with one place for each vertex.
+std::string rewritten(const std::string& text, bool moved = false)
+{
+    const TemporaryFolder folder;
+    PolygonMesh mesh = parse_mesh(text, ".obj");
+    if (moved) mesh.vertices.array() += 1.0;
+    AtomicFile file(folder.path() / "out.obj");
+    write_obj_with_uvs(file, mesh, PlanarPoints::Zero(mesh.vertices.rows(), 2), {text, moved});
+    file.commit();
+    const std::string out = bytes_of(folder.path() / "out.obj");
+    EXPECT_TRUE(out.starts_with("# Koebe UV "));
+    return out.substr(out.find('\n') + 1);
+}
+
+TEST(ObjWriter, KeepsTheFilesTextButForTextureCoordinates)
+{
+    const std::string text =
+        "# Koebe UV 0.0.1\n# made \\\nmtllib a.mtl\no one\nv 0.50 0 0 1 0 0 # red\nvt 1 \\\n 1\nv 1 0 0\n v 0 1e0 0\n"
+        "vn 0 0 1\nusemtl skin\n\ns 1\nf 1/1/1 2/1/-1 \\\n 3/1/1 # first\nvt 0 0\nv 1 1 0\nvn 0 1 0\no two\nf -1/1 2 "
+        "3\n"
+        "f 4//2 -2//-1 2//2\nf 1//3 2//1 3//1\nl 1/1 2/1/1 \\\n 3\nwhatever 1/2/3\nf 1 2 4";
+    EXPECT_EQ(rewritten(text), "# made \\\nmtllib a.mtl\no one\nv 0.50 0 0 1 0 0 # red\nv 1 0 0\n v 0 1e0 0\n"
+                               "vn 0 0 1\nusemtl skin\n\ns 1\nvt 0.5 0.5\nvt 0.5 0.5\nvt 0.5 0.5\nvt 0.5 0.5\n"
+                               "f 1/1/1 2/2/1 3/3/1 # first\nv 1 1 0\nvn 0 1 0\no two\nf 4/4 2/2 3/3\n"
+                               "f 4/4/2 3/3/2 2/2/2\nf 1/1 2/2 3/3\nl 1 2//1 3\nwhatever 1/2/3\nf 1/1 2/2 4/4\n");
+    EXPECT_EQ(
+        rewritten("v 0 0 0 1 0 0\r\nv 1 0 0\r\nv 0 1 \\\r\n 0 0 0 1\r\nvn 0 0 1\r\nf 1//1 2//1 3//1\r\n", true),
+        "v 1 1 1 1 0 0\r\nv 2 1 1\r\nv 1 2 1 0 0 1\r\nvt 0.5 0.5\r\nvt 0.5 0.5\r\nvt 0.5 0.5\r\nf 1/1 2/2 3/3\r\n");
+}
+
+/// Long texts are written in pieces on several threads: each must begin at a statement, and know what stands before it.
+TEST(ObjWriter, TextsOfManyPiecesKeepTheirStatements)
+{
+    constexpr Index count = 60000;
+    std::string text, expected;
+    for (Index i = 1; i <= count; ++i) {
+        text += "v " + std::to_string(i) + " \\\n0 0\nvn 0 0 1\nvt 0 0 \\\n0\n";
+        expected += "v " + std::to_string(i) + " \\\n0 0\nvn 0 0 1\n";
+    }
+    for (Index i = 0; i < count; ++i) expected += "vt 0.5 0.5\n";
+    for (Index i = 3; i <= count; ++i) {
+        const std::string a = std::to_string(i), c = std::to_string(i - 2);
+        text += "f " + a + "/1/-1 -2/1/" + a + " \\\n" + c + "//" + c + "\nusemtl " + a + "\nvn 1 0 0\n";
+        expected += "f " + a + '/' + a + '/' + std::to_string(count + i - 3) + ' ';
+        expected += std::to_string(count - 1) + '/' + std::to_string(count - 1) + '/' + a + ' ';
+        expected += c + '/' + c + '/' + c + "\nusemtl " + a + "\nvn 1 0 0\n";
+    }
+    for (const int threads : {1, 3}) {
+        const ThreadShare share(threads);
+        EXPECT_TRUE(rewritten(text) == expected) << threads;
+    }
 }
 
 TEST(ObjWriter, GroupsAreNamedWhereTheyChange)

@@ -12,6 +12,7 @@
 #include "parts/parts.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
+#include "quality/stored_uv.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -114,7 +115,7 @@ PartsResult parts(const Mesh& mesh, const PartsOptions& options = {})
 
 Eigen::Matrix<double, 3, 2> stored_face(const PartsResult& result, Eigen::Index f)
 {
-    return result.uv.middleRows(3 * f, 3).cast<float>().cast<double>();
+    return result.uv.middleRows(3 * f, 3).unaryExpr(&as_stored);
 }
 
 double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -162,8 +163,8 @@ void expect_sound(const PartsResult& result, Index faces)
             EXPECT_EQ(result.part[f], static_cast<Index>(k));
         }
     EXPECT_EQ(std::ranges::count(times, 1), faces);
-    EXPECT_EQ(static_cast<Index>(result.flipped.size()), upside_down(result));
-    EXPECT_EQ(result.flipped.size(), 0U);
+    EXPECT_EQ(static_cast<Index>(result.distortion.flipped.size()), upside_down(result));
+    EXPECT_EQ(result.distortion.flipped.size(), 0U);
     EXPECT_EQ(most_layers(result), 1);
 }
 
@@ -366,8 +367,8 @@ TEST(Parts, a_higher_price_makes_fewer)
     double even = 2.0;
     for (const double price : {0.0005, 0.005, 0.05, 5.0}) {
         const PartsResult result = parts(mesh, {.price = price});
-        EXPECT_EQ(static_cast<Index>(result.flipped.size()), upside_down(result));
-        EXPECT_EQ(result.flipped.size(), result.below_resolution.size());
+        EXPECT_EQ(static_cast<Index>(result.distortion.flipped.size()), upside_down(result));
+        EXPECT_EQ(result.distortion.flipped.size(), result.distortion.below_resolution.size());
         EXPECT_LE(result.parts.size(), last) << price;
         EXPECT_LE(result.even_area, even + 0.02) << price;
         last = result.parts.size();
@@ -697,7 +698,7 @@ TEST(Parts, a_large_closed_surface_is_cut_in_two_as_well)
     const Mesh mesh = revolved(profile, 220);
     ASSERT_GT(mesh.triangles.rows(), 100000);
     const PartsResult result = parts(mesh);
-    EXPECT_EQ(result.flipped.size(), 0U);
+    EXPECT_EQ(result.distortion.flipped.size(), 0U);
     EXPECT_GE(result.parts.size(), 2U);
     EXPECT_GT(result.even_area, 0.9);
     const double area = face_areas(mesh.vertices, mesh.triangles).sum();

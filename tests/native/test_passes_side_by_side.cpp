@@ -254,7 +254,7 @@ TEST(Passes, a_written_file)
     for (const WrittenFormat format : {WrittenFormat::ply, WrittenFormat::obj})
         expect_same_bits([&] {
             AtomicFile file(folder.path() / "out");
-            write_with_uvs(file, format, mesh, uv);
+            write_with_uvs(file, format, mesh, uv, {MeshFile{}});
             file.commit();
             return bytes_of(folder.path() / "out");
         });
@@ -269,7 +269,8 @@ TEST(Passes, a_file_that_cannot_be_written_fails_on_all_threads)
     for (const int count : {1, 2, 3}) {
         const ThreadShare threads(count);
         AtomicFile file(folder.path() / "out.ply");
-        EXPECT_THROW(write_with_uvs(file, WrittenFormat::ply, mesh, mesh.vertices.leftCols(2)), FileError);
+        EXPECT_THROW(write_with_uvs(file, WrittenFormat::ply, mesh, mesh.vertices.leftCols(2), {MeshFile{}}),
+                     FileError);
     }
 }
 

@@ -94,6 +94,65 @@ TEST(PlyWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquareUnderBothNames
     }
 }
 
+TEST(PlyWriter, KeepsWhatTheFileHeldButForTextureCoordinates)
+{
+    const TemporaryFolder folder;
+    const auto rewritten = [&](const std::string& bytes, bool moved = false) {
+        const PolygonMesh mesh = parse_mesh(bytes, ".ply");
+        const std::string text = written(folder, [&](AtomicFile& file) {
+            const PlanarPoints points = PlanarPoints::Zero(mesh.vertices.rows(), 2);
+            EXPECT_TRUE(write_ply_with_uvs(file, mesh, points, {bytes, moved}).texture_coordinates);
+        });
+        return text.substr(text.find('\n', text.find("comment Koebe UV")) + 1);
+    };
+    const std::string properties =
+        "property list uchar int weights\nproperty float x\nproperty float s\nproperty float t\n"
+        "property float y\nproperty float z\nproperty float nx\nproperty uchar red\n";
+    const std::string faces =
+        "property short part\nproperty list uchar int vertex_index\nproperty list uchar float texcoord\n";
+    const auto header = [&](const std::string& format) {
+        return "ply\nformat " + format + " 1.0\ncomment TextureFile a.png\ncomment Koebe UV 0.0.1\nelement vertex 3\n" +
+               properties + "element edge 1\nproperty int vertex1\nproperty double length\nelement face 1\n" + faces +
+               "end_header\n";
+    };
+    const std::string expected =
+        "comment TextureFile a.png\nelement vertex 3\nproperty list uchar int weights\nproperty double x\n"
+        "property double y\nproperty double z\nproperty float nx\nproperty uchar red\nproperty double s\n"
+        "property double t\nproperty double texture_u\nproperty double texture_v\nelement edge 1\n"
+        "property int vertex1\nproperty double length\nelement face 1\nproperty short part\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "2 7 -8 0 0 0 0.5 255 0.5 0.5 0.5 0.5\n0 1 0 0 0.25 0 0.5 0.5 0.5 0.5\n0 0 1 0 0.125 1 0.5 0.5 0.5 0.5\n"
+        "-1 0.1\n-5 3 0 1 2\n";
+    EXPECT_EQ(rewritten(header("ascii") + "2 7 -8 0 9 9 0 0 0.5 255\n0 1 9 9 0\n0 0.25 0\n0 0 9 9 1 0 0.125 1\n-1 0.1\n"
+                                          "-5 3 0 1 2 2 0.5 0.5\n"),
+              expected);
+    for (const bool swapped : {false, true}) {
+        std::string bytes = header(swapped ? "binary_big_endian" : "binary_little_endian");
+        const auto add = [&](auto number) {
+            std::string raw(reinterpret_cast<const char*>(&number), sizeof number);
+            if (swapped) std::ranges::reverse(raw);
+            bytes += raw;
+        };
+        const auto add_vertex = [&](float x, float y, float nx, int red) {
+            for (const float number : {x, 9.0f, 9.0f, y, 0.0f, nx}) add(number);
+            add(static_cast<unsigned char>(red));
+        };
+        bytes += '\2';
+        add(7), add(-8), add_vertex(0.0f, 0.0f, 0.5f, 255);
+        bytes += '\0';
+        add_vertex(1.0f, 0.0f, 0.25f, 0);
+        bytes += '\0';
+        add_vertex(0.0f, 1.0f, 0.125f, 1);
+        add(-1), add(0.1), add(static_cast<short>(-5));
+        bytes += '\3';
+        add(0), add(1), add(2);
+        bytes += '\2';
+        add(0.5f), add(0.5f);
+        EXPECT_EQ(rewritten(bytes), expected) << swapped;
+        EXPECT_EQ(rewritten(bytes, true).find("nx"), std::string::npos);
+    }
+}
+
 TEST(PlyWriter, PatchesAreAPropertyOfTheFaces)
 {
     const TemporaryFolder folder;
@@ -143,7 +202,7 @@ TEST(MeshWriter, ObjPatchesAreGroupsByNumber)
     mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
     mesh.face_begin = {0, 3, 6, 9};
     const std::string text = written(folder, [&](AtomicFile& file) {
-        write_with_patches(file, WrittenFormat::obj, mesh, {-1, 1, 1});
+        write_with_patches(file, WrittenFormat::obj, mesh, {-1, 1, 1}, {}, {MeshFile{}});
     });
     EXPECT_TRUE(text.ends_with("\ng surface\nf 1 2 3\ng patch_1\nf 2 3 1\nf 3 1 2\n")) << text;
 }

@@ -53,6 +53,9 @@ elif what == "signal":
     os.kill(os.getpid(), int(rest[0]))
 elif what == "exit":
     code = int(rest[0])
+elif what == "refuse":  # without a report
+    print("koebe: as it says", file=sys.stderr)
+    sys.exit(int(rest[0]))
 report = {{"objects": [], "exit_code": code}}
 if code == 3:
     report["error"] = {{"name": "TransferError", "reason": "as it says"}}
@@ -439,7 +442,7 @@ def test_a_result_does_not_outlive_the_mesh_it_was_made_of(library, tmp_path):
 def test_one_bad_file_spoils_itself_alone(blends, library, tmp_path):
     files = blends(
         good="sleep 0", crash=f"signal {signal.SIGSEGV.value}", abort=f"signal {signal.SIGABRT.value}",
-        bad="exit 3", slow="exit 4", lost="exit 77",
+        bad="exit 3", slow="exit 4", lost="exit 77", wrong="refuse 2",
     )  # fmt: skip
     out = tmp_path / "out"
     done = batch(*files.words, library / "a.obj", "--output", out)
@@ -447,7 +450,7 @@ def test_one_bad_file_spoils_itself_alone(blends, library, tmp_path):
     assert {name: (row["exit_code"], row["error"]) for name, row in rows(out).items()} == {
         "a.obj": (0, None), "good.blend": (0, None), "slow.blend": (4, None), "crash.blend": (3, "Crash"),
         "abort.blend": (3, "Crash"), "lost.blend": (3, "Crash"),
-        "bad.blend": (3, "TransferError"),
+        "bad.blend": (3, "TransferError"), "wrong.blend": (3, "Refused"),
     }  # fmt: skip
     assert batch(*files.words, "--output", out).returncode == CANNOT_BE_MAPPED
     assert all(len(files.runs(name)) == 1 for name in ("good", "crash", "abort", "bad", "slow", "lost"))

@@ -51,7 +51,8 @@ def test_ply_has_the_map_of_obj_in_the_same_order(folder):
     assert polygons == obj.faces
     again = koebe("uniformize", "out.PLY", "again.obj", cwd=folder)  # it is read back
     assert again.returncode == 0, again.stderr
-    assert (folder / "again.obj").read_bytes() == (folder / "out.obj").read_bytes()
+    back = Obj(folder / "again.obj")
+    assert np.array_equal(back.vertices, obj.vertices) and np.array_equal(back.uv, obj.uv) and back.faces == obj.faces
 
 
 def test_patches_are_a_property_in_ply(folder):
@@ -67,7 +68,7 @@ def test_patches_are_a_property_in_ply(folder):
         assert rest[begin:end] == [[expected]] * (end - begin)
 
 
-@pytest.mark.parametrize("command", ["uniformize", "fill", "ricci"])
+@pytest.mark.parametrize("command", ["uniformize", "fill", "ricci", "parts"])
 @pytest.mark.parametrize("name", ["out.off", "out.stl", "out.glb", "out.gltf", "out", "obj", "out.obj2", ".ply"])
 def test_other_formats_are_refused_before_any_work(tmp_path, command, name):
     run = koebe(command, tmp_path / "missing.obj", name, cwd=tmp_path)
@@ -285,6 +286,104 @@ def test_closed_streams_get_nothing_into_files(folder):
     (folder / "in.obj").write_text("v 0 0 0\n")  # an error without a place to go
     assert with_streams(">&- 2>&-", "uniformize", "in.obj", "out.obj", "--quiet", cwd=folder) == (CANNOT_BE_MAPPED, "")
     assert (folder / "out.obj").read_bytes() == expected
+
+
+# ---------------------------------------------------------------- what a file holds beside its mesh
+
+
+def kept_lines(text):
+    """All of an OBJ but its texture coordinates: lines, and of faces the vertices and normals."""
+    lines = []
+    for line in text.splitlines():
+        keyword, *words = line.split() or [""]
+        if keyword == "f":
+            corners = [[*word.split("/"), "", ""] for word in words]
+            line = " ".join(["f", *(f"{c[0]}//{c[2]}" for c in corners)])
+        if keyword != "vt" and not line.startswith("# Koebe UV"):
+            lines.append(line)
+    return lines
+
+
+def warnings(run, report):
+    assert run.returncode == 0, run.stderr
+    return {w["kind"]: w["text"] for w in json.loads(report.read_text())["warnings"]}
+
+
+@pytest.fixture
+def rich(tmp_path):
+    """The perforated square as in.obj, with all that an artist's OBJ holds."""
+    vertices, quads = perforated()
+    lines = ["# by hand", "mtllib a.mtl", "o sheet"]
+    lines += [f"v {x!r} {y!r} {z!r} 0.5 0.25 1" for x, y, z in vertices.tolist()]
+    lines += ["vt 0.25 0.75", "vn 0 0 1", "vn 0 1 0", "g left", "usemtl skin", "s 1"]
+    for k, quad in enumerate(quads.tolist()):
+        lines += ["g right", "usemtl cloth", "s off"] if k == len(quads) // 2 else []
+        lines.append("f " + " ".join(f"{i + 1}/1/{1 + k % 2}" for i in quad))
+    (tmp_path / "in.obj").write_text("\n".join([*lines, "l 1 2 3", ""]))
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", [["uniformize"], ["uniformize", "--cut"], ["parts"], ["ring"], ["sphere"]])
+def test_an_obj_keeps_all_but_its_texture_coordinates(rich, command):
+    name, *options = command
+    run = koebe(name, "in.obj", "out.obj", *options, "--json", "r.json", cwd=rich)
+    assert warnings(run, rich / "r.json").keys() - {"cut"} == {"replaced_uvs"}
+    out = (rich / "out.obj").read_text()
+    assert kept_lines(out) == kept_lines((rich / "in.obj").read_text())
+    used = [int(word.split("/")[1]) for line in out.splitlines() if line.startswith("f ") for word in line.split()[1:]]
+    assert sorted(set(used)) == list(range(1, len(re.findall("^vt ", out, re.MULTILINE)) + 1))
+    koebe(name, "in.obj", "in.obj", *options, cwd=rich)  # OUT may be IN
+    assert (rich / "in.obj").read_text() == out
+
+
+def test_fill_keeps_texture_coordinates_too(rich):
+    assert koebe("fill", "in.obj", "out.obj", cwd=rich).stdout.count("warning") == 0
+    text, out = (rich / "in.obj").read_text(), (rich / "out.obj").read_text()
+    assert text in out
+    assert re.findall("^g .*", out.replace(text, ""), re.MULTILINE) == ["g patch_1", "g patch_2", "g patch_3"]
+
+
+def test_normals_of_a_surface_that_was_moved_are_left_out_with_a_warning(rich):
+    run = koebe("transfer", "in.obj", "in.obj", "out.obj", "--json", "r.json", cwd=rich)
+    assert warnings(run, rich / "r.json")["not_kept"].endswith(": normals")
+    out = (rich / "out.obj").read_text()
+    assert out.count("usemtl") == 2 and out.count(" 0.5 0.25 1\n") == len(perforated()[0]) and "vn " not in out
+
+
+def test_what_another_format_does_not_hold_is_named(rich):
+    said = warnings(koebe("uniformize", "in.obj", "out.ply", "--json", "r.json", cwd=rich), rich / "r.json")
+    assert said.keys() == {"replaced_uvs", "not_kept"}
+    for word in ("groups", "materials", "smoothing groups", "normals", "vertex colours", "lines and points"):
+        assert word in said["not_kept"], word
+    vertices, quads = perforated()
+    off = ["COFF", f"{len(vertices)} {len(quads)} 0"]
+    off += [f"{x!r} {y!r} {z!r} 1 0 0 1" for x, y, z in vertices.tolist()]
+    off += ["4 {} {} {} {}".format(*quad) + " 0 1 0" * (k == 3) for k, quad in enumerate(quads.tolist())]
+    (rich / "in.off").write_text("\n".join(off))
+    said = warnings(koebe("uniformize", "in.off", "out.obj", "--json", "r.json", cwd=rich), rich / "r.json")
+    assert said == {"not_kept": "not kept of the file: vertex colours and face colours"}
+
+
+def test_a_ply_keeps_all_but_its_texture_coordinates(rich):
+    vertices, quads = perforated()
+    header = ["ply", "format ascii 1.0", "comment TextureFile a.png", f"element vertex {len(vertices)}"]
+    header += [f"property double {name}" for name in "xyzst"] + ["property uchar red", "property float nx"]
+    header += [f"element face {len(quads)}", "property list uchar int vertex_index", "property int part", "end_header"]
+    rows = [f"{x!r} {y!r} {z!r} 0 0 {k % 256} 0.5" for k, (x, y, z) in enumerate(vertices.tolist())]
+    rows += ["4 {} {} {} {} ".format(*quad) + str(-k) for k, quad in enumerate(quads.tolist())]
+    (rich / "in.ply").write_text("\n".join([*header, *rows, ""]))
+    for command, added in (("uniformize", 4), ("parts", 0)):
+        run = koebe(command, "in.ply", "out.ply", "--json", "r.json", cwd=rich)
+        assert warnings(run, rich / "r.json").keys() == {"replaced_uvs"}
+        head, body = (rich / "out.ply").read_text().split("end_header\n")
+        lines = [line.split() for line in body.splitlines()]
+        assert "comment TextureFile a.png\n" in head and "property uchar red\nproperty float nx\n" in head
+        assert [row[3:5] for row in lines[: len(vertices)]] == [[str(k % 256), "0.5"] for k in range(len(vertices))]
+        assert {len(row) for row in lines[: len(vertices)]} == {5 + added}
+        assert [row[5] for row in lines[len(vertices) :]] == [str(-k) for k in range(len(quads))]
+    assert {(row[6], len(row)) for row in lines[len(vertices) :]} == {("8", 15)}  # texcoord, of parts
+    said = warnings(koebe("uniformize", "in.ply", "out.obj", "--json", "r.json", cwd=rich), rich / "r.json")
+    assert said["not_kept"] == "not kept of the file: vertex colours, normals and face property part"
 
 
 # ---------------------------------------------------------------- warnings

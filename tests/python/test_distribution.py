@@ -1,14 +1,18 @@
 """The wheels and zips of a release: what is written into them, and what their binaries are checked for."""
 
 import importlib.util
+import re
+import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
+import cli_support
 import koebe
 import pytest
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -24,6 +28,32 @@ def script(name):
     sys.modules[name] = module
     spec.loader.exec_module(module)
     return module
+
+
+# CMakeLists.txt sets it, and pip's package takes it from there by the pattern in pyproject.toml. Files for Blender,
+# GitHub or another CMake repeat it.
+VERSIONS = {
+    "CMakeLists.txt": re.search(r"regex = '''(.*)'''", (ROOT / "pyproject.toml").read_text(encoding="utf-8"))[1],
+    "CHANGELOG.md": r"(?m)^## (.*?)(?:, not released yet)?$",
+    "CITATION.cff": r"(?m)^version: (.*)$",
+    "addon/blender_manifest.toml": r'(?m)^version = "(.*)"$',
+    "addon/__init__.py": r'"version": \((.*)\)',
+    "tests/consumer/CMakeLists.txt": r"find_package\(koebe (\S*) REQUIRED",
+}
+
+
+@pytest.mark.parametrize(("name", "pattern"), VERSIONS.items())
+def test_the_version_is_one(name, pattern):
+    expected = script("package_extension").project_version()
+    found = re.search(pattern, (ROOT / name).read_text(encoding="utf-8"))[1].replace(", ", ".")
+    assert found == (expected.rpartition(".")[0] if "consumer" in name else expected)
+
+
+def test_what_is_built_says_its_version():
+    expected = script("package_extension").project_version()
+    printed = subprocess.run([SCRIPTS / "version.sh"], capture_output=True, text=True, check=True).stdout.strip()
+    command = cli_support.koebe("--version").stdout.strip()
+    assert (koebe.__version__, command, printed) == (expected, expected, expected)
 
 
 def bundle(folder, *names):

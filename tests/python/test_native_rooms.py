@@ -1,7 +1,6 @@
 """The rooms of native/: includes run one way, and each room is on the map in CONTRIBUTING.md."""
 
 import collections
-import hashlib
 import re
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -70,54 +69,55 @@ def test_every_source_of_a_room_with_a_list_of_its_own_is_built(room):
     assert {path.name for path in (NATIVE / room).glob("*.cpp")} == set(re.findall(r"\b\w+\.cpp\b", built))
 
 
-def hidden_names(text):
-    """Functions in nameless namespaces of a source."""
-    inside = "".join(re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", text, re.MULTILINE | re.DOTALL))
-    return set(re.findall(r"^(?:\w[\w:<>,&* ]*[ &*])(\w+)\(", inside, re.MULTILINE))
+NAMED = re.compile(
+    r"^(?!struct|class|enum)(?:inline |constexpr |static )*\w[\w:<>,&* ]*[ &*](\w+)(?:\(|\[\w*\] ?[={]| ?[={])"
+    r"|^(?:struct|class|enum class|enum) (?:KOEBE_API )?(\w+)|^using (\w+) =",
+    re.MULTILINE,
+)
 
 
-def test_no_hidden_function_has_the_name_of_a_public_one():
-    # The wheels' library is compiled several sources at once: there it would hide the public one from the others, and
-    # be called wherever the numbers can be converted.
-    headers = [path.read_text(encoding="utf-8") for path in NATIVE.rglob("*.h")]
-    public = set(re.findall(r"^(?:inline |constexpr )*\w[\w:<>,&* ]*[ &*](\w+)\(", "\n".join(headers), re.MULTILINE))
-    assert {"triangle_area", "uniformize", "flipped_faces"} <= public
-    hidden = {path.name: hidden_names(path.read_text(encoding="utf-8")) & public for path in NATIVE.rglob("*.cpp")}
-    assert not {name: names for name, names in hidden.items() if names}
+def names_in(text):
+    """Functions, constants and types that stand at the left margin."""
+    return {next(filter(None, groups)) for groups in NAMED.findall(text)}
 
 
-def heap_of(source):
-    """Which sources the wheels' library compiles with it, as native/bundle/library.cmake has it."""
-    digits = hashlib.md5(str(source.relative_to(NATIVE)).encode(), usedforsecurity=False).hexdigest()[6:10]
-    return int(digits, 16) % 14
+def hidden_part(text):
+    """What a source has in nameless namespaces."""
+    return "".join(re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", text, re.MULTILINE | re.DOTALL))
 
 
-def hidden_values_and_types(text):
-    """Names of constants and types in nameless namespaces of a source, and of functions with their parameters."""
-    for inside in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", text, re.MULTILINE | re.DOTALL):
-        inside = re.sub(r"//.*", "", inside)
-        for declared in re.findall(r"^(?:static )?constexpr [^;]*;", inside, re.MULTILINE):
-            yield from re.findall(r"(\w+)(?:\[\w*\])? ?(?:=|\{)", declared)
-        yield from re.findall(r"^(?:struct|class|enum class|enum) (\w+)", inside, re.MULTILINE)
-        for name, parameters in re.findall(r"^\w[\w:<>,&* ]*[ &*](\w+)(\([^{;]*\))\s*\{", inside, re.MULTILINE):
-            yield name + re.sub(r"\w+(?=[,)])|\s", "", parameters)
+def namespace_of(text):
+    return (re.findall(r"^namespace ([\w:]+) \{$", text, re.MULTILINE) or [""])[0]
 
 
-def test_a_hidden_name_is_once_in_a_heap():
-    heaps = collections.defaultdict(list)
-    for source in sorted(NATIVE.rglob("*.cpp")):
-        text = source.read_text(encoding="utf-8")
-        if source.parent.name in FRONTS | WITH_THE_COMMAND | {OTHERS} or "<windows.h>" in text:
-            continue
-        heaps[heap_of(source)] += [(name, source.name) for name in set(hidden_values_and_types(text))]
-    assert len(heaps) == 14
-    twice = [
-        (name, [file for other, file in found if other == name])
-        for found in heaps.values()
-        for name, count in collections.Counter(name for name, _ in found).items()
-        if count > 1
-    ]
-    assert not twice
+def test_no_hidden_name_is_a_public_one():
+    # The library is compiled several sources at once: there it would hide the public one from the others, and be called
+    # wherever the numbers can be converted, or be ambiguous.
+    public = {}
+    for path in NATIVE.rglob("*.h"):
+        text = path.read_text(encoding="utf-8")
+        public.setdefault(namespace_of(text), set()).update(names_in(text))
+    assert {"triangle_area", "uniformize", "flipped_faces", "Part", "Index", "no_twin"} <= public["koebe"]
+    twice = {}
+    for path in NATIVE.rglob("*.cpp"):
+        text = path.read_text(encoding="utf-8")
+        seen = set().union(*(names for space, names in public.items()
+                             if space and f"{namespace_of(text)}::".startswith(f"{space}::")))  # fmt: skip
+        twice[path.name] = names_in(hidden_part(text)) & seen
+    assert not {name: names for name, names in twice.items() if names}
+
+
+def test_a_function_is_in_one_header():
+    # Two headers with the same inline function compile until a source includes both.
+    function = re.compile(r"^inline [\w:<>,&* ]*[ &*](\w+)(\([^{;]*?\))[\w ]*\s*\{", re.MULTILINE)
+    found = collections.defaultdict(list)
+    for path in NATIVE.rglob("*.h"):
+        text = path.read_text(encoding="utf-8")
+        for name, parameters in function.findall(text):
+            types = re.sub(r"\w+(?=[,)])|\s", "", parameters)
+            found[namespace_of(text), name, types].append(path.name)
+    assert ("koebe", "cross", "(Complex,Complex)") in found
+    assert not {key: names for key, names in found.items() if len(names) > 1}
 
 
 @pytest.mark.parametrize(
@@ -129,7 +129,7 @@ def test_a_hidden_name_is_once_in_a_heap():
     }.items(),
 )
 def test_what_is_used_of_eigen_is_included(module, use):
-    # Without the precompiled header, as the wheels' library is compiled, its functions would be declared and not there.
+    # Otherwise its functions are declared and not there, unless another source of the heap includes it.
     used = [path for path in NATIVE.rglob("*.[ch]*") if re.search(use, path.read_text(encoding="utf-8"))]
     included = re.compile(f"#include <Eigen/({module}|Dense)>")
     assert used and not [path.name for path in used if not included.search(path.read_text(encoding="utf-8"))]

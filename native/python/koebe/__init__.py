@@ -22,7 +22,7 @@ from ._load import load
 from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
 from ._parts import PartsResult, parts
 from ._plot import plot
-from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, UniformizeResult, Warning
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, MapReport, UniformizeResult, Warning
 from ._schottky import SchottkyMap, schottky_map
 from ._shapes import (
     DomainAlignment,
@@ -51,6 +51,7 @@ __all__ = [
     "InputError",
     "KoebeError",
     "LeftOutFace",
+    "MapReport",
     "OpenedSurface",
     "OptionError",
     "PartsResult",

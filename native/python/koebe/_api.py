@@ -9,7 +9,7 @@ from ._arrays import as_indices, as_loops, as_points, as_surface, as_triangles
 from ._cut_result import CutResult
 from ._meshes import is_mesh, read_mesh
 from ._native import _koebe
-from ._options import callback, choice, flag, outer_loop, positive, sweep, token, vertex, whole
+from ._options import callback, choice, flag, outer_loop, positive, share, sweep, token, vertex, whole
 from ._result import Source, UniformizeResult, with_origin
 from .errors import InputError, OptionError, SolverError, TopologyError
 
@@ -44,7 +44,7 @@ def _set_mesh_engine(
 
 def solver_options(
     method: Any, engine: Any, outer: Any, tolerance: Any, max_sweeps: Any, balance: Any, threads: Any, polish: Any,
-    center: Any, point: Any,
+    center: Any, point: Any, most_lost: Any,
 ) -> "_koebe.UniformizeOptions":
     options = _koebe.UniformizeOptions()
     options.method = choice(method, "method", _koebe.Method)
@@ -53,6 +53,7 @@ def solver_options(
     options.outer, options.outer_vertex = outer_loop(outer)
     options.tolerance = positive(tolerance, "tolerance")
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    options.most_lost = share(most_lost, "most_lost")
     options.threads = whole(threads, "threads", least=0)
     options.polish = flag(polish, "polish")
     options.center, options.point = vertex(center, "center"), vertex(point, "point")
@@ -76,6 +77,7 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     outer: str | int = "auto",
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    most_lost: float = _koebe.most_lost_area,
     balance: str = "none",
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
@@ -103,6 +105,7 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     outer        the loop on the unit circle: 'auto', 'longest', or a vertex of it
     tolerance    stop when the circles move by less in a sweep, a length in the unit disk
     max_sweeps   then stop with converged = False
+    most_lost    share of the surface's area that may have no area as stored before a warning comes first that says so
     balance      'none', or 'area': the disk automorphism with the least area distortion
     progress     called as progress(fraction, stage) on the calling thread; fraction never goes back
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
@@ -131,7 +134,9 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
-    options = solver_options(method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point)
+    options = solver_options(
+        method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point, most_lost
+    )
     _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     if flag(cut, "cut") and (schedule is not None or record_steps):
@@ -140,7 +145,8 @@ def uniformize(  # type: ignore[misc]  # whose options the two above do not name
     options.importance = importance_of(importance, balance, len(source.vertices))
     chosen = {
         "method": method, "engine": engine, "outer": outer if isinstance(outer, str) else int(outer),
-        "tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "balance": balance,
+        "tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
+        "most_lost": options.most_lost, "balance": balance,
         "threads": options.threads, "polish": options.polish,
         "center": None if center is None else options.center, "point": None if point is None else options.point,
         "partners": partners, "schedule": sweep(schedule, "schedule") or None, "metric": metric, "annulus": annulus,

@@ -44,9 +44,9 @@ def batch(
                 blender="blender"
 
     Returns one row for each file, by name: name, exit_code (0 done, 3 it cannot be mapped, 4 not converged), error and
-    error_text (None, or why), seconds, faces, flipped, below_resolution, angle_error_deg (the mean), warnings (how
-    many), output, input_sha256, options, version. Any number of calls may share one output folder, each file is done
-    once. Raises OptionError where the call is wrong, Cancelled where the
+    error_text (None, or why), seconds, faces, flipped, below_resolution, lost_area, angle_error_deg (the mean),
+    warnings (how many), output, input_sha256, options, version. Any number of calls may share one output folder, each
+    file is done once. Raises OptionError where the call is wrong, Cancelled where the
     command was told to end by somebody else, and KoebeError where the output folder cannot be written.
     """
     if isinstance(files, str | os.PathLike):

@@ -9,10 +9,10 @@ import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
 from ._files import whole_file
-from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+from ._result import MapReport, Seconds, Source, Warning
 
 
-class CutResult:
+class CutResult(MapReport):
     """The maps of the pieces of any mesh, and their report.
 
     uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. A cut is an edge
@@ -23,19 +23,17 @@ class CutResult:
     cuts             list of dicts: kind ('crowded_edge', 'orientation', 'bow_tie', 'handle', 'opening'), elements (the
                      vertices along the cut; a closed one ends with its first), text
     handles_cut      how many
-    left_out         list of dicts: face, and the face that it is drawn like, or None. These count in no figure
+    left_out         list of dicts: face, and the face that it is drawn like, or None. Of the figures these count in
+                     lost_area alone, and there only where they have no area at all
     turned           faces turned to the orientation of their piece
     converged        whether all pieces are
-    angle_error_deg, beltrami, area_distortion, conformal_energy    over all pieces, as they lie in the square
-    flipped, below_resolution    counts of faces, with the UVs as 32-bit floats
-    flipped_faces    int32 array of the faces that `flipped` counts, rising
+    angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces    over all pieces, as they lie in the square, as in MapReport
     version, input_sha256, options, vertices, faces, method, engine, seconds, peak_memory_mb, warnings
                      as in UniformizeResult
     """
 
-    version: str
     input_sha256: str
-    options: dict[str, Any]
     uv: np.ndarray
     piece: np.ndarray
     pieces: list[dict[str, Any]]
@@ -43,21 +41,9 @@ class CutResult:
     handles_cut: int
     left_out: list[dict[str, Any]]
     turned: list[int]
-    vertices: int
-    faces: int
     method: str
     engine: str
-    converged: bool
-    angle_error_deg: AngleError
-    beltrami: Beltrami
-    area_distortion: AreaDistortion
-    conformal_energy: float
-    flipped: int
-    below_resolution: int
-    flipped_faces: np.ndarray
     seconds: Seconds
-    peak_memory_mb: float
-    warnings: list[Warning]
 
     def __init__(self, report: dict[str, Any], uv: np.ndarray, flipped_faces: np.ndarray, source: Source) -> None:
         self._report = report

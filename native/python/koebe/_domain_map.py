@@ -6,32 +6,18 @@ from typing import Any
 import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
-from ._result import AngleError, AreaDistortion, Beltrami, Seconds, Source, Warning
+from ._result import MapReport, Seconds, Source, Warning
 
 
-class DomainMap:
+class DomainMap(MapReport):
     """UVs that are cut, and a report. What its fields mean, TileMap, SphereMap and SchottkyMap say."""
 
-    version: str
-    options: dict[str, Any]
     uv: np.ndarray
     loops: list[dict[str, Any]]
-    vertices: int
-    faces: int
-    converged: bool
     sweeps: int
     changes: list[float]
     turned: list[int]
-    angle_error_deg: AngleError
-    beltrami: Beltrami
-    area_distortion: AreaDistortion
-    conformal_energy: float
-    flipped: int
-    below_resolution: int
-    flipped_faces: np.ndarray
     seconds: Seconds
-    peak_memory_mb: float
-    warnings: list[Warning]
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         self._report = report

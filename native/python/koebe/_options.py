@@ -63,6 +63,13 @@ def positive(value: Any, option: str) -> float:
     return number
 
 
+def share(value: Any, option: str) -> float:
+    _require(value, option, Real, "a number")
+    if not 0 <= value <= 1:
+        raise OptionError(f"{option} must be from 0 to 1, not {value!r}")
+    return float(value)
+
+
 def outer_loop(value: Any) -> tuple["_koebe.OuterLoop", int]:
     """Which loop goes to the unit circle, and a vertex of it, -1 where none is given."""
     if isinstance(value, str):

@@ -8,12 +8,12 @@ import numpy as np
 
 from ._api import polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, flag, positive, token
-from ._result import AngleError, Warning
+from ._options import callback, flag, positive, share, token
+from ._result import MapReport, Warning
 from .errors import InputError
 
 
-class PartsResult:
+class PartsResult(MapReport):
     """What `parts` gives.
 
     uv               (F, 3, 2) float64 in [0, 1]^2: of each corner of each triangle, read-only
@@ -25,15 +25,13 @@ class PartsResult:
     handles_cut      handles that were cut
     density_ratio_5_95    texel density (a length over a length) at 95 % of the area over that at 5 %
     even_area        share of the area whose texel density lies within the best factor 3
-    flipped, below_resolution    counts of triangles, with u and v rounded to 32-bit floats
-    flipped_faces    int32 array of the faces that `flipped` counts
-    angle_error_deg  mean, sd and max over all corners
     seconds          of the whole
     maps             faces mapped, in faces of the mesh
-    warnings         list of Warning: kind, elements, text
+    converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces, peak_memory_mb, warnings, version, vertices, faces    as in MapReport. Faces in no
+                     part count in lost_area alone, and there only where they have no area at all
     """
 
-    version: str
     uv: np.ndarray
     part: np.ndarray
     parts: list[dict[str, Any]]
@@ -42,13 +40,8 @@ class PartsResult:
     handles_cut: int
     density_ratio_5_95: float
     even_area: float
-    flipped: int
-    below_resolution: int
-    flipped_faces: np.ndarray
-    angle_error_deg: AngleError
     seconds: float
     maps: float
-    warnings: list[Warning]
 
     def __init__(self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray) -> None:
         self._report = report
@@ -80,6 +73,7 @@ def parts(
     polygon: Any = None,
     slits: Any = None,
     round_cuts: bool = False,
+    most_lost: float = _koebe.most_lost_area,
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> PartsResult:
@@ -96,9 +90,11 @@ def parts(
               None: along a short, straight path
     round_cuts    True: loops at cuts lie on circles and on straight ends of tubes, as the own loops do. False:
               they follow the surface's edges, for less angle error
+    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
     """
+    loss = share(most_lost, "most_lost")
     chosen = _koebe.default_price if price is None else positive(price, "price")
     whole, is_round = flag(cut, "cut"), flag(round_cuts, "round_cuts")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
@@ -106,10 +102,11 @@ def parts(
     numbers = polygons_of(polygon, source)
     edges = np.zeros((0, 2), np.int32) if slits is None else _edges(slits, len(source.vertices))
     native = _koebe.parts(
-        source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), is_round, progress, cancel
+        source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), is_round, loss,
+        progress, cancel
     )
     report = native.report()
-    report["options"] = {"price": chosen, "cut": whole, "round_cuts": is_round}
+    report["options"] = {"price": chosen, "cut": whole, "round_cuts": is_round, "most_lost": loss}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32))
 
 

@@ -152,7 +152,41 @@ def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any])
     return {"version": report["version"], "input": report["input"], **origin, **report}
 
 
-class UniformizeResult:
+class MapReport:
+    """What every map reports, whatever its domain.
+
+    converged        False: the map is not done, and a warning says why
+    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say; of the map in 64 bits
+    angle_error_stored_deg    the angle error of the UVs as stored, in 32-bit floats. Faces without area count too: a
+                     corner at a side without length as a right angle
+    lost_area        share of the surface's area in faces without a positive area as stored
+    flipped, below_resolution    counts of faces, as in the command's JSON
+    flipped_faces    int32 array of the faces that `flipped` counts, rising
+    seconds          of each stage
+    peak_memory_mb   of the process
+    warnings         list of Warning: kind, elements, text. One of too much lost area comes first
+    """
+
+    version: str
+    options: dict[str, Any]
+    vertices: int
+    faces: int
+    converged: bool
+    angle_error_deg: AngleError
+    angle_error_stored_deg: AngleError
+    lost_area: float
+    beltrami: Beltrami
+    area_distortion: AreaDistortion
+    conformal_energy: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    seconds: Any
+    peak_memory_mb: float
+    warnings: list[Warning]
+
+
+class UniformizeResult(MapReport):
     """A circle domain and its report.
 
     version          of koebe that made it
@@ -174,17 +208,11 @@ class UniformizeResult:
     history          one entry a step, a Step
     step_maps        per step, if asked for: (V, 2) its own image, the first loop that it opened on the unit circle; NaN
                      for vertices that are not in it, or that it could not place
-    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say
-    flipped, below_resolution    counts of faces, as in the command's JSON
-    flipped_faces    int32 array of the faces that `flipped` counts, rising
-    seconds          of each stage
-    peak_memory_mb   of the process
-    warnings         list of Warning: kind, elements, text
+    angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings    as in MapReport
     """
 
-    version: str
     input_sha256: str = ""
-    options: dict[str, Any]
     uv: np.ndarray
     loops: list[np.ndarray]
     centers: np.ndarray
@@ -194,28 +222,16 @@ class UniformizeResult:
     mean_roundness: MeanRoundness
     off_circle: list[np.ndarray]
     own_circle: np.ndarray
-    vertices: int
-    faces: int
     method: str
     engine: str
     outer_loop: int
     center: int | None = None
     point: int | None = None
-    converged: bool
     sweeps: int
     steps: int
     history: list[Step]
     step_maps: list[np.ndarray]
-    angle_error_deg: AngleError
-    beltrami: Beltrami
-    area_distortion: AreaDistortion
-    conformal_energy: float
-    flipped: int
-    below_resolution: int
-    flipped_faces: np.ndarray
     seconds: Seconds
-    peak_memory_mb: float
-    warnings: list[Warning]
 
     def __init__(
         self,

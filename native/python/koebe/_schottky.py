@@ -8,7 +8,7 @@ import numpy as np
 from ._api import polygons_of, surface_of
 from ._domain_map import DomainMap
 from ._native import _koebe
-from ._options import callback, choice, positive, token, whole
+from ._options import callback, choice, positive, share, token, whole
 from ._result import Source
 
 Progress = Callable[[float, str], Any]
@@ -35,12 +35,13 @@ class SchottkyMap(DomainMap):
                      of the cut missed a Moebius map before they were made to fit, over their radius: an estimate of
                      the error
     loops            list of dicts of the holes, by falling length, the first on the unit circle (scaled where the UVs
-                     would not fit in the square): vertices, center, radius, roundness, roundness_least_squares
+                     would not fit in the square): vertices; center, radius of the circle where the UVs have it, or of
+                     one of its copies if polygons tear it there; roundness, roundness_least_squares, before the
+                     projection onto it; off_circle, the vertices that are not on it
     converged, sweeps, changes    of the disks that fill the loops, in each sweep
     turned           faces turned to the orientation of the others
-    angle_error_deg, beltrami, area_distortion, conformal_energy, flipped, below_resolution, seconds, peak_memory_mb,
-    warnings, version, vertices, faces    as in UniformizeResult
-    flipped_faces    int32 array of the faces that `flipped` counts
+    angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
     """
 
     generators: np.ndarray
@@ -74,6 +75,7 @@ def schottky_map(
     normalization: str = "area",
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    most_lost: float = _koebe.most_lost_area,
     polygon: Any = None,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
@@ -88,6 +90,7 @@ def schottky_map(
                  area distortion; 'circles', the nearest one where equally large circles of each handle are apart
     tolerance    stop when, in a sweep, the disks that fill the loops change by less, as matrices and relative
     max_sweeps   then stop with converged = False
+    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
                  as the mesh has them
     progress, cancel    as of `uniformize`
@@ -98,6 +101,7 @@ def schottky_map(
     options.normalization = choice(normalization, "normalization", _koebe.SchottkyNormalization)
     options.tolerance = positive(tolerance, "tolerance")
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    options.most_lost = share(most_lost, "most_lost")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles)
     options.polygon = polygons_of(polygon, source)
@@ -107,5 +111,6 @@ def schottky_map(
         "normalization": normalization,
         "tolerance": options.tolerance,
         "max_sweeps": options.max_sweeps,
+        "most_lost": options.most_lost,
     }
     return SchottkyMap(report, native, source)

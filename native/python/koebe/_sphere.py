@@ -8,7 +8,7 @@ import numpy as np
 from ._api import polygons_of, surface_of
 from ._domain_map import DomainMap
 from ._native import _koebe
-from ._options import callback, choice, positive, token, whole
+from ._options import callback, choice, positive, share, token, whole
 from ._result import Source
 
 Progress = Callable[[float, str], Any]
@@ -32,17 +32,19 @@ class SphereMap(DomainMap):
     mean_point       length of the mean of the surface's points by area, 0 where the map is balanced
     converged, sweeps, changes    of the circles, or of the points of a closed surface, in each sweep
     turned           faces turned to the orientation of the others
-    flipped, below_resolution    faces that are not upright on the sphere, in exact arithmetic, and those of them that
-                     are smaller than what 64-bit coordinates resolve there
-    angle_error_deg, beltrami, area_distortion, conformal_energy    as in UniformizeResult, of the flat faces between
-                     the points
-    seconds, peak_memory_mb, warnings, version, vertices, faces    as in UniformizeResult
-    flipped_faces    int32 array of the faces that `flipped` counts
+    angle_error_deg, beltrami, area_distortion, conformal_energy    as in MapReport, of the flat faces between the
+                     points
+    angle_error_stored_deg, lost_area, flipped, below_resolution, flipped_faces    as in MapReport, of the UVs, where a
+                     torn face counts as it lies
+    on_sphere        dict of counts: flipped, faces that are not upright on the sphere in exact arithmetic;
+                     below_resolution, those of them that are smaller than what 64-bit coordinates resolve there
+    seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
     """
 
     points: np.ndarray
     caps: np.ndarray
     layout: dict[str, Any]
+    on_sphere: dict[str, int]
     mean_point: float
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
@@ -69,6 +71,7 @@ def sphere_map(
     layout: str = "equirectangular",
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    most_lost: float = _koebe.most_lost_area,
     polygon: Any = None,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
@@ -82,6 +85,7 @@ def sphere_map(
     layout       of the UVs: 'equirectangular' (longitude and latitude) or 'octahedral' (the octahedron folded out)
     tolerance    stop when the circles, or the points of a closed surface, move by less in a sweep
     max_sweeps   then stop with converged = False
+    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
     polygon      (F,) integers: triangles of one number are one polygon, whose corners have one UV each. None: each by
                  itself, or as the mesh has them
     progress, cancel    as of `uniformize`
@@ -92,10 +96,12 @@ def sphere_map(
     options.layout = choice(layout, "layout", _koebe.SphereLayout)
     options.tolerance = positive(tolerance, "tolerance")
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    options.most_lost = share(most_lost, "most_lost")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles)
     options.polygon = polygons_of(polygon, source)
     native = _koebe.sphere_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report(options.layout)
-    report["options"] = {"layout": layout, "tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
+    report["options"] = {"layout": layout, "tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
+                         "most_lost": options.most_lost}  # fmt: skip
     return SphereMap(report, native, source)

@@ -35,6 +35,7 @@ class Surface:
         outer: str | int = "auto",
         tolerance: float = 1e-6,
         max_sweeps: int = 50,
+        most_lost: float = _koebe.most_lost_area,
         balance: str = "none",
         threads: int = 0,
         polish: bool = False,
@@ -43,13 +44,15 @@ class Surface:
         importance: Any = None,
     ) -> None:
         options = solver_options(
-            method, "condensed", outer, tolerance, max_sweeps, balance, threads, polish, center, point
+            method, "condensed", outer, tolerance, max_sweeps, balance, threads, polish, center, point,
+            most_lost,
         )
         self._source = surface_of(vertices, triangles)
         options.importance = importance_of(importance, balance, len(self._source.vertices))
         self._options = {
             "method": method, "outer": outer if isinstance(outer, str) else int(outer),
-            "tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "balance": balance,
+            "tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
+            "most_lost": options.most_lost, "balance": balance,
             "threads": options.threads, "polish": options.polish,
             "center": None if center is None else options.center, "point": None if point is None else options.point,
         }  # fmt: skip

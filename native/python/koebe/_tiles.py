@@ -8,7 +8,7 @@ import numpy as np
 from ._api import polygons_of, surface_of
 from ._domain_map import DomainMap
 from ._native import _koebe
-from ._options import callback, choice, positive, token, vertex, whole
+from ._options import callback, choice, positive, share, token, vertex, whole
 from ._result import Source
 
 Progress = Callable[[float, str], Any]
@@ -28,9 +28,8 @@ class TileMap(DomainMap):
     converged, sweeps, changes    of the circles in each sweep
     turned           faces turned to the orientation of the others
     cut_length       of the cut in the UVs, over the root of the surface's area
-    angle_error_deg, beltrami, area_distortion, conformal_energy, flipped, below_resolution, seconds, peak_memory_mb,
-    warnings, version, vertices, faces    as in UniformizeResult
-    flipped_faces    int32 array of the faces that `flipped` counts
+    angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
     """
 
     periods: np.ndarray
@@ -55,6 +54,7 @@ def torus_map(
     *,
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    most_lost: float = _koebe.most_lost_area,
     polygon: Any = None,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
@@ -64,6 +64,7 @@ def torus_map(
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
     tolerance    stop when the circles move by less in a sweep; the shortest period of the torus is 1
     max_sweeps   then stop with converged = False
+    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
                  as the mesh has them
     progress, cancel    as of `uniformize`
@@ -73,12 +74,13 @@ def torus_map(
     options = _koebe.TileOptions()
     options.tolerance = positive(tolerance, "tolerance")
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    options.most_lost = share(most_lost, "most_lost")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles)
     options.polygon = polygons_of(polygon, source)
     native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
-    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps}
+    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps, "most_lost": options.most_lost}
     return TileMap(report, native, source)
 
 
@@ -91,6 +93,7 @@ def ring_map(
     holes: str = "circles",
     tolerance: float = 1e-6,
     max_sweeps: int = 50,
+    most_lost: float = _koebe.most_lost_area,
     polygon: Any = None,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
@@ -106,6 +109,7 @@ def ring_map(
                  whose logarithm this is; 'concentric': slits along u, in the annulus arcs round its centre; 'radial':
                  slits along v, in the annulus along its radii
     tolerance, max_sweeps    of the iteration that makes holes round, as of `uniformize`
+    most_lost    as of `torus_map`
     polygon      as of `torus_map`
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
@@ -116,11 +120,12 @@ def ring_map(
     options.outer, options.inner = vertex(outer, "outer"), vertex(inner, "inner")
     options.tolerance = positive(tolerance, "tolerance")
     options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    options.most_lost = share(most_lost, "most_lost")
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles)
     options.polygon = polygons_of(polygon, source)
     native = _koebe.ring_map(source.vertices, source.triangles, options, progress, cancel)
     report = native.report()
     report["options"] = {"outer": outer, "inner": inner, "holes": holes, "tolerance": options.tolerance,
-                         "max_sweeps": options.max_sweeps}  # fmt: skip
+                         "max_sweeps": options.max_sweeps, "most_lost": options.most_lost}  # fmt: skip
     return TileMap(report, native, source)

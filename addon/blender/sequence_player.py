@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The modifier that plays a sequence: nodes that bring the current frame's vector attribute into a UV layer."""
+
+from typing import Any
+
+import bpy
+
+from . import compat
+from .mesh_object import MeshObject
+from .transaction import Transaction
+
+NAME = "Koebe Sequence"  # of the modifier, and of its nodes
+STORE = "GeometryNodeStoreNamedAttribute"
+DIGITS = 4  # of a frame in an attribute's name, a minus counted, filled up by zeros
+
+
+def put_on(run: Transaction, obj: MeshObject, layer: str, prefix: str, frames: range) -> None:
+    """Let the object show in each frame the UVs of the attribute that is called `prefix` and the last of the frames.
+
+    Before the first frame and after the last one these stay. What an attribute leaves at (0, 0) keeps the layer's UVs.
+    """
+    old = _own(obj)
+    groups = {group.name for group in bpy.data.node_groups if group.library is None}
+    run.before_write(_restore, obj, old.name if old else None, old.node_group if old else None, groups)
+    modifier: Any = old or obj.modifiers.new(NAME, "NODES")
+    modifier.node_group = _nodes(layer, prefix, frames)
+
+
+def shown_instead(obj: MeshObject, layer: str) -> str | None:
+    """What to say where a modifier of an earlier run shows its frames' UVs in the place of that layer's, or None."""
+    own = _own(obj)
+    stores = own.node_group.nodes if own is not None and (own.show_viewport or own.show_render) else ()
+    for node in stores:
+        if node.bl_idname == STORE and _enabled(node.inputs, "Name").default_value == layer:
+            return f"its modifier {own.name!r} shows the UVs of its frames in place of these: remove it to see them"
+    return None
+
+
+def _own(obj: MeshObject) -> Any:
+    """The modifier of an earlier run, or None."""
+    for one in obj.modifiers:
+        if one.type == "NODES" and one.node_group is not None and one.node_group.name.startswith(NAME):
+            return one
+    return None
+
+
+def _restore(obj: MeshObject, name: str | None, group: Any, groups: set[str]) -> None:
+    now = _own(obj)
+    if now is not None and name is None:
+        obj.modifiers.remove(now)
+    elif now is not None:
+        now.node_group = group
+    for made in [one for one in bpy.data.node_groups if one.library is None and one.name not in groups]:
+        bpy.data.node_groups.remove(made)
+
+
+class _Builder:
+    """Nodes in a row, each made with what it is fed."""
+
+    def __init__(self) -> None:
+        groups: Any = bpy.data.node_groups
+        self.tree: Any = groups.new(NAME, "GeometryNodeTree")
+
+    def node(self, kind: str, output: str | None, fed: dict[str | int, Any] | None = None, **values: Any) -> Any:
+        """A node's output of that name, or None; `fed` are values or outputs by the names or numbers of inputs."""
+        node = self.tree.nodes.new(kind)
+        node.location = 180 * len(self.tree.nodes), -120 * (len(self.tree.nodes) % 3)
+        for name, value in values.items():
+            setattr(node, name, value)
+        for key, value in (fed or {}).items():
+            socket = node.inputs[key] if isinstance(key, int) else _enabled(node.inputs, key)
+            if isinstance(value, bpy.types.NodeSocket):
+                self.tree.links.new(value, socket)
+            else:
+                socket.default_value = value
+        return None if output is None else _enabled(node.outputs, output)
+
+    def math(self, operation: str, one: Any, other: Any = 0.0) -> Any:
+        """A number out of two."""
+        return self.node("ShaderNodeMath", "Value", {0: one, 1: other}, operation=operation)
+
+    def named(self, name: Any) -> Any:
+        """The values of a vector attribute."""
+        return self.node("GeometryNodeInputNamedAttribute", "Attribute", {"Name": name}, data_type="FLOAT_VECTOR")
+
+    def replaced(self, text: Any, mark: str, by: Any) -> Any:
+        """A text with another one in the place of a mark."""
+        return self.node("FunctionNodeReplaceString", "String", {"String": text, "Find": mark, "Replace": by})
+
+
+def _enabled(sockets: Any, name: str) -> Any:
+    """The socket of that name which is in use: others are of other data types."""
+    return next(socket for socket in sockets if socket.name == name and socket.enabled)
+
+
+def _nodes(layer: str, prefix: str, frames: range) -> Any:
+    build = _Builder()
+    compat.add_geometry_sockets(build.tree)
+    now = build.named(_attribute_name(build, prefix, frames))
+    length = build.node("ShaderNodeVectorMath", "Value", {0: now}, operation="LENGTH")
+    is_there = build.node("FunctionNodeCompare", "Result", {0: length, 1: 0.0}, operation="GREATER_THAN")
+    uv = build.node(
+        "GeometryNodeSwitch", "Output", {"Switch": is_there, "False": build.named(layer), "True": now},
+        input_type="VECTOR",
+    )  # fmt: skip
+    stored = build.node(
+        STORE, "Geometry",
+        {"Geometry": build.node("NodeGroupInput", "Geometry"), "Name": layer, "Value": uv},
+        data_type=compat.stored_uv_type(), domain="CORNER",
+    )  # fmt: skip
+    build.node("NodeGroupOutput", None, {0: stored})
+    return build.tree
+
+
+def _attribute_name(build: _Builder, prefix: str, frames: range) -> Any:
+    """The name of the attribute that counts in the scene's frame, as Python has `prefix` and f"{frame:04d}"."""
+    first, step, last = float(frames[0]), float(frames.step), float(len(frames) - 1)
+    scene = build.node("GeometryNodeInputSceneTime", "Frame")
+    number = build.math("FLOOR", build.math("DIVIDE", build.math("SUBTRACT", scene, first), step))
+    number = build.math("MINIMUM", build.math("MAXIMUM", number, 0.0), last)
+    frame = build.math("ADD", build.math("MULTIPLY", number, step), first)
+    is_negative = build.math("LESS_THAN", frame, 0.0)
+    digits = build.node("FunctionNodeValueToString", "String", {"Value": build.math("ABSOLUTE", frame)})
+    length = build.node("FunctionNodeStringLength", "Length", {"String": digits})
+    width = build.math("MAXIMUM", length, build.math("SUBTRACT", float(DIGITS), is_negative))
+    zeros = "0" * (DIGITS - 1)
+    position = build.math("SUBTRACT", build.math("ADD", length, float(len(zeros))), width)
+    padded = build.node(
+        "FunctionNodeSliceString", "String",
+        {"String": build.replaced(f"{zeros}#", "#", digits), "Position": position, "Length": width},
+    )  # fmt: skip
+    mark = next(chr(code) for code in range(ord("#"), ord("~")) if chr(code) not in prefix)  # of 63 bytes at most
+    pattern = build.node(
+        "GeometryNodeSwitch", "Output", {"Switch": is_negative, "False": f"{prefix}{mark}", "True": f"{prefix}-{mark}"},
+        input_type="STRING",
+    )  # fmt: skip
+    return build.replaced(pattern, mark, padded)

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel calls buttons and options, as words of the command line."""
+
+import re
+
+# Texts of the rooms below name what the panel has.
+FLAGS = {
+    "Unwrap to Parts": "--parts",
+    "Unwrap to Torus Tile": "--domain torus",
+    "Unwrap to Cylinder": "--domain ring",
+    "Unwrap to Sphere": "--domain sphere",
+    "Unwrap Handles": "--domain schottky",
+    "Koebe Uniformize": "--domain disk",
+    "Tube: Annulus": "--tube annulus",
+    "Fit: Inside": "--fit inside",
+    "Target: Attributes": "--sequence-target attribute",
+    "set Balance to Area": "take --balance area",
+    "choose another layer name": "choose another name with --layer",
+    "layer: ": "--layer: ",
+}
+_NAMES = re.compile("|".join(rf"(?<![\w-]){re.escape(name)}" for name in FLAGS))
+
+
+def in_flags(text: object) -> str:
+    """The text with flags in the place of the panel's names."""
+    return _NAMES.sub(lambda match: FLAGS[match[0]], str(text))
+
+
+def flag(name: str) -> str:
+    """The flag of an option."""
+    return f"--{name.replace('_', '-')}"

@@ -1,0 +1,47 @@
+#include "io/file_losses.h"
+
+#include "io/format_readers.h"
+
+#include <utility>
+
+namespace koebe::io {
+namespace {
+
+FileLosses contents_of(const MeshFile& filed)
+{
+    if (filed.extension == ".obj") return obj_contents(filed.bytes);
+    if (filed.extension == ".off") return off_contents(filed.bytes);
+    if (filed.extension == ".ply") return ply_contents(filed.bytes);
+    if (filed.extension == ".stl") return stl_contents(filed.bytes);
+    return {};
+}
+
+std::string listed(const std::vector<std::string>& words)
+{
+    std::string list;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        list += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+    return list;
+}
+
+}  // namespace
+
+FileLosses losses_of_all(const MeshFile& filed, bool with_uvs)
+{
+    FileLosses losses = contents_of(filed);
+    if (!with_uvs && std::exchange(losses.texture_coordinates, false))
+        losses.others.insert(losses.others.begin(), "texture coordinates");
+    return losses;
+}
+
+std::vector<Warning> loss_warnings(const FileLosses& losses)
+{
+    std::vector<Warning> warnings;
+    if (losses.texture_coordinates)
+        warnings.push_back({WarningKind::replaced_uvs, "the file's texture coordinates are replaced by the map's"});
+    if (!losses.others.empty())
+        warnings.push_back({WarningKind::not_kept, "not kept of the file: " + listed(losses.others)});
+    return warnings;
+}
+
+}  // namespace koebe::io

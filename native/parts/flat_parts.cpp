@@ -1,0 +1,179 @@
+#include "parts/flat_parts.h"
+
+#include "core/connectivity.h"
+#include "core/side_by_side.h"
+#include "core/errors.h"
+#include "pipeline/uniformize.h"
+#include "quality/distortion.h"
+#include "quality/stored_uv.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double square_side = 1.25;    // of the square that parts of area 1 are packed into, about
+constexpr double most_lost = 0.005;     // of a part's area, in faces without area as stored
+constexpr double lost_anyway = 1e-5;    // of the surface's area: not worth a cut
+constexpr int most_halvings = 6;        // of one part
+constexpr double most_uneven = 2.0;     // overflow over area: of one map that can be painted on
+constexpr double worth_repairing = 1.2;   // of the parts' angle error: more than that repairs do not take off one map's
+constexpr double small_error = 1.0;     // degrees: nobody sees less
+constexpr double large_error = 10.0;    // degrees: of a surface so crumpled that a map not repaired tells little of it
+constexpr std::size_t few_faces = 8;    // a part of fewer is not cut
+
+/// @param slit (3F) half-edges of the whole
+void prefer_slits(PartMesh& part, const std::vector<char>& slit)
+{
+    part.slit.resize(3 * part.faces.size(), 0);
+    for (std::size_t i = 0; i < part.faces.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (slit[3 * static_cast<std::size_t>(part.faces[i]) + k]) part.slit[3 * i + k] = 1;
+}
+
+/// @param opened (3F) half-edges of the whole, changed in place
+void note_slit(const PartMesh& part, const FlatPart& flat, std::vector<char>& opened)
+{
+    for (std::size_t h = 0; h < part.surface.twin.size(); ++h)
+        if (part.surface.twin[h] != no_twin && flat.surface.twin[h] == no_twin)
+            opened[3 * static_cast<std::size_t>(part.faces[h / 3]) + h % 3] = 1;
+}
+
+bool fewer(const Flaws& a, const Flaws& b) { return std::pair(a.lost, a.turned) < std::pair(b.lost, b.turned); }
+
+void add(const Flaws& more, Flaws& flaws)
+{
+    flaws.lost += more.lost;
+    flaws.turned += more.turned;
+}
+
+/// @param uv in [0, 1]^2 @param areas (F)
+Flaws flaws_of(const FlatPart& flat, const PlanarPoints& uv, const VectorXd& areas)
+{
+    const PlanarPoints points = 2.0 * uv.array() - 1.0;
+    Flaws flaws;
+    for (Eigen::Index f = 0; f < areas.size(); ++f) {
+        const StoredFace face(flat.surface.triangles, points, f);
+        if (!face.flipped()) continue;
+        flaws.lost += areas[f];
+        flaws.turned += !face.below_resolution();
+    }
+    if (flaws.lost <= std::max(most_lost * areas.sum(), lost_anyway)) flaws.lost = 0.0;
+    flaws.turned += !loops_apart(flat, uv);
+    return flaws;
+}
+
+/// Flipped faces turned back in a box of about the size that the part will have.
+Flaws repair(FlatPart& flat, const VectorXd& areas, ExecutionContext& context)
+{
+    const Eigen::RowVector2d low = flat.points.colwise().minCoeff(), high = flat.points.colwise().maxCoeff();
+    const double side = std::max(square_side, (high - low).maxCoeff());
+    const PlanarPoints before = (flat.points.rowwise() - low) / side;
+    PlanarPoints uv = before;
+    repair_flips(flat, uv, context);
+    embed_safely(flat, uv, context);
+    if (uv != before) flat.points = (side * uv).rowwise() + low;
+    return flaws_of(flat, uv, areas);
+}
+
+/// A part, cut in two where it has flaws, if that makes them fewer.
+FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
+               ExecutionContext& context, SplitEffort& effort)
+{
+    FlatParts as_one;
+    as_one.parts.push_back(flat_part(*part, options, context));
+    as_one.flaws = repair(as_one.parts.front(), part->mesh.areas, context);
+    if (!as_one.flaws.any() || halvings == most_halvings || part->mesh.faces.size() < few_faces) return as_one;
+    FlatParts in_two;
+    for (const PartPointer& child : halved(whole, part, 1, context, effort)) {
+        FlatParts own = laid(whole, child, options, halvings + 1, context, effort);
+        add(own.flaws, in_two.flaws);
+        std::ranges::move(own.parts, std::back_inserter(in_two.parts));
+    }
+    return in_two.parts.size() > 1 && fewer(in_two.flaws, as_one.flaws) ? std::move(in_two) : std::move(as_one);
+}
+
+double angle_errors(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
+{
+    return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
+}
+
+/// Mean angle error, in degrees.
+double angle_error(const std::vector<FlatPart>& parts)
+{
+    double sum = 0.0, faces = 0.0;
+    for (const FlatPart& part : parts) {
+        sum += angle_errors(part.vertices, part.surface.triangles, part.points);
+        faces += static_cast<double>(part.faces.size());
+    }
+    return sum / faces;
+}
+
+/// Whether the map by which a piece was split says that as one map it loses much, is very uneven, or bends more.
+bool hopeless_as_one(const Part& root, double error)
+{
+    const PartMap& map = root.map;
+    if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > most_uneven * root.mesh.area) return true;
+    PlanarPoints points(map.positions.size(), 2);
+    points << map.positions.real(), map.positions.imag();
+    const double own = angle_errors(root.mesh.vertices, root.mesh.surface.triangles, points);
+    return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
+}
+
+}  // namespace
+
+FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
+                     const FlatOptions& options, int threads, ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<FlatParts> flats(parts.size());
+    std::vector<SplitEffort> efforts(parts.size());
+    std::vector<char> opened(whole.surface.twin.size(), 0);
+    const bool in_turn = !mirror.image.empty();
+    side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
+        Part& part = *parts[k];
+        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k]);
+        const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
+        if (in_turn && part.map.kind == PartKind::tube && !chosen)
+            prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
+        const FlatOptions own_options{chosen ? 0.0 : options.slit_price, options.round_cuts};
+        flats[k] = laid(whole, parts[k], own_options, 0, own, efforts[k]);
+        if (in_turn && flats[k].parts.size() == 1) note_slit(part.mesh, flats[k].parts.front(), opened);
+        parts[k].reset();
+    });
+    FlatParts all;
+    for (FlatParts& own : flats) {
+        add(own.flaws, all.flaws);
+        std::ranges::move(own.parts, std::back_inserter(all.parts));
+    }
+    for (const SplitEffort& own : efforts) effort.maps += own.maps;
+    return all;
+}
+
+std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, const FlatParts& parts,
+                                      ExecutionContext& context)
+{
+    const double error = angle_error(parts.parts);
+    const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < large_error;
+    if (!parts.flaws.any() && (error < small_error || (is_cut && hopeless_as_one(*root, error)))) return {};
+    std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
+    std::iota(faces.begin(), faces.end(), 0);
+    const PartMesh mesh = part_mesh(whole, std::move(faces));
+    ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
+    PlanarPoints uv;
+    try {
+        uv = uniformize(mesh.vertices, mesh.surface.triangles, {}, inner).uv;
+    } catch (const SolverError&) {
+        return {};
+    }
+    FlatPart one = flat_as_mapped(mesh, uv);
+    const Flaws flaws = repair(one, mesh.areas, context);
+    if (flaws.any() && !fewer(flaws, parts.flaws)) return {};
+    const double own = angle_errors(one.vertices, one.surface.triangles, one.points);
+    if (!parts.flaws.any() && own >= error * static_cast<double>(one.faces.size())) return {};
+    return one;
+}
+
+}  // namespace koebe
