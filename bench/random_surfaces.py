@@ -404,7 +404,10 @@ def doubled(rng):
 
 def strewn(rng):
     """Two components, each of another kind, perhaps of very different sizes; some faces turned over, some twice."""
-    one, other = (closed, tori, doubled, sphere, grid)[rng.integers(5)](rng), (closed, sphere, tube)[rng.integers(3)](rng)
+    one, other = (
+        (closed, tori, doubled, sphere, grid)[rng.integers(5)](rng),
+        (closed, sphere, tube)[rng.integers(3)](rng),
+    )
     (points, faces), (more, hung) = one, other
     shift = [3 * np.ptp(points), 0, 0]
     points = np.concatenate([points, more * rng.choice([1e-3, 1, 10]) + shift])

@@ -226,7 +226,9 @@ def main():
     for name, kind, row in bad[:40]:
         changes = {way: change for way, change in row.get("change", {}).items() if change > SAME}
         changes |= {"kernels": "other bits"} if row.get("kernels") is False else {}
-        print(f"{name} {kind} {row['seed']}, {row['faces']} faces, {row['options']}: {row.get('broken') or ''} {changes}")
+        print(
+            f"{name} {kind} {row['seed']}, {row['faces']} faces, {row['options']}: {row.get('broken') or ''} {changes}"
+        )
     (OUT / "surfaces.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
     faces, delays = cancel_delays()
     cancel = [f"{faces:,}", str(len(delays)), f"{np.median(delays):.3f}", f"{max(delays):.3f}"] if delays else []
