@@ -31,7 +31,6 @@ sys.path.insert(0, str(ROOT / "build" / "python"))
 import commands  # noqa: E402
 import koebe  # noqa: E402
 import numpy as np  # noqa: E402
-import random_surfaces  # noqa: E402
 
 OUT = ROOT / "out" / "reliability"
 OPTIONS = ({}, {"balance": "area"}, {}, {"method": "ck"}, {}, {"engine": "mesh"}, {"polish": True})
