@@ -406,14 +406,16 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
     return result;
 }
 
-void name_result(const CanonicalMesh& mesh, SchottkyResult& result)
+void name_schottky(const CanonicalMesh& mesh, SchottkyResult& result)
 {
     mesh.name_corners(result.uv);
-    for (SchottkyHole& hole : result.holes) mesh.name_loop(hole.vertices);
+    for (SchottkyHole& hole : result.holes) {
+        mesh.name_loop(hole.vertices);
+        mesh.name_vertices(hole.off_circle);
+    }
     for (SchottkyHandle& handle : result.handles) mesh.name_path(handle.cut);
-    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
-        mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_faces(result.turned);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -432,7 +434,7 @@ SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles
             here.polygon = mesh.of_faces(options.polygon);
             return schottky_map_here(mesh.vertices, mesh.triangles, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_schottky);
     });
 }
 

@@ -394,7 +394,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     return result;
 }
 
-void name_result(const CanonicalMesh& mesh, SphereResult& result)
+void name_sphere(const CanonicalMesh& mesh, SphereResult& result)
 {
     const Vertices points = std::move(result.points);
     result.points.resize(points.rows(), 3);
@@ -405,10 +405,10 @@ void name_result(const CanonicalMesh& mesh, SphereResult& result)
         mesh.name_vertices(loop.off_circle);
     }
     for (auto* faces :
-         {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution, &result.layout.crossing,
+         {&result.turned, &result.flipped_on_sphere, &result.below_sphere_resolution, &result.layout.crossing,
           &result.layout.torn, &result.layout.flipped, &result.layout.below_resolution})
         mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -427,7 +427,7 @@ SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, co
             here.polygon = mesh.of_faces(options.polygon);
             return sphere_map_here(mesh, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_sphere);
     });
 }
 

@@ -133,16 +133,15 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
     result.warnings.push_back(std::move(warning));
 }
 
-void name_result(const CanonicalMesh& mesh, TileResult& result)
+void name_tile(const CanonicalMesh& mesh, TileResult& result)
 {
     mesh.name_corners(result.uv);
     for (TileLoop& loop : result.loops) {
         mesh.name_loop(loop.vertices);
         mesh.name_vertices(loop.off_circle);
     }
-    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
-        mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_faces(result.turned);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -158,7 +157,7 @@ TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, 
             here.polygon = mesh.of_faces(options.polygon);
             return map(mesh.vertices, mesh.triangles, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_tile);
     });
 }
 

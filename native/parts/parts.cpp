@@ -176,7 +176,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     return result;
 }
 
-void name_result(const CanonicalMesh& mesh, PartsResult& result)
+void name_parts(const CanonicalMesh& mesh, PartsResult& result)
 {
     mesh.name_corners(result.uv);
     mesh.name_values(result.part);
@@ -184,8 +184,7 @@ void name_result(const CanonicalMesh& mesh, PartsResult& result)
         mesh.name_faces(part.faces);
         for (VertexLoop& loop : part.loops) mesh.name_loop(loop);
     }
-    for (auto* faces : {&result.distortion.flipped, &result.distortion.below_resolution}) mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -200,7 +199,7 @@ PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const
             for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
             return compute(mesh.vertices, mesh.triangles, here, own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_parts);
     });
 }
 

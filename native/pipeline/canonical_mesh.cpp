@@ -188,9 +188,11 @@ void CanonicalMesh::name_elements(ElementKind kind, std::vector<Index>& elements
     for (const auto& [a, b] : edges) elements.insert(elements.end(), {a, b});
 }
 
-void CanonicalMesh::name_all(std::vector<Warning>& warnings) const
+void CanonicalMesh::name_report(MapReport& report) const
 {
-    for (Warning& warning : warnings) name_elements(elements_of(warning.kind), warning.elements);
+    name_faces(report.distortion.flipped);
+    name_faces(report.distortion.below_resolution);
+    for (Warning& warning : report.warnings) name_elements(elements_of(warning.kind), warning.elements);
 }
 
 CanonicalMesh canonical_mesh(const Vertices& vertices, const Triangles& triangles)

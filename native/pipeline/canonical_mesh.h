@@ -3,7 +3,7 @@
 
 #include "core/errors.h"
 #include "core/types.h"
-#include "core/warning.h"
+#include "pipeline/result.h"
 
 #include <algorithm>
 #include <vector>
@@ -40,7 +40,7 @@ struct CanonicalMesh {
     void name_vertices(std::vector<Index>& vertices) const;  ///< rising
     void name_faces(std::vector<Index>& faces) const;        ///< rising
     void name_elements(ElementKind kind, std::vector<Index>& elements) const;
-    void name_all(std::vector<Warning>& warnings) const;
+    void name_report(MapReport& report) const;
     /// (3F, n) of the corners of all faces.
     template <class Rows>
     void name_corners(Rows& rows) const

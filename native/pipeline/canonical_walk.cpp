@@ -19,8 +19,6 @@ namespace {
 constexpr double hash_unit = 1e-3;  // of lengths in a hash, over the longest edge that a walk may begin with
 constexpr int hash_rounds = 24;     // edges that a neighbourhood reaches
 
-using Key = std::pair<std::uint64_t, std::uint64_t>;
-
 std::uint64_t mixed(std::uint64_t x)
 {
     // The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
@@ -33,6 +31,8 @@ std::uint64_t mixed(std::uint64_t x)
 std::uint64_t whole(double units) { return units < 0x1p62 ? static_cast<std::uint64_t>(std::llround(units)) : 0u; }
 
 class StartFinder {
+    using Key = std::pair<std::uint64_t, std::uint64_t>;
+
 public:
     StartFinder(const JoinedFaces& faces, const Vertices& positions)
         : faces_(faces), positions_(positions), longest_(static_cast<std::size_t>(faces.patches), 0.0)
@@ -156,8 +156,7 @@ private:
         return hash;
     }
 
-    /// Numbers for the two ends of each candidate that tell their neighbourhoods from others, until all candidates are
-    /// told apart.
+    /// Numbers that tell the neighbourhoods of candidates from others, until all are told apart.
     std::vector<Key> keys_of(const std::vector<Index>& candidates) const
     {
         const Triangles& triangles = faces_.triangles;
@@ -188,16 +187,22 @@ private:
             }
             for (std::uint64_t& number_of_vertex : next) number_of_vertex = mixed(number_of_vertex);
             hash.swap(next);
-            std::vector<std::uint64_t> keys;
-            for (const Index h : candidates)
-                keys.push_back(mixed(hash[number[origin(triangles, h)]]) + hash[number[target(triangles, h)]]);
+            std::vector<Key> keys = keys_by(hash, number, candidates);
             std::sort(keys.begin(), keys.end());
             if (std::adjacent_find(keys.begin(), keys.end()) == keys.end()) break;
         }
-        std::vector<Key> result;
+        return keys_by(hash, number, candidates);
+    }
+
+    /// Of the two ends of each, and of the third corner of its face: one edge may be two candidates.
+    std::vector<Key> keys_by(const std::vector<std::uint64_t>& hash, const std::vector<Index>& number,
+                             const std::vector<Index>& candidates) const
+    {
+        const auto at = [&](Index h) { return hash[number[origin(faces_.triangles, h)]]; };
+        std::vector<Key> keys;
         for (const Index h : candidates)
-            result.emplace_back(hash[number[origin(triangles, h)]], hash[number[target(triangles, h)]]);
-        return result;
+            keys.emplace_back(at(h), mixed(at(next_halfedge(h))) + at(previous_halfedge(h)));
+        return keys;
     }
 
     const JoinedFaces& faces_;

@@ -316,12 +316,10 @@ void name_piece(const CanonicalMesh& mesh, MappedPiece& piece)
         mesh.name_vertices(loop.off_circle);
     }
     for (Index* vertex : {&piece.map.center, &piece.map.point}) mesh.name_vertex(*vertex);
-    mesh.name_faces(piece.map.distortion.flipped);
-    mesh.name_faces(piece.map.distortion.below_resolution);
-    mesh.name_all(piece.map.warnings);
+    mesh.name_report(piece.map);
 }
 
-void name_result(const CanonicalMesh& mesh, CutUniformizeResult& result)
+void name_pieces(const CanonicalMesh& mesh, CutUniformizeResult& result)
 {
     mesh.name_corners(result.uv);
     for (MappedPiece& piece : result.pieces) name_piece(mesh, piece);
@@ -334,9 +332,8 @@ void name_result(const CanonicalMesh& mesh, CutUniformizeResult& result)
         mesh.name_face(out.like);
     }
     std::ranges::sort(result.left_out, {}, &LeftOutFace::face);
-    for (auto* faces : {&result.turned, &result.distortion.flipped, &result.distortion.below_resolution})
-        mesh.name_faces(*faces);
-    mesh.name_all(result.warnings);
+    mesh.name_faces(result.turned);
+    mesh.name_report(result);
 }
 
 }  // namespace
@@ -349,7 +346,7 @@ CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangl
         const auto work = [&](const CanonicalMesh& mesh) {
             return cut_map_and_pack(mesh, mesh.of_faces(polygon), canonical_options(mesh, options), own);
         };
-        return in_canonical_form(vertices, triangles, work, name_result);
+        return in_canonical_form(vertices, triangles, work, name_pieces);
     });
 }
 

@@ -245,7 +245,7 @@ TEST(Parts, rims_at_cuts_follow_the_edges_and_own_loops_are_round)
     const PartsResult round = parts(mesh, options);
     EXPECT_EQ(free.part, round.part);
     EXPECT_GE(free.parts.size(), 2U);
-    EXPECT_LT(free.angle_error_deg.mean, round.angle_error_deg.mean);
+    EXPECT_LT(free.distortion.angle_error_deg.mean, round.distortion.angle_error_deg.mean);
     EXPECT_LT(free.parts[0].angle_error_deg, 0.7 * round.parts[0].angle_error_deg);  // the tube has no other
     for (const PartsResult* result : {&free, &round}) {
         expect_sound(*result, static_cast<Index>(mesh.triangles.rows()));
@@ -353,7 +353,7 @@ TEST(Parts, what_is_even_stays_one_part)
     EXPECT_EQ(result.parts[0].kind, PartKind::disk);
     EXPECT_EQ(result.cut_length, 0.0);
     EXPECT_LT(result.density_ratio_5_95, 1.05);
-    EXPECT_LT(result.angle_error_deg.mean, 0.5);
+    EXPECT_LT(result.distortion.angle_error_deg.mean, 0.5);
 }
 
 TEST(Parts, a_higher_price_makes_fewer)
@@ -418,7 +418,7 @@ TEST(Parts, a_torus_is_one_rectangle)
     ASSERT_EQ(result.parts.size(), 1u);
     EXPECT_EQ(result.parts.front().kind, PartKind::tube);
     EXPECT_LT(result.density_ratio_5_95, 5.0 / 3.0);
-    EXPECT_LT(result.angle_error_deg.mean, 1.0);
+    EXPECT_LT(result.distortion.angle_error_deg.mean, 1.0);
     const double area = face_areas(ring.vertices, ring.triangles).sum();
     EXPECT_LT(result.cut_length, 1.02 * 2.0 * pi * (1.0 + 3.0) / std::sqrt(area));
 }

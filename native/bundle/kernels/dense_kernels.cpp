@@ -113,7 +113,7 @@ void multiply_panels(const double* a, const double* b, int inner, double* tile)
     for (int j = 0; j < 2 * tile_columns; ++j) *reinterpret_cast<Lanes*>(tile + j * lanes) = sum[j];
 }
 
-enum class Part { all, lower };
+enum class Share { all, lower };
 
 /// Adds alpha times a tile to a matrix. @param above rows of the tile above the diagonal's in its first column
 void add_tile(const double* tile, int rows, int columns, double alpha, int above, Target c)
@@ -175,14 +175,14 @@ void add_narrow_product(int m, int n, int k, double alpha, View a, View b, Targe
 }
 
 /// C += alpha A B. @param a (m, k) @param b (k, n) @param part lower: nothing above the diagonal of C is touched
-void add_product(int m, int n, int k, double alpha, View a, View b, Target c, Part part = Part::all)
+void add_product(int m, int n, int k, double alpha, View a, View b, Target c, Share part = Share::all)
 {
     if (m <= 0 || n <= 0 || k <= 0) return;
-    if (part == Part::all && c.row_step != 1) {  // by columns of the result
+    if (part == Share::all && c.row_step != 1) {  // by columns of the result
         const View left = b.turned(), right = a.turned();
         return add_product(n, m, k, alpha, left, right, c.turned());
     }
-    if (part == Part::all && n < few && (a.row_step == 1 || a.column_step == 1))
+    if (part == Share::all && n < few && (a.row_step == 1 || a.column_step == 1))
         return add_narrow_product(m, n, k, alpha, a, b, c);
     const int inner = least(k, depth), wide = least(n, packed_columns), high = least(m, packed_rows);
     const Place of_b = Place{inner} * up_to(wide, tile_columns), of_a = Place{inner} * up_to(high, tile_rows);
@@ -194,13 +194,13 @@ void add_product(int m, int n, int k, double alpha, View a, View b, Target c, Pa
         for (int p0 = 0; p0 < k; p0 += depth) {
             const int columns = least(packed_columns, n - j0), steps = least(depth, k - p0);
             pack<tile_columns>(b.from(p0, j0).turned(), columns, steps, packed_b);
-            const int top = part == Part::lower ? j0 / packed_rows * packed_rows : 0;
+            const int top = part == Share::lower ? j0 / packed_rows * packed_rows : 0;
             for (int i0 = top; i0 < m; i0 += packed_rows) {
                 const int rows = least(packed_rows, m - i0);
                 pack<tile_rows>(a.from(i0, p0), rows, steps, packed_a);
                 for (int j = 0; j < columns; j += tile_columns)
                     for (int i = 0; i < rows; i += tile_rows) {
-                        const int above = part == Part::lower ? j0 + j - i0 - i : -tile_columns;
+                        const int above = part == Share::lower ? j0 + j - i0 - i : -tile_columns;
                         if (above >= tile_rows) continue;
                         multiply_panels(packed_a + Place{i} * steps, packed_b + Place{j} * steps, steps, tile);
                         add_tile(tile, least(tile_rows, rows - i), least(tile_columns, columns - j), alpha, above,
@@ -219,11 +219,11 @@ View given(const double* a, const int* lda, const char* trans)
 }
 
 /// c *= beta, where 0 clears what may be no number. @param part lower: on and below the diagonal
-void scale(int m, int n, double beta, Target c, Part part = Part::all)
+void scale(int m, int n, double beta, Target c, Share part = Share::all)
 {
     if (beta == 1.0) return;
     for (int j = 0; j < n; ++j)
-        for (int i = part == Part::lower ? j : 0; i < m; ++i) c(i, j) = beta == 0.0 ? 0.0 : beta * c(i, j);
+        for (int i = part == Share::lower ? j : 0; i < m; ++i) c(i, j) = beta == 0.0 ? 0.0 : beta * c(i, j);
 }
 
 /// A triangle of at most `triangle` rows, in the order in which a solution goes through it.
@@ -322,7 +322,7 @@ int factorize(int n, Target a)
     if (const int bad = factorize(first, a); bad > 0) return bad;
     const Target below = a.from(first, 0), corner = a.from(first, first);
     solve_triangle(first, others, a, true, false, below.turned());
-    add_product(others, others, first, -1.0, below, View(below).turned(), corner, Part::lower);
+    add_product(others, others, first, -1.0, below, View(below).turned(), corner, Share::lower);
     const int bad = factorize(others, corner);
     return bad > 0 ? first + bad : 0;
 }
@@ -393,8 +393,8 @@ void dsyrk(const char* uplo, const char* trans, const int* n, const int* k, cons
     const View factor = given(a, lda, trans);
     Target product{c, 1, *ldc};
     if (!is(uplo, 'L')) product = product.turned();
-    scale(*n, *n, *beta, product, Part::lower);
-    if (*alpha != 0.0) add_product(*n, *n, *k, *alpha, factor, factor.turned(), product, Part::lower);
+    scale(*n, *n, *beta, product, Share::lower);
+    if (*alpha != 0.0) add_product(*n, *n, *k, *alpha, factor, factor.turned(), product, Share::lower);
 }
 
 /// A triangle and a matrix as "triangle times matrix", which is "matrix times triangle" turned.
