@@ -42,7 +42,6 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 double time_laplacian(const Vertices& vertices, const Triangles& triangles, const std::vector<char>& fixed)
 {
     const SerialDenseKernels serial;
-    const detail::SerialRegions regions;
     const auto start = std::chrono::steady_clock::now();
     SparseMatrix laplacian = cotan_laplacian(triangles, half_cotangents(edge_lengths(vertices, triangles)),
                                              static_cast<Index>(vertices.rows()));
