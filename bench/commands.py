@@ -67,7 +67,7 @@ def broken_corners(triangles, result):
     if not np.isfinite(uv).all():
         return ["not finite"]
     found = ["outside the square"] if uv.min() < 0 or uv.max() > 1 else []
-    area, longest = promises.as_stored(2 * uv - 1, np.arange(len(uv)).reshape(-1, 3))
+    area, longest = promises.as_stored(uv.reshape(-1, 3, 2))
     listed = {warning.kind: list(warning.elements) for warning in result.warnings}
     area[listed.get("reoriented_faces", [])] *= -1
     named = result.flipped_faces.tolist() + listed.get("left_out", []) + listed.get("not_mapped", [])

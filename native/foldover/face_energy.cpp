@@ -1,7 +1,5 @@
 #include "foldover/face_energy.h"
 
-#include <Eigen/LU>
-
 namespace koebe {
 
 WantedShape::WantedShape(const Eigen::Matrix2d& edges)

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "core/types.h"
+#include "planar/planar_predicates.h"
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -17,8 +19,6 @@ inline Complex product(Complex a, Complex b)  // without the library's care for 
 {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
-
-inline double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
 
 }  // namespace detail
 
@@ -66,7 +66,7 @@ struct FaceDerivatives {
     Eigen::Matrix2d block(int row, int column, const WantedShape& shape) const
     {
         const Complex a = shape.number[row], b = shape.number[column];
-        const double scaled = (like + unlike) * detail::dot(a, b);
+        const double scaled = (like + unlike) * dot(a, b);
         const double turned = (like - unlike) * (a.real() * b.imag() - a.imag() * b.real());
         const Complex p = along.m00 * u[column] + along.m01 * w[column];
         const Complex q = along.m01 * u[column] + along.m11 * w[column];

@@ -29,8 +29,7 @@ public:
         const auto share = static_cast<std::size_t>(options_.share * static_cast<double>(effort_.left()));
         const std::size_t limit = effort_.spent() + share;
         effort_.set_limit(limit - share / 4);
-        for (const Index f : map_.tangled()) report.repairs += nudge_face(map_, f);
-        report.tangled = map_.tangled();
+        nudge_faces(report);
         for (const int rings : ring_counts)
             for (const PatchBoundary boundary : {PatchBoundary::held, PatchBoundary::sliding})
                 for (const PatchShape shape : shapes) {
@@ -53,12 +52,19 @@ public:
             report.tangled = map_.tangled();
             if (!progress && round >= 2) break;
         }
+        nudge_faces(report);  // vertices that slid may have come too near
         std::erase_if(report.freed, [&](Index v) { return map_.near_circle(v); });
         std::sort(report.freed.begin(), report.freed.end());
         return report;
     }
 
 private:
+    void nudge_faces(UntangleReport& report)
+    {
+        for (const Index f : map_.tangled()) report.repairs += nudge_face(map_, f);
+        report.tangled = map_.tangled();
+    }
+
     PatchBoundary freedom() const { return options_.slide ? PatchBoundary::sliding : PatchBoundary::freed; }
 
     /// Loop vertices on inner circles within some rings of the patch's tangled faces, nearest first.

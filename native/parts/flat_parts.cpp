@@ -23,7 +23,7 @@ constexpr double most_uneven = 2.0;      // overflow over area: of one map that 
 constexpr double worth_repairing = 1.2;  // of the parts' angle error: more than that repairs do not take off one map's
 constexpr double small_error = 1.0;      // degrees: nobody sees less
 constexpr double large_error = 10.0;     // degrees: of a surface so crumpled that a map not repaired tells little of it
-constexpr std::size_t few_faces = 8;     // a part of fewer is not cut
+constexpr std::size_t few_faces = 24;    // a part of fewer is not cut
 
 /// @param slit (3F) half-edges of the whole
 void prefer_slits(PartMesh& part, const std::vector<char>& slit)

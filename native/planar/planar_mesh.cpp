@@ -24,8 +24,6 @@ using Cdt = PlanarRegion::Cdt;
 /// has 0.577; splitting at 0.76 leaves edges whose mean is the wanted length.
 constexpr double split_ratio = 0.76;
 
-double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
-
 struct Candidate {
     Complex place;
     double excess;  ///< circumradius over wanted size

@@ -11,6 +11,8 @@ namespace koebe {
 /// a x b: twice the signed area of the triangle 0, a, b.
 inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
+inline double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
+
 /// |a - b|, rounded alike everywhere. Of std::abs the last bit is another in every C library, and a mesh may hang on
 /// it.
 inline double distance(Complex a, Complex b) { return std::sqrt(std::norm(a - b)); }

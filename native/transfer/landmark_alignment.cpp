@@ -15,7 +15,7 @@
 namespace koebe {
 namespace {
 
-constexpr double least_depth = 1e-6;           // lengths in the disk: of points from the unit circle
+constexpr double least_depth = 1e-6;      // lengths in the disk: of points from the unit circle
 constexpr int most_rounds = 50;           // towards the barycentre
 constexpr double centered = 1e-9;         // lengths in the disk: of the barycentre from 0
 constexpr Eigen::Index most_starts = 32;  // landmarks that give one

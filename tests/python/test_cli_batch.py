@@ -201,7 +201,8 @@ def test_spheres_are_those_of_the_command(tiles, tmp_path, layout):
     assert table["torus.obj"]["error"] == "TopologyError(genus)"
     for source in ("ring.obj", "closed.off"):
         row = table[source]
-        assert row["options"] == {"domain": "sphere", "layout": layout, "tolerance": 1e-6, "max_sweeps": 50}
+        assert row["options"] == {
+            "domain": "sphere", "layout": layout, "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01}  # fmt: skip
         assert row["flipped"] == 0 and row["faces"] > 0 and row["angle_error_deg"] > 0
         koebe("sphere", tiles / source, tmp_path / "alone.obj", "--layout", layout)
         assert (tmp_path / "alone.obj").read_bytes() == (out / source).with_suffix(".obj").read_bytes()
@@ -220,7 +221,7 @@ def test_handles_are_those_of_the_command(tiles, tmp_path, normalization):
     assert [table[name]["error"] for name in ("ring.obj", "closed.off")] == ["TopologyError(genus)"] * 2
     row = table["torus.obj"]
     assert row["options"] == {
-        "domain": "schottky", "normalization": normalization, "tolerance": 1e-6, "max_sweeps": 50}  # fmt: skip
+        "domain": "schottky", "normalization": normalization, "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01}  # fmt: skip
     assert row["flipped"] == 0 and row["faces"] > 0 and row["angle_error_deg"] > 0
     koebe("schottky", tiles / "torus.obj", tmp_path / "alone.obj", "--normalization", normalization)
     assert (tmp_path / "alone.obj").read_bytes() == (out / "torus.obj").read_bytes()
@@ -297,7 +298,7 @@ def test_the_report_of_one_map_has_hash_and_options_too(library, tmp_path):
     assert content["input_sha256"] == hashlib.sha256((library / "a.obj").read_bytes()).hexdigest()
     assert content["options"] == {
         "method": "ck", "engine": "condensed", "outer": "auto", "center": None, "point": None, "tolerance": 1e-6,
-        "max_sweeps": 50, "balance": "none", "polish": False,
+        "max_sweeps": 50, "most_lost": 0.01, "balance": "none", "polish": False,
     }  # fmt: skip
 
 

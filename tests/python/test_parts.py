@@ -207,9 +207,9 @@ def test_the_command_keeps_vertices_and_polygons(tmp_path, surface):
     assert (places >= 0).all() and (places <= 1).all()
 
     result = json.loads(report.read_text(encoding="utf-8"))
-    assert list(result)[:4] == ["version", "input", "parts", "cut_length"]
+    assert list(result)[:4] == ["version", "input", "vertices", "faces"] and result["converged"]
     keys = {"handles_cut", "density_ratio_5_95", "flipped", "below_resolution", "angle_error_deg", "seconds",
-            "warnings"}
+            "warnings", "lost_area", "angle_error_stored_deg", "cut_length"}
     assert keys <= set(result) and result["input"] == "in.obj" and result["flipped"] == 0
     assert sorted(f for part in result["parts"] for f in part["faces"]) == list(range(len(faces)))
     assert all(set(part) == {"kind", "faces", "angle_error_deg", "loops", "off_round"} for part in result["parts"])
@@ -221,7 +221,7 @@ def test_exit_codes_of_the_command(tmp_path):
     source.write_text(obj_text(VERTICES, FACES), encoding="utf-8")
     for wrong in (["--price", "0"], ["--price", "few"], ["--balance", "area"]):
         assert command("parts", source, target, *wrong).returncode == USAGE
-    assert command("parts", source, tmp_path / "out.ply").returncode == USAGE
+    assert command("parts", source, tmp_path / "out.stl").returncode == USAGE
     assert command("parts", source).returncode == USAGE
     source.write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", encoding="utf-8")
     flat = command("parts", source, target)

@@ -102,7 +102,7 @@ def test_the_group_of_a_double_is_that_of_mirror_images_to_second_order(open_hol
         found = invariants(*result.generators)
         exact = [invariants(*double_group(circles, uncut)) for uncut in range(3)]
         errors.append(min(abs(np.log(found / group)).max() for group in exact))
-    assert errors[0] < 0.1 and errors[1] < 0.1 / 2.5 and errors[2] < errors[1] / 2.5
+    assert errors[0] < 0.1 and errors[1] < errors[0] / 2 and errors[2] < errors[0] / 2.5**2
 
 
 def test_a_torus_has_the_modulus_of_its_flat_tile():
@@ -139,7 +139,8 @@ def test_circles_that_cannot_be_equal_are_told():
     for normalization, told in (("area", False), ("circles", True)):
         result = koebe.schottky_map(vertices, triangles, normalization=normalization)
         assert result.converged and result.by_circles
-        assert (result.circles[:, 0, 2] > 2 * result.circles[:, 1, 2]).all()
+        radii = result.circles[:, :, 2]
+        assert (radii.max(axis=1) > 2 * radii.min(axis=1)).all()
         assert [warning["kind"] for warning in result.warnings] == ["no_circles"] * told
 
 
@@ -168,7 +169,7 @@ def test_random_plates_keep_their_promises_or_say_so(seed):
         assert broken(result, triangles) == []
     else:
         assert {warning.kind for warning in result.warnings} & {"not_one_to_one", "not_converged", "lost_area"}
-        assert seed % 3 == 2  # noise
+        assert seed % 3 == 2 or "lost_area" in {warning.kind for warning in result.warnings}  # noise, or long limbs
 
 
 def test_most_plates_are_mapped():
