@@ -1,5 +1,7 @@
 #include "foldover/face_energy.h"
 
+#include <Eigen/LU>
+
 namespace koebe {
 
 WantedShape::WantedShape(const Eigen::Matrix2d& edges)
