@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/side_by_side.h"
+#include "foldover/angle_polish.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
@@ -23,6 +24,8 @@ constexpr double most_uneven = 2.0;      // overflow over area: of one map that 
 constexpr double worth_repairing = 1.2;  // of the parts' angle error: more than that repairs do not take off one map's
 constexpr double small_error = 1.0;      // degrees: nobody sees less
 constexpr double large_error = 10.0;     // degrees: of a surface so crumpled that a map not repaired tells little of it
+constexpr double most_worse = 0.5;       // overflow over area: what repairs may add
+constexpr double clearly = 0.9;          // of the parts' angle error: one map that has less is better
 constexpr std::size_t few_faces = 24;    // a part of fewer is not cut
 
 /// @param slit (3F) half-edges of the whole
@@ -66,17 +69,60 @@ Flaws flaws_of(const FlatPart& flat, const PlanarPoints& uv, const VectorXd& are
     return flaws;
 }
 
-/// Flipped faces turned back in a box of about the size that the part will have.
+/// A box of about the size that a part will have in the unit square, its lower left corner at 0.
+class Frame {
+public:
+    explicit Frame(const PlanarPoints& points) : low_(points.colwise().minCoeff())
+    {
+        side_ = std::max(square_side, (points.rowwise() - low_).maxCoeff());
+    }
+    PlanarPoints uv(const PlanarPoints& points) const { return (points.rowwise() - low_) / side_; }
+    PlanarPoints points(const PlanarPoints& uv) const { return (side_ * uv).rowwise() + low_; }
+
+private:
+    Eigen::RowVector2d low_;
+    double side_;
+};
+
+/// What the overflow of the flat part is, in area times u.
+double overflow_of(const FlatPart& flat, const VectorXd& areas)
+{
+    VectorXd u = VectorXd::Zero(areas.size());
+    std::vector<char> lost(static_cast<std::size_t>(areas.size()), 0);
+    for (Eigen::Index f = 0; f < areas.size(); ++f) {
+        const auto row = flat.surface.triangles.row(f);
+        const Eigen::RowVector2d a = flat.points.row(row[1]) - flat.points.row(row[0]);
+        const Eigen::RowVector2d b = flat.points.row(row[2]) - flat.points.row(row[0]);
+        const double image = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        lost[f] = !(image > 0.0) || !(areas[f] > 0.0);
+        if (!lost[f]) u[f] = 0.5 * std::log(image / areas[f]);
+    }
+    return evenness(u, areas, lost).overflow;
+}
+
+/// Flipped faces turned back.
 Flaws repair(FlatPart& flat, const VectorXd& areas, ExecutionContext& context)
 {
-    const Eigen::RowVector2d low = flat.points.colwise().minCoeff(), high = flat.points.colwise().maxCoeff();
-    const double side = std::max(square_side, (high - low).maxCoeff());
-    const PlanarPoints before = (flat.points.rowwise() - low) / side;
+    const Frame box(flat.points);
+    const PlanarPoints before = box.uv(flat.points);
     PlanarPoints uv = before;
     repair_flips(flat, uv, context);
     embed_safely(flat, uv, context);
-    if (uv != before) flat.points = (side * uv).rowwise() + low;
+    if (uv != before) flat.points = box.points(uv);
     return flaws_of(flat, uv, areas);
+}
+
+/// Angle errors made less, the boundary as it is.
+void polish(FlatPart& flat, ExecutionContext& context)
+{
+    const Frame box(flat.points);
+    PlanarPoints points = 2.0 * box.uv(flat.points).array() - 1.0;
+    std::vector<Index> boundary;
+    for (const VertexLoop& loop : flat.surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    std::ranges::sort(boundary);
+    const std::vector<Circle> circles(flat.surface.loops.size());
+    if (polish_angles(flat.vertices, flat.surface, flat.surface.loops, circles, boundary, points, context))
+        flat.points = box.points(0.5 * (points.array() + 1.0));
 }
 
 /// A part, cut in two where it has flaws, if that makes them fewer.
@@ -86,6 +132,9 @@ FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptio
     FlatParts as_one;
     as_one.parts.push_back(flat_part(*part, options, context));
     as_one.flaws = repair(as_one.parts.front(), part->mesh.areas, context);
+    // Repaired, it may be far less even than the map that it was judged by.
+    const double worse = overflow_of(as_one.parts.front(), part->mesh.areas) - part->map.overflow;
+    if (worse > most_worse * part->mesh.area) as_one.flaws.lost += worse / lost_cost;
     if (!as_one.flaws.any() || halvings == most_halvings || part->mesh.faces.size() < few_faces) return as_one;
     FlatParts in_two;
     for (const PartPointer& child : halved(whole, part, 1, context, effort)) {
@@ -152,7 +201,7 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
     return all;
 }
 
-std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, const FlatParts& parts,
+std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, FlatParts& parts,
                                       ExecutionContext& context)
 {
     const double error = angle_error(parts.parts);
@@ -172,7 +221,10 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     const Flaws flaws = repair(one, mesh.areas, context);
     if (flaws.any() && !fewer(flaws, parts.flaws)) return {};
     const double own = summed_angle_error(one.vertices, one.surface.triangles, one.points);
-    if (!parts.flaws.any() && own >= error * static_cast<double>(one.faces.size())) return {};
+    if (parts.flaws.any()) return one;
+    if (own >= error * static_cast<double>(one.faces.size())) return {};
+    for (FlatPart& part : parts.parts) polish(part, context);
+    if (own >= clearly * angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};
     return one;
 }
 

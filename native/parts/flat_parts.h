@@ -29,11 +29,12 @@ struct FlatParts {
 FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
                      const FlatOptions& options, int threads, ExecutionContext& context, SplitEffort& effort);
 
-/// A whole piece as uniformize maps it, where that is usable and better than its parts: coarse or crumpled surfaces
-/// have less angle error without cuts. @param root the map of the whole piece by which it was split; none if there is
-/// none
-/// @param whole with a boundary @return no part if the parts are better
-std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, const FlatParts& parts,
+/// A whole piece as uniformize maps it, where that is usable and clearly better than its parts: coarse or crumpled
+/// surfaces have less angle error without cuts. Where it bends a little less, the parts are polished, their boundaries
+/// held.
+/// @param whole with a boundary @param root the map of the whole piece by which it was split; none if there is none
+/// @return no part if the parts are better
+std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, FlatParts& parts,
                                       ExecutionContext& context);
 
 }  // namespace koebe

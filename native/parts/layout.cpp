@@ -30,6 +30,7 @@ namespace {
 constexpr double own_piece = 0.25;      // of the area: a piece of less pays less for its parts,
 constexpr double small_piece = 0.01;    // and one of less than this pays in proportion to its area
 constexpr int rounds = 2;               // of splitting and merging
+constexpr double vain = 0.9;            // of the overflow: cuts that leave more of it are in vain
 constexpr double margin = 0.004;        // between parts, in the unit square
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
@@ -98,15 +99,24 @@ std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, int threads, Exec
     return placed;
 }
 
-/// Split and merged, each with its map.
+double overflow_of(const std::vector<PartPointer>& parts)
+{
+    double sum = 0.0;
+    for (const PartPointer& part : parts) sum += part->map.overflow;
+    return sum;
+}
+
+/// Split and merged, each with its map; as they were where cuts bring next to nothing, as between many tight holes.
 /// @param first faces of the parts to begin with; empty: one of all
 std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::vector<Index>> first,
                                     const SplitOptions& options, ExecutionContext& context, SplitEffort& effort)
 {
-    std::vector<PartPointer> parts = first_parts(whole, std::move(first), context, effort);
+    const std::vector<PartPointer> uncut = first_parts(whole, std::move(first), context, effort);
+    std::vector<PartPointer> parts = uncut;
     RefusedMerges refused;
     for (int round = 0; round < rounds; ++round) {
         parts = split_parts(whole, options, std::move(parts), context, effort);
+        if (parts.size() > uncut.size() && overflow_of(parts) > vain * overflow_of(uncut)) return uncut;
         if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
     }
     merge_crumbs(whole, options, parts, context, effort);
