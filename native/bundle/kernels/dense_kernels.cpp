@@ -64,8 +64,8 @@ public:
     explicit Buffer(Place count) : memory_(std::malloc(static_cast<std::size_t>(count) * sizeof(double) + 64))
     {
         if (!memory_) throw std::bad_alloc();
-        const auto at = reinterpret_cast<std::size_t>(memory_);
-        data_ = reinterpret_cast<double*>((at + 63) / 64 * 64);
+        const std::size_t past = reinterpret_cast<std::size_t>(memory_) % 64;
+        data_ = reinterpret_cast<double*>(static_cast<char*>(memory_) + (64 - past) % 64);
     }
     ~Buffer() { std::free(memory_); }
     Buffer(const Buffer&) = delete;
@@ -135,11 +135,12 @@ double scalar_product(int count, const double* x, const double* y)
     alignas(64) double sums[chains];
     Lanes sum[chains / lanes] = {};
     int i = 0;
-    for (; i + chains <= count; i += chains)
+    for (; i + chains <= count; i += chains) {
 #pragma GCC unroll 4
         for (int l = 0; l < chains / lanes; ++l)
             sum[l] += *reinterpret_cast<const LanesAnywhere*>(x + i + l * lanes) *
                       *reinterpret_cast<const LanesAnywhere*>(y + i + l * lanes);
+    }
 #pragma GCC unroll 4
     for (int l = 0; l < chains / lanes; ++l) *reinterpret_cast<Lanes*>(sums + l * lanes) = sum[l];
     for (int k = 0; i < count; ++i, ++k) sums[k] += x[i] * y[i];
@@ -245,10 +246,11 @@ void solve_some(const SmallTriangle& t, int count, Target b)
         Lanes sum[Vectors];
 #pragma GCC unroll 4
         for (int l = 0; l < Vectors; ++l) sum[l] = *reinterpret_cast<Lanes*>(own + l * lanes);
-        for (int j = 0; j < i; ++j)
+        for (int j = 0; j < i; ++j) {
 #pragma GCC unroll 4
             for (int l = 0; l < Vectors; ++l)
                 sum[l] -= t.factors[i * triangle + j] * *reinterpret_cast<const Lanes*>(x + j * width + l * lanes);
+        }
 #pragma GCC unroll 4
         for (int l = 0; l < Vectors; ++l) *reinterpret_cast<Lanes*>(own + l * lanes) = sum[l] * t.inverse[i];
         for (int r = 0; r < count; ++r) b(i, r) = own[r];
