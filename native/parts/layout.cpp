@@ -111,7 +111,7 @@ double overflow_of(const std::vector<PartPointer>& parts)
 std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::vector<Index>> first,
                                     const SplitOptions& options, ExecutionContext& context, SplitEffort& effort)
 {
-    const std::vector<PartPointer> uncut = first_parts(whole, std::move(first), context, effort);
+    std::vector<PartPointer> uncut = first_parts(whole, std::move(first), context, effort);
     std::vector<PartPointer> parts = uncut;
     RefusedMerges refused;
     for (int round = 0; round < rounds; ++round) {

@@ -41,7 +41,7 @@ public:
 
     std::vector<Index> run()
     {
-        const std::vector<Index> candidates = longest_edges();
+        std::vector<Index> candidates = longest_edges();
         if (faces_.patches == 1 && candidates.size() == 1) return candidates;
         const std::vector<Key> keys = keys_of(candidates);
         std::map<std::pair<Index, Key>, Index> alike;
