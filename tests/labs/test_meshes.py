@@ -131,7 +131,8 @@ def test_a_gifti_surface_is_mapped_and_comes_back_with_its_fields(tmp_path):
         (pyvista.PolyData(VERTICES, strips=[4, 0, 1, 2, 3]), koebe.InputError, "triangulate"),
         (pyvista.Sphere(), koebe.TopologyError, "closed"),
         (pyvista.ImageData(dimensions=(3, 3, 3)), koebe.InputError, "PyVista"),
-        ("surface.obj", koebe.InputError, "PyVista"),
+        (42, koebe.InputError, "PyVista"),
+        ("no_such_file.obj", FileNotFoundError, "no_such_file"),
     ],
 )
 def test_what_is_no_surface_is_told_so(mesh, error, says):
