@@ -156,7 +156,7 @@ void CanonicalMesh::name_path(std::vector<Index>& vertices) const
 void CanonicalMesh::name_loop(VertexLoop& loop) const
 {
     name_path(loop);
-    std::ranges::rotate(loop, std::ranges::min_element(loop));
+    std::rotate(loop.begin(), std::ranges::min_element(loop), loop.end());
 }
 
 void CanonicalMesh::name_vertices(std::vector<Index>& vertices) const

@@ -24,7 +24,8 @@ void take_verdict(const LossPolicy& policy, MapReport& report)
 
 void put_loss_first(std::vector<Warning>& warnings)
 {
-    std::ranges::stable_partition(warnings, [](const Warning& w) { return w.kind == WarningKind::lost_area; });
+    std::stable_partition(warnings.begin(), warnings.end(),
+                          [](const Warning& w) { return w.kind == WarningKind::lost_area; });
 }
 
 }  // namespace koebe

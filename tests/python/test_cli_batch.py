@@ -221,7 +221,8 @@ def test_handles_are_those_of_the_command(tiles, tmp_path, normalization):
     assert [table[name]["error"] for name in ("ring.obj", "closed.off")] == ["TopologyError(genus)"] * 2
     row = table["torus.obj"]
     assert row["options"] == {
-        "domain": "schottky", "normalization": normalization, "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01}  # fmt: skip
+        "domain": "schottky", "normalization": normalization, "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01
+    }  # fmt: skip
     assert row["flipped"] == 0 and row["faces"] > 0 and row["angle_error_deg"] > 0
     koebe("schottky", tiles / "torus.obj", tmp_path / "alone.obj", "--normalization", normalization)
     assert (tmp_path / "alone.obj").read_bytes() == (out / "torus.obj").read_bytes()
