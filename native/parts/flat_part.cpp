@@ -63,16 +63,7 @@ void scale_evenly(const PartMesh& mesh, FlatPart& flat)
     const Eigen::Index count = flat.surface.triangles.rows();
     const double floor =
         rounded_edge * (flat.points.colwise().maxCoeff() - flat.points.colwise().minCoeff()).maxCoeff();
-    VectorXd u = VectorXd::Zero(count);
-    std::vector<char> lost(static_cast<std::size_t>(count), 0);
-    double image = 0.0;
-    for (Eigen::Index f = 0; f < count; ++f) {
-        const double area = signed_area(flat.points, flat.surface.triangles, f);
-        image += std::max(area, 0.0);
-        lost[f] =
-            !(area > 0.0) || !(mesh.areas[f] > 0.0) || !(longest_edge(flat.points, flat.surface.triangles, f) > floor);
-        if (!lost[f]) u[f] = 0.5 * std::log(area / mesh.areas[f]);
-    }
+    const auto [u, lost, image] = flat_density(flat, mesh.areas, floor);
     const Evenness even = evenness(u, mesh.areas, lost);
     double sum = 0.0, known = 0.0;
     for (Eigen::Index f = 0; f < count; ++f) {
@@ -241,6 +232,19 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
 }
 
 }  // namespace
+
+FlatDensity flat_density(const FlatPart& flat, const VectorXd& areas, double floor)
+{
+    FlatDensity density{VectorXd::Zero(areas.size()), std::vector<char>(static_cast<std::size_t>(areas.size()), 0)};
+    for (Eigen::Index f = 0; f < areas.size(); ++f) {
+        const double area = signed_area(flat.points, flat.surface.triangles, f);
+        density.image += std::max(area, 0.0);
+        density.lost[f] =
+            !(area > 0.0) || !(areas[f] > 0.0) || !(longest_edge(flat.points, flat.surface.triangles, f) > floor);
+        if (!density.lost[f]) density.u[f] = 0.5 * std::log(area / areas[f]);
+    }
+    return density;
+}
 
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context)
 {

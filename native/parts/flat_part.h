@@ -31,6 +31,16 @@ struct FlatOptions {
 /// than the disk's overflow, becomes a disk. Then free_rims.
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
 
+/// Texel densities of a flat part.
+struct FlatDensity {
+    VectorXd u;              ///< (F) 1/2 log(UV area / area); 0 where it is lost
+    std::vector<char> lost;  ///< (F) 1: no area, or no edge longer than the floor
+    double image = 0.0;      ///< UV area of all faces that are not turned over
+};
+
+/// @param areas (F) @param floor in the unit of the points
+FlatDensity flat_density(const FlatPart& flat, const VectorXd& areas, double floor = 0.0);
+
 /// A part, or a whole piece, laid down as a map of the unit disk has it. @param points (V, 2)
 FlatPart flat_as_mapped(const PartMesh& mesh, const PlanarPoints& points);
 

@@ -87,17 +87,8 @@ private:
 /// What the overflow of the flat part is, in area times u.
 double overflow_of(const FlatPart& flat, const VectorXd& areas)
 {
-    VectorXd u = VectorXd::Zero(areas.size());
-    std::vector<char> lost(static_cast<std::size_t>(areas.size()), 0);
-    for (Eigen::Index f = 0; f < areas.size(); ++f) {
-        const auto row = flat.surface.triangles.row(f);
-        const Eigen::RowVector2d a = flat.points.row(row[1]) - flat.points.row(row[0]);
-        const Eigen::RowVector2d b = flat.points.row(row[2]) - flat.points.row(row[0]);
-        const double image = 0.5 * (a[0] * b[1] - a[1] * b[0]);
-        lost[f] = !(image > 0.0) || !(areas[f] > 0.0);
-        if (!lost[f]) u[f] = 0.5 * std::log(image / areas[f]);
-    }
-    return evenness(u, areas, lost).overflow;
+    const FlatDensity density = flat_density(flat, areas);
+    return evenness(density.u, areas, density.lost).overflow;
 }
 
 /// Flipped faces turned back.
