@@ -1,7 +1,9 @@
 #include "embedding/embedded_map.h"
 
+#include "circles/boundary_angles.h"
 #include "embedding/filled_map.h"
 #include "embedding/hole_circle.h"
+#include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +159,18 @@ CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const s
                        const ExecutionContext& context, FixedPlaces places)
 {
     return Embedding(vertices, surface, loops, flaps, rim, places, context).run(wanted, context);
+}
+
+PlanarPoints freely_embedded(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                             const ExecutionContext& context)
+{
+    const VectorXcd rim = unit_circle_points(arc_length_angles(loop_edges(vertices, loops[0])));
+    FilledMap map(vertices, surface, loops, {}, rim, {}, context);
+    for (int round = 0; round < free_rounds; ++round) {
+        map.let_rim_slide(round > 0);
+        map.relax({.regular = open_holes}, 12, context);
+    }
+    return map.surface_points();
 }
 
 }  // namespace koebe

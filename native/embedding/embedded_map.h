@@ -25,4 +25,9 @@ CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const s
                        const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
                        const ExecutionContext& context, FixedPlaces places = {});
 
+/// Likewise, with no circle wanted for the inner loops: in a small part of the steps.
+/// @return (V, 2), the outer loop on the unit circle, its steps in proportion to its edges at first
+PlanarPoints freely_embedded(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                             const ExecutionContext& context);
+
 }  // namespace koebe

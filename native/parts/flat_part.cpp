@@ -3,15 +3,16 @@
 #include "circles/circle_fit.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "embedding/embedded_map.h"
 #include "foldover/untangle.h"
 #include "parts/free_rims.h"
 #include "parts/tube_slit.h"
-#include "pipeline/uniformize.h"
 #include "planar/boundary_crossings.h"
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
 #include "surface/harmonic_map.h"
 #include "surface/intrinsic_metric.h"
+#include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,7 +123,6 @@ public:
         take(as_mapped);
         take(harmonic_again(mesh_, positions));
     }
-    bool any_turned() const { return turned_ > 0; }
     const PlanarPoints& best() const { return best_; }
 
 private:
@@ -182,10 +182,6 @@ FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext&
     FlatPart flat = unopened(part.mesh);
     DiskPoints points(part.mesh);
     points.consider(part.map.positions);
-    if (points.any_turned()) try {  // the map was made to be judged
-            points.consider(map_part(part.mesh, context, true).positions);
-        } catch (const SolverError&) {
-        }
     flat.points = points.best();
     if (flat.points.rows() == 0) throw SolverError("the map of a part is not finite");
     std::vector<Index> own(flat.original.size());
@@ -342,10 +338,12 @@ void embed_safely(FlatPart& part, PlanarPoints& uv, ExecutionContext& context)
     };
     const auto before = flaws_of(uv);
     if (before.first == 0 && !before.second) return;
+    std::vector<VertexLoop> loops = part.surface.loops;
+    std::ranges::stable_sort(loops, std::ranges::greater(),
+                             [&](const VertexLoop& loop) { return loop_edges(part.vertices, loop).sum(); });
     PlanarPoints disk;
     try {
-        ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
-        disk = uniformize(part.vertices, part.surface.triangles, {}, inner).uv;
+        disk = freely_embedded(part.vertices, part.surface, loops, context);
     } catch (const SolverError&) {
         return;
     }

@@ -24,6 +24,7 @@ struct FlatPart {
 
 struct FlatOptions {
     double slit_price = 0.0;  ///< of a slit as long as the root of the area, in overflow
+    double part_price = 0.0;  ///< of a part, in overflow
     bool round_cuts = false;  ///< rims at cuts stay on circles and lines
 };
 

@@ -25,8 +25,11 @@ constexpr double worth_repairing = 1.2;  // of the parts' angle error: more than
 constexpr double small_error = 1.0;      // degrees: nobody sees less
 constexpr double large_error = 10.0;     // degrees: of a surface so crumpled that a map not repaired tells little of it
 constexpr double most_worse = 0.5;       // overflow over area: what repairs may add
-constexpr double clearly = 0.9;          // of the parts' angle error: one map that has less is better
-constexpr std::size_t few_faces = 24;    // a part of fewer is not cut
+constexpr double most_bent = 5.0, right_angle = 90.0;  // degrees of angle error: what repairs may add
+constexpr double clearly = 0.9;                        // of the parts' angle error: one map that has less is better
+constexpr std::size_t few_faces = 24;                  // a part of fewer is not cut
+constexpr std::size_t many_faces = 4000;               // a part of more is cut first if it has
+constexpr double most_turned = 0.01;                   // more of its faces turned over
 
 /// @param slit (3F) half-edges of the whole
 void prefer_slits(PartMesh& part, const std::vector<char>& slit)
@@ -45,12 +48,24 @@ void note_slit(const PartMesh& part, const FlatPart& flat, std::vector<char>& op
             opened[3 * static_cast<std::size_t>(part.faces[h / 3]) + h % 3] = 1;
 }
 
-bool fewer(const Flaws& a, const Flaws& b) { return std::pair(a.lost, a.turned) < std::pair(b.lost, b.turned); }
+bool fewer(const Flaws& a, const Flaws& b)
+{
+    return std::pair(a.lost + a.spoilt, a.turned) < std::pair(b.lost + b.spoilt, b.turned);
+}
 
 void add(const Flaws& more, Flaws& flaws)
 {
     flaws.lost += more.lost;
     flaws.turned += more.turned;
+    flaws.spoilt += more.spoilt;
+}
+
+double turned_share(const FlatPart& flat)
+{
+    Index turned = 0;
+    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f)
+        turned += StoredFace(flat.surface.triangles, flat.points, f).flipped();
+    return static_cast<double>(turned) / static_cast<double>(flat.surface.triangles.rows());
 }
 
 /// @param uv in [0, 1]^2 @param areas (F)
@@ -116,26 +131,6 @@ void polish(FlatPart& flat, ExecutionContext& context)
         flat.points = box.points(0.5 * (points.array() + 1.0));
 }
 
-/// A part, cut in two where it has flaws, if that makes them fewer.
-FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
-               ExecutionContext& context, SplitEffort& effort)
-{
-    FlatParts as_one;
-    as_one.parts.push_back(flat_part(*part, options, context));
-    as_one.flaws = repair(as_one.parts.front(), part->mesh.areas, context);
-    // Repaired, it may be far less even than the map that it was judged by.
-    const double worse = overflow_of(as_one.parts.front(), part->mesh.areas) - part->map.overflow;
-    if (worse > most_worse * part->mesh.area) as_one.flaws.lost += worse / lost_cost;
-    if (!as_one.flaws.any() || halvings == most_halvings || part->mesh.faces.size() < few_faces) return as_one;
-    FlatParts in_two;
-    for (const PartPointer& child : halved(whole, part, 1, context, effort)) {
-        FlatParts own = laid(whole, child, options, halvings + 1, context, effort);
-        add(own.flaws, in_two.flaws);
-        std::ranges::move(own.parts, std::back_inserter(in_two.parts));
-    }
-    return in_two.parts.size() > 1 && fewer(in_two.flaws, as_one.flaws) ? std::move(in_two) : std::move(as_one);
-}
-
 double summed_angle_error(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
 {
     return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
@@ -152,15 +147,84 @@ double angle_error(const std::vector<FlatPart>& parts)
     return sum / faces;
 }
 
+/// Flips turned back, and what that has cost, if it is more than a part: the part may be far less even than the map
+/// that it was judged by, and bent.
+void repair_and_judge(const Part& part, double part_price, FlatParts& as_one, ExecutionContext& context)
+{
+    FlatPart& flat = as_one.parts.front();
+    const double error = angle_error(as_one.parts);
+    as_one.flaws = repair(flat, part.mesh.areas, context);
+    const double worse = overflow_of(flat, part.mesh.areas) - part.map.overflow;
+    const double bent = angle_error(as_one.parts) - error;
+    double cost = worse > most_worse * part.mesh.area ? worse : 0.0;
+    if (bent > most_bent) cost += lost_cost * bent / right_angle * part.mesh.area;
+    if (cost > part_price) as_one.flaws.spoilt = cost / lost_cost;
+}
+
+FlatParts laid_in_two(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
+                      ExecutionContext& context, SplitEffort& effort);
+
+/// A part, cut in two where it has flaws, if that makes them fewer. One that is large and has many is cut first:
+/// repairs take long there, and rarely serve.
+FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
+               ExecutionContext& context, SplitEffort& effort)
+{
+    FlatParts as_one;
+    as_one.parts.push_back(flat_part(*part, options, context));
+    const std::size_t count = part->mesh.faces.size();
+    const bool may_be_cut = halvings < most_halvings && count >= few_faces;
+    FlatParts in_two;
+    if (may_be_cut && count > many_faces && part->map.overflow > options.part_price &&
+        turned_share(as_one.parts.front()) > most_turned) {
+        in_two = laid_in_two(whole, part, options, halvings, context, effort);
+        if (in_two.parts.size() > 1 && !in_two.flaws.any()) return in_two;
+    }
+    repair_and_judge(*part, options.part_price, as_one, context);
+    if (!as_one.flaws.any() || !may_be_cut) return as_one;
+    if (in_two.parts.empty()) in_two = laid_in_two(whole, part, options, halvings, context, effort);
+    return in_two.parts.size() > 1 && fewer(in_two.flaws, as_one.flaws) ? std::move(in_two) : std::move(as_one);
+}
+
+FlatParts laid_in_two(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
+                      ExecutionContext& context, SplitEffort& effort)
+{
+    FlatParts in_two;
+    for (const PartPointer& child : halved(whole, part, 1, context, effort)) {
+        FlatParts own = laid(whole, child, options, halvings + 1, context, effort);
+        add(own.flaws, in_two.flaws);
+        std::ranges::move(own.parts, std::back_inserter(in_two.parts));
+    }
+    return in_two;
+}
+
+PlanarPoints points_of(const PartMap& map)
+{
+    PlanarPoints points(map.positions.size(), 2);
+    points << map.positions.real(), map.positions.imag();
+    return points;
+}
+
 /// Whether the map by which a piece was split says that as one map it loses much, is very uneven, or bends more.
 bool hopeless_as_one(const Part& root, double error)
 {
     const PartMap& map = root.map;
     if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > most_uneven * root.mesh.area) return true;
-    PlanarPoints points(map.positions.size(), 2);
-    points << map.positions.real(), map.positions.imag();
-    const double own = summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, points);
+    const double own = summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, points_of(map));
     return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
+}
+
+/// A whole piece by the map that it was split by, if that has no flaws as stored; else as uniformize repairs it.
+FlatPart as_one_map(const CutSurface& whole, const Part* root, ExecutionContext& context)
+{
+    if (root != nullptr && root->map.positions.size() > 0) {
+        FlatPart one = flat_as_mapped(root->mesh, points_of(root->map));
+        if (!flaws_of(one, Frame(one.points).uv(one.points), whole.areas).any()) return one;
+    }
+    std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
+    std::iota(faces.begin(), faces.end(), 0);
+    const PartMesh mesh = part_mesh(whole, std::move(faces));
+    ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
+    return flat_as_mapped(mesh, uniformize(mesh.vertices, mesh.surface.triangles, {}, inner).uv);
 }
 
 }  // namespace
@@ -178,7 +242,8 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
         const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
         if (in_turn && part.map.kind == PartKind::tube && !chosen)
             prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
-        const FlatOptions own_options{chosen ? 0.0 : options.slit_price, options.round_cuts};
+        FlatOptions own_options = options;
+        if (chosen) own_options.slit_price = 0.0;
         flats[k] = laid(whole, parts[k], own_options, 0, own, efforts[k]);
         if (in_turn && flats[k].parts.size() == 1) note_slit(part.mesh, flats[k].parts.front(), opened);
         parts[k].reset();
@@ -197,22 +262,18 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
 {
     const double error = angle_error(parts.parts);
     const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < large_error;
-    if (!parts.flaws.any() && (error < small_error || (is_cut && hopeless_as_one(*root, error)))) return {};
-    std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
-    std::iota(faces.begin(), faces.end(), 0);
-    const PartMesh mesh = part_mesh(whole, std::move(faces));
-    ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
-    PlanarPoints uv;
+    if (!parts.flaws.broken() && (error < small_error || (is_cut && hopeless_as_one(*root, error)))) return {};
+    FlatPart one;
     try {
-        uv = uniformize(mesh.vertices, mesh.surface.triangles, {}, inner).uv;
+        one = as_one_map(whole, root, context);
     } catch (const SolverError&) {
         return {};
     }
-    FlatPart one = flat_as_mapped(mesh, uv);
-    const Flaws flaws = repair(one, mesh.areas, context);
-    if (flaws.any() && !fewer(flaws, parts.flaws)) return {};
+    const Flaws flaws = repair(one, whole.areas, context);
+    parts.flaws.spoilt = 0.0;
+    if (flaws.broken() && !fewer(flaws, parts.flaws)) return {};
     const double own = summed_angle_error(one.vertices, one.surface.triangles, one.points);
-    if (parts.flaws.any()) return one;
+    if (parts.flaws.broken()) return one;
     if (own >= error * static_cast<double>(one.faces.size())) return {};
     for (FlatPart& part : parts.parts) polish(part, context);
     if (own >= clearly * angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};

@@ -11,10 +11,12 @@ namespace koebe {
 
 /// What is wrong with flat parts as they are stored.
 struct Flaws {
-    double lost = 0.0;  ///< area of faces without area, of parts where it is more than a part may lose
-    Index turned = 0;   ///< faces turned over, and parts whose boundary crosses itself
+    double lost = 0.0;    ///< area of faces without area, of parts where it is more than a part may lose
+    Index turned = 0;     ///< faces turned over, and parts whose boundary crosses itself
+    double spoilt = 0.0;  ///< area that repairs have cost texels or angles as much as if it were lost
 
-    bool any() const { return lost > 0.0 || turned > 0; }
+    bool broken() const { return lost > 0.0 || turned > 0; }
+    bool any() const { return broken() || spoilt > 0.0; }
 };
 
 struct FlatParts {
@@ -29,7 +31,7 @@ struct FlatParts {
 FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
                      const FlatOptions& options, int threads, ExecutionContext& context, SplitEffort& effort);
 
-/// A whole piece as uniformize maps it, where that is usable and clearly better than its parts: coarse or crumpled
+/// A whole piece as one map, where that is usable and clearly better than its parts: coarse or crumpled
 /// surfaces have less angle error without cuts. Where it bends a little less, the parts are polished, their boundaries
 /// held.
 /// @param whole with a boundary @param root the map of the whole piece by which it was split; none if there is none

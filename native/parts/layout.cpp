@@ -270,9 +270,11 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     std::shared_ptr<const Part> root = parts.front();
     while (root->parent) root = root->parent;
     if (root->mesh.faces.size() != static_cast<std::size_t>(whole.areas.size())) root = nullptr;
-    FlatParts flats =
-        flat_parts(whole, mirror, parts, {prices.cut_price, options.round_cuts}, threads, context, effort);
-    if (!is_large)
+    const bool is_cut = parts.size() > 1;
+    FlatParts flats = flat_parts(whole, mirror, parts, {prices.cut_price, prices.part_price, options.round_cuts},
+                                 threads, context, effort);
+    // A part that was cut for its flaws has been looked at as one.
+    if (!is_large && (is_cut || flats.parts.size() == 1))
         if (auto one = better_as_one(stays_closed ? opened() : whole, root.get(), flats, context)) {
             flats.parts.clear();
             flats.parts.push_back(std::move(*one));

@@ -114,12 +114,12 @@ bool map_annulus(const PartMesh& part, PartMap& map)
     return map.positions.allFinite() && map.positions.cwiseAbs().maxCoeff() < 1.0 + 1e-3;
 }
 
-void map_disk(const PartMesh& part, bool repair, PartMap& map, ExecutionContext& context)
+void map_disk(const PartMesh& part, PartMap& map, ExecutionContext& context)
 {
     ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
     UniformizeOptions options;
     options.outer = OuterLoop::longest;
-    options.repair = repair;
+    options.repair = false;
     const UniformizeResult result = uniformize(part.vertices, part.surface.triangles, options, inner);
     map.positions = result.uv.col(0) + Complex(0.0, 1.0) * result.uv.col(1);
     map.outer = result.outer_loop;
@@ -183,7 +183,7 @@ const char* to_string(PartKind kind) noexcept
     return kind == PartKind::disk ? "disk" : kind == PartKind::tube ? "tube" : "cone";
 }
 
-PartMap map_part(const PartMesh& part, ExecutionContext& context, bool repair)
+PartMap map_part(const PartMesh& part, ExecutionContext& context)
 {
     PartMap map;
     bool done = false;
@@ -191,7 +191,7 @@ PartMap map_part(const PartMesh& part, ExecutionContext& context, bool repair)
             done = map_annulus(part, map);
         } catch (const SolverError&) {
         }
-    if (!done) map_disk(part, repair, map, context);
+    if (!done) map_disk(part, map, context);
     finish(part, map);
     return map;
 }

@@ -35,10 +35,10 @@ struct PartMap {
     double off_round = 0.0;          ///< of a restricted map: the largest deviation of a loop from its circle, in radii
 };
 
-/// Maps a part: two loops by the annulus map, others by uniformize; then the best pole (as_even_as_can_be).
-/// @param repair false: faces of a disk may be turned over, which does not matter where it is only judged
+/// Maps a part: two loops by the annulus map, others by uniformize; then the best pole (as_even_as_can_be). Faces of a
+/// disk may be turned over: here it is only judged.
 /// @throws SolverError, Cancelled
-PartMap map_part(const PartMesh& part, ExecutionContext& context, bool repair = false);
+PartMap map_part(const PartMesh& part, ExecutionContext& context);
 
 /// What the map of a larger part says of the map of a smaller one: circles stay circles, so up to a Moebius map it is
 /// the same. @param whole, map the larger part and its map @param part some of its faces
