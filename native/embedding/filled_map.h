@@ -17,8 +17,8 @@
 namespace koebe {
 
 /// Every move ends in a map whose faces are right wherever they were right before: upright, holes' fans too, and those
-/// of the surface also as they are stored, if they are large enough for 32-bit UVs. What would break this is undone. As
-/// the fans stay upright, no loop crosses itself or another.
+/// of the surface also as they are stored, if they are large enough for 32-bit UVs. The outer loop runs once round the
+/// circle. What would break this is undone. As the fans stay upright, no loop crosses itself or another.
 class FilledMap {
 public:
     /// Dimensionless.
@@ -83,6 +83,7 @@ private:
     bool right(Eigen::Index f) const;
     bool star_right(Index vertex, const std::vector<char>& was_right) const;
     std::vector<char> right_faces() const;
+    bool rim_in_order() const;
     Eigen::Matrix2d fan_reference(Eigen::Index f, double area) const;
     FoldoverProblem problem(Pull pull) const;
     Complex on_circle(Index vertex) const;

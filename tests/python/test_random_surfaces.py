@@ -108,6 +108,13 @@ def test_the_polish_keeps_nothing_that_rounding_alone_calls_better(kind, seed):
     assert error["mean"] <= error["before_polish"]
 
 
+def test_the_outer_loop_runs_once_round_where_its_vertices_slide():
+    # With all faces upright the rim turned back on itself, and the map lay over itself.
+    vertices, triangles = random_surfaces.make("uneven", 38)
+    result = koebe.uniformize(vertices, triangles, method="ck")
+    assert promises.broken(triangles, result) == [] and result.converged
+
+
 def test_faces_that_were_turned_are_no_flips():
     vertices, triangles = random_surfaces.make("uneven", 409)
     result = koebe.uniformize(vertices, triangles, method="ck")
