@@ -1,7 +1,8 @@
 # A thin front for CMake and scripts/. `make help` lists the targets.
 PYTHON  ?= /usr/bin/python3
 BLENDER ?= blender
-BPY     ?= 4.5 5.0
+BPY     ?= 5.0
+ALL_BPY ?= 4.5 5.0
 SURFACES ?= 100
 SECONDS ?= 600
 
@@ -28,10 +29,15 @@ export CCACHE_SLOPPINESS := pch_defines,time_macros
 ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 
 .DELETE_ON_ERROR:
+# Targets one after the other, but for the tests that SIDE_BY_SIDE starts: a variable, as make would hold to .NOTPARALLEL
+# in the makes that it starts too.
+ifndef AT_ONCE
 .NOTPARALLEL:
+endif
+SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=2 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native wheel package dist matrix lint lint-python lint-native test test-native test-python test-labs test-blender test-gui test-farms test-asan \
-        test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
+.PHONY: help build native programs wheel package dist matrix lint lint-python lint-native check check-native check-python check-form \
+        test test-all test-native test-python test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -40,7 +46,10 @@ help: ## this list
 
 build: native package ## build/koebe, build/python/koebe/, dist/koebe_uv-*.zip
 
-native: build/build.ninja ## the command, the Python package and the native tests
+native: build/build.ninja ## the command and the Python package
+	$(ccache) cmake --build build --target koebe _koebe
+
+programs: build/build.ninja ## these, the native tests and the benchmarks
 	$(ccache) cmake --build build
 
 wheel: $(WHEEL) ## dist/koebe-*.whl, for PYTHON=... (default: Debian's); `make package` takes all there are
@@ -86,14 +95,31 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 # ---------------------------------------------------------------- tests
 
 # Two runners at once, as most use one core; each runs, whatever became of the others, and is printed when it has ended.
-# What they need is installed before, by one process: two would wait for apt's lock, and fail.
-test: build $(DONE)/install-fuzz $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done) ## everything: native, Python, fuzzing, and the installed zip in Debian's Blender and in bpy $(BPY)
-	@$(MAKE) --no-print-directory --keep-going --jobs=2 --output-sync=target test-native test-python test-labs test-fuzz test-blender $(BPY:%=test-bpy-%)
+# What they need is made before, by one process: two would wait for apt's lock, and fail.
+test: build programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done) ## what a user could hit: native, Python, labs, and the installed zip in Debian's Blender and in bpy $(BPY)
+	@$(SIDE_BY_SIDE) $(BPY:%=test-bpy-%) test-blender test-python test-native test-labs
 
-test-native: native ## ctest
+test-all: lint test build-fuzz ## before a release: lint and test, fuzzing, and each bpy that add-ons still meet
+	@$(MAKE) --no-print-directory --keep-going test-fuzz $(filter-out $(BPY:%=test-bpy-%),$(ALL_BPY:%=test-bpy-%))
+
+# The native tests whole; of the others those that are not marked slow.
+check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
+	@begin=$$(date +%s); $(SIDE_BY_SIDE) check-python check-native check-form; \
+	    result=$$?; echo "make check: $$(($$(date +%s) - begin)) s"; exit $$result
+
+check-native:
+	@for program in koebe_tests koebe_thread_tests koebe_kernel_tests; do build/tests/native/$$program --gtest_brief=1 || exit 1; done
+
+check-python:
+	@PYTHONPATH=build/python $(PYTHON) -m pytest -q -p no:cacheprovider -m 'not slow' tests/python
+
+check-form: lint-python
+	git diff --name-only --diff-filter=d HEAD -- '*.h' '*.cpp' | xargs --no-run-if-empty clang-format --dry-run -Werror
+
+test-native: programs ## ctest
 	ctest --preset release
 
-test-python: native ## pytest tests/python
+test-python: programs ## pytest tests/python
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider tests/python
 
 test-labs: $(WHEEL) build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio, scikit-learn and others
@@ -159,19 +185,19 @@ lint-native: $(VENV)/.done $(DONE)/install-lint
 demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.blend, out/*.png and a table
 	$(PYTHON) scripts/demo.py
 
-bench: build $(DONE)/install-blender ## time and accuracy: out/bench/
+bench: build programs $(DONE)/install-blender ## time and accuracy: out/bench/
 	$(PYTHON) bench/run.py
 
-compare: native build/venv-compare/.done ## Blender's unwraps, xatlas and ours: docs/comparison.md; goes on where it ended, AGAIN=1 anew
+compare: programs build/venv-compare/.done ## Blender's unwraps, xatlas and ours: docs/comparison.md; goes on where it ended, AGAIN=1 anew
 	build/venv-compare/bin/python bench/compare.py --write $(if $(AGAIN),--again)
 
-reproduce: native ## the paper's tables, rates and figures: out/reproduce/
+reproduce: programs ## the paper's tables, rates and figures: out/reproduce/
 	$(PYTHON) bench/reproduce.py
 
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python bench/addon_overhead.py
 
-figures: native $(DONE)/install-blender ## measure the figures of README.md and docs/ and write them there; the guide's drawn pictures
+figures: programs $(DONE)/install-blender ## measure the figures of README.md and docs/ and write them there; the guide's drawn pictures
 	$(PYTHON) bench/doc_figures.py
 	scripts/guide_pictures.sh drawn
 

@@ -203,6 +203,7 @@ def test_ctrl_c_ends_a_call_that_computes(name):
         call()
 
 
+@pytest.mark.slow
 def test_a_true_ctrl_c_is_a_keyboard_interrupt_long_before_the_end():
     run = run_script("""
         signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may have started this with it ignored
@@ -336,6 +337,7 @@ def test_the_interpreter_ends_while_daemon_threads_call(target, delay):
     assert (run.returncode, run.stdout, run.stderr) == (5, "", "")
 
 
+@pytest.mark.slow
 def test_a_callback_that_never_comes_back_holds_up_no_exit():
     run = run_script("""
         # That of 2 s and a little comes back while the interpreter ends, and asks for the GIL.

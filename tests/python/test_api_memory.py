@@ -5,7 +5,10 @@ import sys
 import pytest
 from test_api_calls import run_script
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the limit is on the addresses of a process of Linux")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform != "linux", reason="the limit is on the addresses of a process of Linux"),
+]
 
 CALLS = {
     "uniformize": "koebe.uniformize(*mesh).uv",

@@ -11,6 +11,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
 from cage_mesher import Cage, catmull_clark, edges_of, limb_sections, oval  # noqa: E402
 from implicit_shapes import chain, project  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 
 def euler(points, quads):
     return len(points) - len(edges_of(quads)[0]) + len(quads)

@@ -65,6 +65,8 @@ open(option("--report"), "w").write(json.dumps(report))
 sys.exit(code)
 """
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def library(tmp_path):

@@ -19,6 +19,8 @@ LIMIT = 300  # seconds
 STANDS_FOR = {"IN.blend": "blend_samples/bowl.blend"}
 NOT_RUN = re.compile(r"^(make |git )|make_samples\.py")  # build, test and install; the samples need minutes
 
+pytestmark = pytest.mark.slow
+
 
 def blocks():
     """Commands, line by line, and Python blocks, of all pages."""

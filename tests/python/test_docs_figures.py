@@ -22,6 +22,8 @@ CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "dista
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
 NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")
 
+pytestmark = pytest.mark.slow
+
 
 def last_digit(text):
     """What one unit in the last printed digit is worth."""

@@ -180,6 +180,7 @@ def slit_error(steps, upright):
     return min(found)  # upside down the slit lies elsewhere
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("upright", [False, True], ids=["concentric", "radial"])
 def test_a_slit_is_found_with_second_order(upright):
     errors = [slit_error(steps, upright) for steps in (8, 16, 32)]

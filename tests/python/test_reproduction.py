@@ -30,6 +30,8 @@ needs_mesher = pytest.mark.skipif(not table_surfaces.MESHER.exists(), reason="bu
 
 # ---------------------------------------------------------------- what is printed
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_printed_rows_are_possible_surfaces_of_genus_0():
     """Boundary vertices by Euler's formula, as the notes derive them."""

@@ -91,6 +91,7 @@ def broken(result, triangles):
     return faults
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("open_hole", [False, True])
 def test_the_group_of_a_double_is_that_of_mirror_images_to_second_order(open_hole):
     errors = []
@@ -105,6 +106,7 @@ def test_the_group_of_a_double_is_that_of_mirror_images_to_second_order(open_hol
     assert errors[0] < 0.1 and errors[1] < errors[0] / 2 and errors[2] < errors[0] / 2.5**2
 
 
+@pytest.mark.slow
 def test_a_torus_has_the_modulus_of_its_flat_tile():
     errors = []
     for steps in (24, 48):
@@ -172,6 +174,7 @@ def test_random_plates_keep_their_promises_or_say_so(seed):
         assert seed % 3 == 2 or "lost_area" in {warning.kind for warning in result.warnings}  # noise, or long limbs
 
 
+@pytest.mark.slow
 def test_most_plates_are_mapped():
     rng, mapped, tried = np.random.default_rng(5), 0, 0
     while tried < 20:

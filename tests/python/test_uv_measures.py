@@ -11,6 +11,8 @@ import uv_measures  # noqa: E402
 
 N = 20
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def sheet():
