@@ -47,13 +47,11 @@ private:
             for (Eigen::Index v = first; v < first + n; ++v) rank_[form_.original_vertices[v]] = static_cast<Index>(v);
         });
         form_.original_faces.resize(face_count);
-        form_.first_corners.resize(face_count);
         std::vector<Index> first_halfedge(face_count);  // of each face, in the new numbers
         each_rows(face_count, [&](Eigen::Index first, Eigen::Index n) {
             for (Eigen::Index f = first; f < first + n; ++f) {
                 const Index h = entered[f];
                 form_.original_faces[f] = face_of(h);
-                form_.first_corners[f] = static_cast<char>((3 - h % 3) % 3);
                 first_halfedge[face_of(h)] = static_cast<Index>(3 * f) + (3 - h % 3) % 3;
             }
         });

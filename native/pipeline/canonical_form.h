@@ -14,7 +14,6 @@ struct CanonicalForm {
     Vertices vertices;                     ///< (V, 3) within the unit ball, on a grid
     std::vector<Index> original_vertices;  ///< of the input, for each vertex
     std::vector<Index> original_faces;     ///< of the input, for each face
-    std::vector<char> first_corners;       ///< of each face: the corner that was the first of the input's
     double thinnest = 0.0;                 ///< least height of a face, in steps of the grid
 };
 

@@ -110,7 +110,6 @@ Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, cons
     domain.vertices = std::move(form.vertices);
     domain.original = std::move(form.original_vertices);
     domain.original_faces = std::move(form.original_faces);
-    domain.first_corners = std::move(form.first_corners);
     domain.thinnest = form.thinnest;
 
     const std::size_t outer = choose_outer_loop(domain, options);

@@ -20,7 +20,6 @@ struct Domain {
     std::vector<Index> original_faces;  // face of the input for each face; of a core: empty
     std::vector<VertexLoop> loops;      // outer first, then by falling length on the surface
     std::vector<VectorXd> edges;        // length of the edge from each loop vertex to the next
-    std::vector<char> first_corners;    // of each face, the corner that was the first of the input's; of a core: empty
     VectorXd importance;                // of the vertices, the least one 0; empty: all alike
     double thinnest = 0.0;              // least height of a face, in steps of the canonical grid
     Index center = -1, point = -1;      // vertices that go to 0 and to 1, if any; of a core: none
