@@ -40,6 +40,16 @@ VectorXd isotonic(const VectorXd& values)
 
 }  // namespace
 
+bool run_once_round(const VectorXcd& arms, int turn)
+{
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < arms.size(); ++i) {
+        const double step = turn * std::arg(arms[(i + 1) % arms.size()] / arms[i]);
+        sum += step >= 0.0 ? step : step + 2.0 * pi;
+    }
+    return sum < 3.0 * pi;
+}
+
 VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int turn, const VectorXd& least_steps)
 {
     const Eigen::Index n = points.size();

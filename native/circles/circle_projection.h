@@ -12,4 +12,8 @@ namespace koebe {
 /// @param least (n) radians from each point to the next, of sum below 2 pi; 1e-3 of the mean if it is empty
 VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int turn, const VectorXd& least = {});
 
+/// Whether points run once round a place, in their order. @param arms (n) from that place, none 0
+/// @param turn +1 counter-clockwise, -1 clockwise
+bool run_once_round(const VectorXcd& arms, int turn);
+
 }  // namespace koebe

@@ -1,5 +1,6 @@
 #include "embedding/filled_map.h"
 
+#include "circles/circle_projection.h"
 #include "circles/moebius.h"
 #include "core/tolerances.h"
 #include "embedding/roomy_rim.h"
@@ -188,18 +189,6 @@ std::vector<char> FilledMap::right_faces() const
     return result;
 }
 
-/// Whether the outer loop runs once round the circle: upright faces alone may lie over each other at a rim that turns
-/// back.
-bool FilledMap::rim_in_order() const
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < loops_[0].size(); ++i) {
-        const double step = std::arg(at(loops_[0][(i + 1) % loops_[0].size()]) / at(loops_[0][i]));
-        sum += step > 0.0 ? step : step + 2.0 * std::numbers::pi;
-    }
-    return sum < 3.0 * std::numbers::pi;
-}
-
 bool FilledMap::star_right(Index vertex, const std::vector<char>& was_right) const
 {
     return std::all_of(around_[vertex].begin(), around_[vertex].end(),
@@ -274,7 +263,7 @@ void FilledMap::relax(Pull pull, int iterations, const ExecutionContext& context
         bool kept = moving.points.allFinite();
         if (kept) {
             now_.points = std::move(moving.points);
-            kept = rim_in_order();
+            kept = run_once_round(image_of(0), 1);  // upright faces may lie over each other at a rim that turns back
             for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
                 if (was_right[f] && !right(f)) {
                     kept = false;

@@ -83,7 +83,6 @@ private:
     bool right(Eigen::Index f) const;
     bool star_right(Index vertex, const std::vector<char>& was_right) const;
     std::vector<char> right_faces() const;
-    bool rim_in_order() const;
     Eigen::Matrix2d fan_reference(Eigen::Index f, double area) const;
     FoldoverProblem problem(Pull pull) const;
     Complex on_circle(Index vertex) const;

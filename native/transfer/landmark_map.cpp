@@ -1,5 +1,6 @@
 #include "transfer/landmark_map.h"
 
+#include "circles/circle_projection.h"
 #include "core/errors.h"
 #include "foldover/foldover_free.h"
 #include "linear/sparse_cholesky.h"
@@ -212,12 +213,8 @@ private:
             for (const Index v : target_.loops[k].vertices)
                 if (!std::ranges::binary_search(target_.loops[k].off_circle, v))
                     arms.push_back(at(uv, v) - circles_[k].center);
-            double sum = 0.0;
-            for (std::size_t i = 0; i < arms.size(); ++i) {
-                const double turn = (k == 0 ? 1.0 : -1.0) * std::arg(arms[(i + 1) % arms.size()] / arms[i]);
-                sum += turn >= 0.0 ? turn : turn + 2.0 * std::numbers::pi;
-            }
-            if (sum > 3.0 * std::numbers::pi) return false;
+            const Eigen::Map<const VectorXcd> all(arms.data(), static_cast<Eigen::Index>(arms.size()));
+            if (!run_once_round(all, k == 0 ? 1 : -1)) return false;
         }
         return true;
     }

@@ -49,3 +49,21 @@ TEST(CircleProjection, points_that_turn_back_are_put_in_order_and_the_others_sta
             }
         }
 }
+
+TEST(CircleProjection, a_rim_that_turns_back_or_runs_round_twice_does_not_run_once_round)
+{
+    const Circle unit;
+    for (const int turn : {1, -1}) {
+        VectorXcd points = ring(unit, 12, turn);
+        EXPECT_TRUE(run_once_round(points, turn));
+        EXPECT_FALSE(run_once_round(points, -turn));
+        // All on a part of the circle: the last step is more than half of it.
+        for (Index i = 0; i < 12; ++i) points[i] = std::polar(1.0, turn * 0.2 * i);
+        EXPECT_TRUE(run_once_round(points, turn));
+        std::swap(points[4], points[5]);
+        EXPECT_FALSE(run_once_round(points, turn));
+        VectorXcd twice(24);
+        twice << ring(unit, 12, turn), ring(unit, 12, turn);
+        EXPECT_FALSE(run_once_round(twice, turn));
+    }
+}
