@@ -48,13 +48,13 @@ def parse():
 def unwrapped(obj, evenness):
     """Map the object; returns the result and each face's part."""
     module = guide_picture.addon_module
-    options, price = module("maps.options").Options(checker=False), module("maps.parts").price_of(evenness)
-    job = module("jobs.parts_job").PartsJob([obj], options, price)
+    options, choice = module("maps.options").Options(checker=False), module("maps.options").PartsChoice(evenness)
+    job = module("jobs.parts_job").PartsJob([obj], options, choice)
     job.compute()
-    outcome = job.outcomes[0]
-    if outcome.problem:
-        sys.exit(f"parts_picture: {outcome.problem}")
     job.write()
+    outcome = job.outcomes[0]
+    if not outcome.mapped:
+        sys.exit(f"parts_picture: {outcome.error or outcome.not_written}")
     part = np.zeros(len(obj.data.polygons), np.int32)
     part[outcome.task.surface.triangle_face] = outcome.result.part
     return outcome.result, part
