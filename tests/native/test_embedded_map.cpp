@@ -1,4 +1,5 @@
 #include "circles/circle_fit.h"
+#include "circles/circle_projection.h"
 #include "circles/crowded_circles.h"
 #include "embedding/embedded_map.h"
 #include "planar/boundary_crossings.h"
@@ -41,7 +42,27 @@ Vertices random_positions(Index count, std::mt19937& random)
     return vertices;
 }
 
-/// Maps a surface, and checks what is promised of every face, loop and circle.
+/// All faces upright, as stored too, no loop crossing another, the outer one once round the unit circle.
+void expect_upright(const Surface& surface, const PlanarPoints& points)
+{
+    EXPECT_TRUE(points.allFinite());
+    EXPECT_TRUE(crossing_boundary_edges(surface.loops, points, 2.0 * uv_resolution).empty());
+    const VectorXcd z = points.col(0) + Complex(0.0, 1.0) * points.col(1), rim = gather_loop(z, surface.loops[0]);
+    EXPECT_TRUE(run_once_round(rim, 1));
+    EXPECT_LT((rim.cwiseAbs().array() - 1.0).abs().maxCoeff(), 1e-9);
+    int folded = 0, lost = 0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        const Complex a = z[surface.triangles(f, 0)], u = z[surface.triangles(f, 1)] - a,
+                      v = z[surface.triangles(f, 2)] - a;
+        folded += !(std::imag(std::conj(u) * v) > 0.0);
+        const StoredFace stored(surface.triangles, points, f);
+        lost += stored.flipped() && !stored.below_resolution();
+    }
+    EXPECT_EQ(folded, 0);
+    EXPECT_EQ(lost, 0) << "as stored";
+}
+
+/// Maps a surface, and checks what is promised of every face, loop and circle; without circles likewise.
 CircleMap expect_one_to_one(const FaceList& faces, const Vertices& vertices, const std::vector<Circle>& wanted,
                             bool crowded_rim = false)
 {
@@ -53,25 +74,16 @@ CircleMap expect_one_to_one(const FaceList& faces, const Vertices& vertices, con
         rim[i] = std::polar(1.0, (crowded_rim ? 2e-3 : 2.0 * std::numbers::pi / outer.size()) * static_cast<double>(i));
     const CircleMap map = embedded_map(vertices, surface, surface.loops, {}, wanted, rim, {});
 
-    EXPECT_TRUE(map.uv.allFinite());
+    expect_upright(surface, map.uv);
+    expect_upright(surface, freely_embedded(vertices, surface, surface.loops, {}));
     EXPECT_TRUE(circles_apart(map.circles));
-    EXPECT_TRUE(crossing_boundary_edges(surface.loops, map.uv, 2.0 * uv_resolution).empty());
-    int folded = 0, lost = 0, off = 0;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Eigen::RowVector2d a = map.uv.row(surface.triangles(f, 0)), u = map.uv.row(surface.triangles(f, 1)) - a,
-                                 v = map.uv.row(surface.triangles(f, 2)) - a;
-        folded += !(u[0] * v[1] - u[1] * v[0] > 0.0);
-        const StoredFace stored(surface.triangles, map.uv, f);
-        lost += stored.flipped() && !stored.below_resolution();
-    }
+    int off = 0;
     for (std::size_t k = 0; k < surface.loops.size(); ++k)
         for (const Index v : surface.loops[k]) {
             const double distance = std::abs(Complex(map.uv(v, 0), map.uv(v, 1)) - map.circles[k].center);
             const bool listed = std::binary_search(map.off_circle.begin(), map.off_circle.end(), v);
             off += std::abs(distance - map.circles[k].radius) > 1e-6 && !listed;
         }
-    EXPECT_EQ(folded, 0);
-    EXPECT_EQ(lost, 0) << "as stored";
     EXPECT_EQ(off, 0) << "off their circles, and not listed";
     return map;
 }
