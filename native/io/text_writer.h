@@ -4,6 +4,7 @@
 #include "core/types.h"
 #include "io/atomic_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <functional>
@@ -31,8 +32,10 @@ public:
     }
     void add(std::string_view word)
     {
-        for (; word.size() > buffer_.size(); word.remove_prefix(buffer_.size())) append(word.substr(0, buffer_.size()));
-        append(word);
+        reserve(word.size());
+        if (word.size() > buffer_.size()) return file_->write(word);  // a piece's buffer has grown
+        if (!word.empty()) std::memcpy(buffer_.data() + used_, word.data(), word.size());
+        used_ += word.size();
     }
     template <typename Number>
     void add_number(Number number)
@@ -70,20 +73,14 @@ private:
 
     /// Of a piece, which is kept until its turn.
     TextWriter() : buffer_(std::size_t{1} << 18, '\0') {}
-    void append(std::string_view word)
-    {
-        reserve(word.size());
-        if (!word.empty()) std::memcpy(buffer_.data() + used_, word.data(), word.size());
-        used_ += word.size();
-    }
-    /// @param count no more than the buffer holds
+    /// Room for so many characters; before a file, no more than the buffer holds.
     void reserve(std::size_t count)
     {
         if (used_ + count <= buffer_.size()) return;
         if (file_)
             flush();
         else
-            buffer_.resize(2 * buffer_.size());
+            buffer_.resize(std::max(2 * buffer_.size(), used_ + count));
     }
 
     AtomicFile* file_ = nullptr;

@@ -336,6 +336,24 @@ def test_an_obj_keeps_all_but_its_texture_coordinates(rich, command):
     assert (rich / "in.obj").read_text() == out
 
 
+def test_a_large_obj_keeps_all_whatever_the_threads(tmp_path):
+    # Its text is copied in pieces of a megabyte, side by side. Their buffers grew in the middle of a word once.
+    m = 150
+    x, y = (part.ravel() for part in np.meshgrid(np.linspace(0, np.pi, m), np.linspace(0, np.e, m)))
+    corner = (m * np.arange(m - 1)[:, None] + np.arange(m - 1)).ravel() + 1
+    lines = [f"v {a!r} {b!r} {np.sin(a * b)!r} 0.123456 0.234567 0.345678" for a, b in zip(x.tolist(), y.tolist())]
+    lines += [f"f {a} {a + 1} {a + m + 1} {a + m}" for a in corner.tolist()]
+    (tmp_path / "in.obj").write_text("\n".join([*lines, ""]))
+    assert (tmp_path / "in.obj").stat().st_size > 2**21
+    texts = []
+    for threads in ("1", "2", "3"):
+        run = koebe("uniformize", "in.obj", "out.obj", "--threads", threads, cwd=tmp_path)
+        assert run.returncode == 0, run.stderr
+        texts.append((tmp_path / "out.obj").read_text())
+    assert kept_lines(texts[0]) == kept_lines((tmp_path / "in.obj").read_text())
+    assert texts[0] == texts[1] == texts[2]
+
+
 def test_fill_keeps_texture_coordinates_too(rich):
     assert koebe("fill", "in.obj", "out.obj", cwd=rich).stdout.count("warning") == 0
     text, out = (rich / "in.obj").read_text(), (rich / "out.obj").read_text()
