@@ -49,7 +49,7 @@ build: native package ## build/koebe, build/python/koebe/, dist/koebe_uv-*.zip
 native: build/build.ninja ## the command and the Python package
 	$(ccache) cmake --build build --target koebe _koebe
 
-programs: build/build.ninja ## these, the native tests and the benchmarks
+programs: native ## these, the native tests and the benchmarks
 	$(ccache) cmake --build build
 
 wheel: $(WHEEL) ## dist/koebe-*.whl, for PYTHON=... (default: Debian's); `make package` takes all there are
