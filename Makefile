@@ -99,8 +99,7 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 test: build programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done) ## what a user could hit: native, Python, labs, and the installed zip in Debian's Blender and in bpy $(BPY)
 	@$(SIDE_BY_SIDE) $(BPY:%=test-bpy-%) test-blender test-python test-native test-labs
 
-test-all: lint test build-fuzz ## before a release: lint and test, fuzzing, and each bpy that add-ons still meet
-	@$(MAKE) --no-print-directory --keep-going test-fuzz $(filter-out $(BPY:%=test-bpy-%),$(ALL_BPY:%=test-bpy-%))
+test-all: lint test test-fuzz $(filter-out $(BPY:%=test-bpy-%),$(ALL_BPY:%=test-bpy-%)) ## before a release: lint and test, fuzzing, and each bpy that add-ons still meet
 
 # The native tests whole; of the others those that are not marked slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
