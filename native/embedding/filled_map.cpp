@@ -258,7 +258,7 @@ void FilledMap::relax(Pull pull, int iterations, const ExecutionContext& context
     for (int attempt = 0; attempt < most_cautions; ++attempt) {
         FoldoverProblem moving = problem(pull);
         const FoldoverResult moved =
-            minimize_foldover_free(moving, context, {.max_iterations = iterations, .settled = 1e-5, .strict = true});
+            minimize_foldover_free(moving, context, {.max_iterations = iterations, .settled = 3e-4, .strict = true});
         work_ += static_cast<std::size_t>(moved.iterations) * static_cast<std::size_t>(moving.triangles.rows());
         bool kept = moving.points.allFinite();
         if (kept) {
