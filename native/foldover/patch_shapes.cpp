@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <unordered_map>
 
 namespace koebe {
 namespace {
@@ -26,27 +26,41 @@ Eigen::Matrix2d shaped(double l01, double l12, double l20, double area)
     return edges * std::sqrt(2.0 * area / edges.determinant());
 }
 
+/// The corners of some faces, (n, 3), their vertices numbered from 0 as they come.
+Triangles numbered_corners(const Triangles& triangles, const std::vector<Index>& faces)
+{
+    std::unordered_map<Index, Index> number_of;
+    number_of.reserve(faces.size());
+    Triangles corners(faces.size(), 3);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            corners(i, k) =
+                number_of.emplace(triangles(faces[i], k), static_cast<Index>(number_of.size())).first->second;
+    return corners;
+}
+
 VectorXd wanted_areas(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
                       const std::vector<Index>& faces, PatchShape shape)
 {
     struct Sums {
         double planar = 0.0, surface = 0.0, area = 0.0, count = 0.0;
     };
-    std::map<Index, Sums> around;
+    const Triangles corners = numbered_corners(triangles, faces);
+    std::vector<Sums> around(corners.size());
     VectorXd areas(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i)
         for (int k = 0; k < 3; ++k) {
             const Index a = triangles(faces[i], k), b = triangles(faces[i], (k + 1) % 3);
             const double planar = (uv.row(a) - uv.row(b)).squaredNorm();
             const double spatial = (vertices.row(a) - vertices.row(b)).squaredNorm();
-            for (const Index v : {a, b}) {
-                around[v].planar += planar;
-                around[v].surface += spatial;
+            for (const Index corner : {corners(i, k), corners(i, (k + 1) % 3)}) {
+                around[corner].planar += planar;
+                around[corner].surface += spatial;
             }
         }
     const auto corner_mean = [&](std::size_t i, auto value) {
         double log_sum = 0.0;
-        for (int k = 0; k < 3; ++k) log_sum += std::log(std::max(value(around[triangles(faces[i], k)]), 1e-300));
+        for (const Index corner : corners.row(i)) log_sum += std::log(std::max(value(around[corner]), 1e-300));
         return std::exp(log_sum / 3.0);
     };
     for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -59,9 +73,9 @@ VectorXd wanted_areas(const Vertices& vertices, const Triangles& triangles, cons
         const double longest = std::max({l0, l1, l2});
         areas[i] = factor * std::max(triangle_area(l0, l1, l2), 0.5 * least_height * longest * longest);
         areas[i] = std::max(areas[i], least_size * least_size);
-        for (int k = 0; k < 3; ++k) {
-            around[triangles(f, k)].area += areas[i];
-            around[triangles(f, k)].count += 1.0;
+        for (const Index corner : corners.row(i)) {
+            around[corner].area += areas[i];
+            around[corner].count += 1.0;
         }
     }
     if (shape == PatchShape::equilateral)
