@@ -21,7 +21,7 @@ using Lift = std::array<int, 2>;
 
 constexpr double grid_extent = 16777216.0 - 64.0;  // with room for what rounding adds
 constexpr int tried_origins = 12;                  // along each period
-constexpr int most_passes = 8;
+constexpr int most_tile_passes = 8;
 constexpr int most_in_vain = 3;  // passes that turn no face back
 
 Lift operator+(Lift a, Lift b) { return {a[0] + b[0], a[1] + b[1]}; }
@@ -488,8 +488,8 @@ std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, Flat
 {
     RepairEffort effort(domain.surface.triangles.rows(), 3000000);  // the first pass does most
     std::vector<Index> left = tangled(domain, tile_of(domain, map));
-    for (int pass = 0, in_vain = 0; pass < most_passes && in_vain < most_in_vain && !left.empty(); ++pass) {
-        context.advance(static_cast<double>(pass) / most_passes);
+    for (int pass = 0, in_vain = 0; pass < most_tile_passes && in_vain < most_in_vain && !left.empty(); ++pass) {
+        context.advance(static_cast<double>(pass) / most_tile_passes);
         std::array<double, 2> origin = clear_origin(domain, map);
         if (pass > 0) {  // around one of them
             const Index f = left[(static_cast<std::size_t>(pass) * 7919) % left.size()];

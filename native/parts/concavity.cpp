@@ -10,7 +10,7 @@
 namespace koebe {
 namespace {
 
-constexpr double most_rounds = 200;  // of diffusion, on meshes far finer than the radius
+constexpr double most_diffusion_rounds = 200;  // on meshes far finer than the radius
 
 }  // namespace
 
@@ -50,8 +50,8 @@ VectorXd mean_curvature(const CutSurface& whole, double radius)
     }
 
     const double step = length.sum() / std::max(count.sum(), 1.0);
-    const int rounds =
-        static_cast<int>(std::clamp(std::ceil(std::pow(radius / std::max(step, 1e-12), 2)), 1.0, most_rounds));
+    const int rounds = static_cast<int>(
+        std::clamp(std::ceil(std::pow(radius / std::max(step, 1e-12), 2)), 1.0, most_diffusion_rounds));
     for (int round = 0; round < rounds; ++round) {
         VectorXd next_bend = bend, next_area = area, degree = VectorXd::Ones(vertices);
         for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
