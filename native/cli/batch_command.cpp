@@ -14,9 +14,9 @@
 #include "batch/program.h"
 #include "batch/summary.h"
 #include "core/counted.h"
-#include "domains/schottky_map.h"
-#include "domains/sphere_map.h"
-#include "domains/tile_map.h"
+#include "schottky/schottky_map.h"
+#include "sphere/sphere_map.h"
+#include "tiles/tile_map.h"
 
 #include <algorithm>
 #include <cstdio>

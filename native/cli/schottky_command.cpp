@@ -6,10 +6,10 @@
 #include "cli/validators.h"
 
 #include "core/counted.h"
-#include "domains/schottky_map.h"
 #include "io/corner_uvs.h"
 #include "report/schottky_json.h"
 #include "report/schottky_svg.h"
+#include "schottky/schottky_map.h"
 
 #include <map>
 #include <memory>

@@ -6,10 +6,10 @@
 #include "cli/validators.h"
 
 #include "core/counted.h"
-#include "domains/sphere_map.h"
 #include "io/corner_uvs.h"
 #include "report/sphere_json.h"
 #include "report/sphere_svg.h"
+#include "sphere/sphere_map.h"
 
 #include <map>
 #include <memory>

@@ -6,10 +6,10 @@
 #include "cli/validators.h"
 
 #include "core/counted.h"
-#include "domains/tile_map.h"
 #include "io/corner_uvs.h"
 #include "report/tile_json.h"
 #include "report/tile_svg.h"
+#include "tiles/tile_map.h"
 
 #include <map>
 #include <memory>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/api.h"
-#include "domains/sphere_map.h"
+#include "sphere/sphere_map.h"
 
 #include <nlohmann/json.hpp>
 
