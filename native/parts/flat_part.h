@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/execution.h"
-#include "parts/splitting.h"
+#include "splitting/splitting.h"
 
 #include <vector>
 

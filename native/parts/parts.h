@@ -4,7 +4,7 @@
 #include "core/api.h"
 #include "core/execution.h"
 #include "core/types.h"
-#include "parts/part_map.h"
+#include "evenness/part_map.h"
 #include "pipeline/result.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // The shortest closed curves between two sets of faces: a minimum cut of the dual graph.
 #pragma once
 
-#include "parts/part_mesh.h"
+#include "evenness/part_mesh.h"
 
 #include <vector>
 

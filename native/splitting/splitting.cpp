@@ -1,11 +1,11 @@
-#include "parts/splitting.h"
+#include "splitting/splitting.h"
 
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "core/side_by_side.h"
-#include "parts/halving.h"
-#include "parts/piece_forecast.h"
-#include "parts/proposals.h"
+#include "splitting/halving.h"
+#include "splitting/piece_forecast.h"
+#include "splitting/proposals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What the map of a part says of its pieces, without their meshes.
 #pragma once
 
-#include "parts/part_map.h"
+#include "evenness/part_map.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "parts/mirror_symmetry.h"
+#include "splitting/mirror_symmetry.h"
 
 #include "core/connectivity.h"
 

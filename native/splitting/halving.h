@@ -1,7 +1,7 @@
 // A part cut in two across its length.
 #pragma once
 
-#include "parts/part_mesh.h"
+#include "evenness/part_mesh.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/execution.h"
-#include "parts/coarse_surface.h"
+#include "splitting/coarse_surface.h"
 
 #include <vector>
 

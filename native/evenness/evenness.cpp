@@ -1,4 +1,4 @@
-#include "parts/evenness.h"
+#include "evenness/evenness.h"
 
 #include <algorithm>
 #include <array>

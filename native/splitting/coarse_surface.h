@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/execution.h"
-#include "parts/part_mesh.h"
+#include "evenness/part_mesh.h"
 
 #include <vector>
 

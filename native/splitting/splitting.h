@@ -1,7 +1,7 @@
 // The parts of a surface: split where it pays, mapped, and merged again where a cut does not.
 #pragma once
 
-#include "parts/part_map.h"
+#include "evenness/part_map.h"
 
 #include <memory>
 #include <set>

@@ -1,11 +1,11 @@
-#include "parts/part_map.h"
+#include "evenness/part_map.h"
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
 #include "conformal/annulus_map.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
-#include "parts/even_pole.h"
+#include "evenness/even_pole.h"
 #include "pipeline/uniformize.h"
 #include "surface/intrinsic_metric.h"
 #include "surface/loop_edges.h"

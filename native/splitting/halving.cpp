@@ -1,9 +1,9 @@
-#include "parts/halving.h"
+#include "splitting/halving.h"
 
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "cut/edge_graph.h"
-#include "parts/dual_cut.h"
+#include "splitting/dual_cut.h"
 
 #include <algorithm>
 #include <limits>

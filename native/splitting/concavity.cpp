@@ -1,4 +1,4 @@
-#include "parts/concavity.h"
+#include "splitting/concavity.h"
 
 #include "core/connectivity.h"
 

@@ -1,7 +1,7 @@
 // Where a surface is hollow.
 #pragma once
 
-#include "parts/part_mesh.h"
+#include "evenness/part_mesh.h"
 
 namespace koebe {
 

@@ -1,9 +1,9 @@
-#include "parts/piece_forecast.h"
+#include "splitting/piece_forecast.h"
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
 #include "core/connectivity.h"
-#include "parts/even_pole.h"
+#include "evenness/even_pole.h"
 
 #include <algorithm>
 #include <cmath>

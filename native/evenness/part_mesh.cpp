@@ -1,4 +1,4 @@
-#include "parts/part_mesh.h"
+#include "evenness/part_mesh.h"
 
 #include "core/connectivity.h"
 #include "core/length.h"

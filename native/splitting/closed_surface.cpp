@@ -1,8 +1,8 @@
-#include "parts/closed_surface.h"
+#include "splitting/closed_surface.h"
 
 #include "core/connectivity.h"
 #include "core/errors.h"
-#include "parts/halving.h"
+#include "splitting/halving.h"
 
 #include <algorithm>
 #include <numeric>

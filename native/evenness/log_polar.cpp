@@ -1,4 +1,4 @@
-#include "parts/log_polar.h"
+#include "evenness/log_polar.h"
 
 #include <algorithm>
 #include <array>

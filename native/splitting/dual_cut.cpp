@@ -1,4 +1,4 @@
-#include "parts/dual_cut.h"
+#include "splitting/dual_cut.h"
 
 #include "core/connectivity.h"
 #include "core/length.h"

@@ -1,7 +1,7 @@
-#include "parts/fine_labels.h"
+#include "splitting/fine_labels.h"
 
 #include "core/connectivity.h"
-#include "parts/dual_cut.h"
+#include "splitting/dual_cut.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 // Surfaces that are their own mirror images, and cuts that are too.
 #pragma once
 
-#include "parts/splitting.h"
+#include "splitting/splitting.h"
 
 #include <vector>
 

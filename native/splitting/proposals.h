@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/execution.h"
-#include "parts/dual_cut.h"
-#include "parts/part_map.h"
+#include "evenness/part_map.h"
+#include "splitting/dual_cut.h"
 
 #include <vector>
 

@@ -1,10 +1,10 @@
-#include "parts/hidden_cuts.h"
+#include "splitting/hidden_cuts.h"
 
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/side_by_side.h"
-#include "parts/concavity.h"
-#include "parts/dual_cut.h"
+#include "splitting/concavity.h"
+#include "splitting/dual_cut.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // A part seen in log polar coordinates about a point, and the longest even tube there.
 #pragma once
 
-#include "parts/part_map.h"
+#include "evenness/part_map.h"
 
 namespace koebe {
 

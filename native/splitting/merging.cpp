@@ -1,7 +1,7 @@
 #include "core/connectivity.h"
 #include "core/side_by_side.h"
-#include "parts/piece_forecast.h"
-#include "parts/splitting.h"
+#include "splitting/piece_forecast.h"
+#include "splitting/splitting.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "parts/coarse_surface.h"
+#include "splitting/coarse_surface.h"
 
 #include "core/halfedge_mesh.h"
 

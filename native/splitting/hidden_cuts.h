@@ -1,7 +1,7 @@
 // Cuts moved to where they are less seen.
 #pragma once
 
-#include "parts/splitting.h"
+#include "splitting/splitting.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
-#include "parts/even_pole.h"
+#include "evenness/even_pole.h"
 
 #include "circles/moebius.h"
-#include "parts/evenness.h"
-#include "parts/part_map.h"
+#include "evenness/evenness.h"
+#include "evenness/part_map.h"
 
 #include <algorithm>
 #include <cmath>

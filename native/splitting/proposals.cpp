@@ -1,9 +1,9 @@
-#include "parts/proposals.h"
+#include "splitting/proposals.h"
 
 #include "circles/moebius.h"
 #include "core/connectivity.h"
 #include "core/side_by_side.h"
-#include "parts/log_polar.h"
+#include "evenness/log_polar.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "circles/circle.h"
 #include "core/execution.h"
-#include "parts/evenness.h"
-#include "parts/part_mesh.h"
+#include "evenness/evenness.h"
+#include "evenness/part_mesh.h"
 
 #include <array>
 #include <vector>
