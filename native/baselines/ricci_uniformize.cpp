@@ -13,8 +13,8 @@
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
 #include "pipeline/normalization.h"
-#include "pipeline/take_verdict.h"
 #include "quality/distortion.h"
+#include "quality/take_verdict.h"
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "cli/map_run.h"
 #include "core/counted.h"
 #include "io/corner_uvs.h"
-#include "pipeline/cut_uniformize.h"
+#include "opened/cut_uniformize.h"
 #include "report/cut_json.h"
 #include "report/svg.h"
 

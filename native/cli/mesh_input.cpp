@@ -5,7 +5,7 @@
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/thread_share.h"
-#include "pipeline/take_verdict.h"
+#include "quality/take_verdict.h"
 
 #include <algorithm>
 #include <chrono>

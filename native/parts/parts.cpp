@@ -1,5 +1,6 @@
 #include "parts/parts.h"
 
+#include "canonical/canonical_mesh.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/memory_limit.h"
@@ -7,9 +8,8 @@
 #include "evenness/part_mesh.h"
 #include "linear/dense_spd.h"
 #include "parts/layout.h"
-#include "pipeline/canonical_mesh.h"
-#include "pipeline/take_verdict.h"
 #include "quality/stored_uv.h"
+#include "quality/take_verdict.h"
 
 #include <algorithm>
 #include <array>

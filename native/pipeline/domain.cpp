@@ -1,8 +1,8 @@
 #include "pipeline/domain.h"
 
+#include "canonical/canonical_form.h"
+#include "canonical/canonical_position.h"
 #include "core/errors.h"
-#include "pipeline/canonical_form.h"
-#include "pipeline/canonical_position.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>

@@ -20,7 +20,7 @@
 #include "pipeline/normalization.h"
 #include "pipeline/outer_loop.h"
 #include "pipeline/problem.h"
-#include "pipeline/take_verdict.h"
+#include "quality/take_verdict.h"
 
 #include <algorithm>
 #include <cmath>

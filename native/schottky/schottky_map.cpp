@@ -1,6 +1,7 @@
 #include "schottky/schottky_map.h"
 
 #include "balance/area_balance.h"
+#include "canonical/canonical_mesh.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
@@ -9,9 +10,8 @@
 #include "core/peak_memory.h"
 #include "core/stopwatch.h"
 #include "linear/dense_spd.h"
-#include "pipeline/canonical_mesh.h"
-#include "pipeline/take_verdict.h"
 #include "quality/stored_uv.h"
+#include "quality/take_verdict.h"
 #include "schottky/circle_cut.h"
 #include "schottky/finer_faces.h"
 #include "schottky/glued_state.h"

@@ -1,5 +1,6 @@
 #include "sphere/sphere_map.h"
 
+#include "canonical/canonical_mesh.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
@@ -7,9 +8,8 @@
 #include "core/stopwatch.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
-#include "pipeline/canonical_mesh.h"
-#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
+#include "quality/take_verdict.h"
 #include "sphere/closed_sphere.h"
 #include "sphere/opened_sphere.h"
 #include "sphere/sphere_check.h"

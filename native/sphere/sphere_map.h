@@ -5,7 +5,7 @@
 #include "core/api.h"
 #include "core/execution.h"
 #include "core/warning.h"
-#include "pipeline/result.h"
+#include "quality/report.h"
 #include "sphere/spherical_points.h"
 
 #include <vector>

@@ -5,8 +5,8 @@
 #include "core/tolerances.h"
 #include "linear/dense_spd.h"
 #include "linear/sparse_cholesky.h"
-#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
+#include "quality/take_verdict.h"
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
 

@@ -1,11 +1,11 @@
 #include "tiles/tile_result.h"
 
+#include "canonical/canonical_mesh.h"
 #include "circles/off_circle.h"
 #include "core/connectivity.h"
 #include "core/counted.h"
 #include "core/detachable_run.h"
 #include "core/peak_memory.h"
-#include "pipeline/canonical_mesh.h"
 
 #include <Eigen/Geometry>
 

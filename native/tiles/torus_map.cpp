@@ -1,6 +1,6 @@
 #include "core/stopwatch.h"
 #include "linear/dense_spd.h"
-#include "pipeline/take_verdict.h"
+#include "quality/take_verdict.h"
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
 #include "tiles/torus_circles.h"

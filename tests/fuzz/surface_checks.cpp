@@ -2,6 +2,7 @@
 #include "promise_check.h"
 #include "surface_facts.h"
 
+#include "canonical/canonical_form.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/halfedge_mesh.h"
@@ -9,7 +10,6 @@
 #include "flaps/flaps.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
-#include "pipeline/canonical_form.h"
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "circle_domain.h"
 #include "temporary_folder.h"
 
+#include "canonical/canonical_form.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/thread_share.h"
@@ -12,7 +13,6 @@
 #include "io/polygon_triangulation.h"
 #include "linear/condensed_laplacian.h"
 #include "linear/dense_spd.h"
-#include "pipeline/canonical_form.h"
 #include "surface/intrinsic_metric.h"
 #include "surface/laplacian.h"
 

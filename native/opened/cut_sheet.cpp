@@ -1,4 +1,4 @@
-#include "pipeline/cut_sheet.h"
+#include "opened/cut_sheet.h"
 
 #include "circles/off_circle.h"
 #include "core/topology.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "pipeline/cut_uniformize.h"
+#include "opened/cut_uniformize.h"
 #include "quality/distortion.h"
 
 #include <vector>

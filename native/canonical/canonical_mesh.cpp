@@ -1,10 +1,10 @@
-#include "pipeline/canonical_mesh.h"
+#include "canonical/canonical_mesh.h"
 
+#include "canonical/canonical_position.h"
+#include "canonical/canonical_walk.h"
 #include "core/connectivity.h"
 #include "core/topology.h"
 #include "cut/edge_runs.h"
-#include "pipeline/canonical_position.h"
-#include "pipeline/canonical_walk.h"
 
 #include <array>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "pipeline/canonical_position.h"
+#include "canonical/canonical_position.h"
 
 #include "core/errors.h"
 

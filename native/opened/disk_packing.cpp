@@ -1,4 +1,4 @@
-#include "pipeline/disk_packing.h"
+#include "opened/disk_packing.h"
 
 #include <algorithm>
 #include <cmath>

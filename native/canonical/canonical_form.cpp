@@ -1,9 +1,9 @@
-#include "pipeline/canonical_form.h"
+#include "canonical/canonical_form.h"
 
+#include "canonical/canonical_position.h"
+#include "canonical/canonical_walk.h"
 #include "core/connectivity.h"
 #include "core/thread_share.h"
-#include "pipeline/canonical_position.h"
-#include "pipeline/canonical_walk.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,10 +1,10 @@
-#include "pipeline/canonical_walk.h"
+#include "canonical/canonical_walk.h"
 
+#include "canonical/canonical_position.h"
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "core/prefetch.h"
 #include "core/thread_share.h"
-#include "pipeline/canonical_position.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What the verdict on the stored UVs means for a map: whether it is done, and what is said first.
 #pragma once
 
-#include "pipeline/result.h"
+#include "quality/report.h"
 
 namespace koebe {
 

@@ -3,7 +3,7 @@
 
 #include "core/errors.h"
 #include "core/types.h"
-#include "pipeline/result.h"
+#include "quality/report.h"
 
 #include <algorithm>
 #include <vector>

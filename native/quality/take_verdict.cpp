@@ -1,4 +1,4 @@
-#include "pipeline/take_verdict.h"
+#include "quality/take_verdict.h"
 
 #include "core/counted.h"
 

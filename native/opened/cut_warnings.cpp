@@ -1,4 +1,4 @@
-#include "pipeline/cut_warnings.h"
+#include "opened/cut_warnings.h"
 
 #include "core/counted.h"
 

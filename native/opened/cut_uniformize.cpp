@@ -1,18 +1,18 @@
-#include "pipeline/cut_uniformize.h"
+#include "opened/cut_uniformize.h"
 
 #include "balance/area_balance.h"
+#include "canonical/canonical_mesh.h"
 #include "core/detachable_run.h"
 #include "core/errors.h"
 #include "core/peak_memory.h"
 #include "core/side_by_side.h"
 #include "core/topology.h"
-#include "pipeline/canonical_mesh.h"
-#include "pipeline/cut_sheet.h"
-#include "pipeline/cut_warnings.h"
-#include "pipeline/disk_packing.h"
+#include "opened/cut_sheet.h"
+#include "opened/cut_warnings.h"
+#include "opened/disk_packing.h"
 #include "pipeline/domain.h"
-#include "pipeline/take_verdict.h"
 #include "pipeline/uniformize.h"
+#include "quality/take_verdict.h"
 
 #include <Eigen/Geometry>
 
