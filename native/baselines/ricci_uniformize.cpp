@@ -2,9 +2,9 @@
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
-#include "core/detachable_run.h"
-#include "core/peak_memory.h"
 #include "core/tolerances.h"
+#include "execution/detachable_run.h"
+#include "execution/peak_memory.h"
 #include "flaps/flap_map.h"
 #include "linear/dense_spd.h"
 #include "pipeline/domain.h"

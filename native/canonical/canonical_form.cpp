@@ -2,8 +2,8 @@
 
 #include "canonical/canonical_position.h"
 #include "canonical/canonical_walk.h"
-#include "core/connectivity.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <utility>

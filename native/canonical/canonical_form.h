@@ -1,8 +1,8 @@
 // A surface in numbers and coordinates that follow from its shape alone.
 #pragma once
 
-#include "core/topology.h"
 #include "core/types.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 
 #include "canonical/canonical_position.h"
 #include "canonical/canonical_walk.h"
-#include "core/connectivity.h"
-#include "core/topology.h"
 #include "cut/edge_runs.h"
+#include "mesh/connectivity.h"
+#include "mesh/topology.h"
 
 #include <array>
 #include <numeric>

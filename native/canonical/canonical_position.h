@@ -1,9 +1,9 @@
 // Coordinates that follow from a surface's shape and its numbers alone.
 #pragma once
 
-#include "core/thread_share.h"
-#include "core/topology.h"
 #include "core/types.h"
+#include "execution/thread_share.h"
+#include "mesh/topology.h"
 
 namespace koebe {
 

@@ -1,10 +1,10 @@
 #include "canonical/canonical_walk.h"
 
 #include "canonical/canonical_position.h"
-#include "core/connectivity.h"
 #include "core/length.h"
 #include "core/prefetch.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

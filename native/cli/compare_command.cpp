@@ -8,8 +8,8 @@
 #include "cli/standard_streams.h"
 #include "cli/subcommand.h"
 
-#include "core/detachable_run.h"
 #include "core/errors.h"
+#include "execution/detachable_run.h"
 #include "io/atomic_file.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"

@@ -10,7 +10,7 @@
 #include "cli/validators.h"
 
 #include "core/counted.h"
-#include "core/detachable_run.h"
+#include "execution/detachable_run.h"
 #include "holes/fan_filling.h"
 #include "io/atomic_file.h"
 

@@ -1,7 +1,7 @@
 // Ctrl-C and a polite kill stop the computation at its next checkpoint.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 
 namespace koebe::cli {
 

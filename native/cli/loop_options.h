@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/mesh_input.h"
-#include "core/topology.h"
+#include "mesh/topology.h"
 #include "pipeline/options.h"
 
 #include <string>

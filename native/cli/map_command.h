@@ -1,7 +1,7 @@
 // What the sub-commands that map a surface to a circle domain share: files, options, the result line.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "io/mesh_writer.h"
 #include "pipeline/result.h"
 #include "report/json.h"

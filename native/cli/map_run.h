@@ -10,8 +10,8 @@
 #include "cli/result_line.h"
 #include "cli/roomy_heap.h"
 #include "cli/standard_streams.h"
-#include "core/thread_share.h"
 #include "core/warning.h"
+#include "execution/thread_share.h"
 #include "io/atomic_file.h"
 #include "quality/distortion.h"
 

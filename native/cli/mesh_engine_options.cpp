@@ -2,8 +2,8 @@
 
 #include "cli/wrong_usage.h"
 #include "core/errors.h"
-#include "core/topology.h"
 #include "iteration/koebe_mesh.h"
+#include "mesh/topology.h"
 
 #include <algorithm>
 #include <charconv>

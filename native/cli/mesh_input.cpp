@@ -2,9 +2,9 @@
 
 #include "batch/content_hash.h"
 #include "core/counted.h"
-#include "core/detachable_run.h"
 #include "core/errors.h"
-#include "core/thread_share.h"
+#include "execution/detachable_run.h"
+#include "execution/thread_share.h"
 #include "quality/take_verdict.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/errors.h"
-#include "core/execution.h"
 #include "core/warning.h"
+#include "execution/execution.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 

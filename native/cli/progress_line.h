@@ -1,7 +1,7 @@
 // Progress on stderr, if a person is looking.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "cli/scarce_memory.h"
 
 #include "cli/exit_code.h"
-#include "core/detachable_run.h"
+#include "execution/detachable_run.h"
 #include "io/atomic_file.h"
 
 #include <atomic>

@@ -2,7 +2,7 @@
 
 #include "cli/error_line.h"
 #include "cli/exit_code.h"
-#include "core/detachable_run.h"
+#include "execution/detachable_run.h"
 #include "io/file_error.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"

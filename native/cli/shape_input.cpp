@@ -2,7 +2,7 @@
 
 #include "cli/mesh_input.h"
 #include "cli/progress_line.h"
-#include "core/topology.h"
+#include "mesh/topology.h"
 #include "pipeline/uniformize.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"

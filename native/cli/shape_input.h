@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/subcommand.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "pipeline/result.h"
 
 #include <nlohmann/json.hpp>

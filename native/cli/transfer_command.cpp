@@ -10,7 +10,7 @@
 #include "cli/standard_streams.h"
 #include "cli/subcommand.h"
 
-#include "core/detachable_run.h"
+#include "execution/detachable_run.h"
 #include "io/atomic_file.h"
 #include "io/mesh_writer.h"
 #include "pipeline/uniformize.h"

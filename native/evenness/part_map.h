@@ -2,9 +2,9 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "core/execution.h"
 #include "evenness/evenness.h"
 #include "evenness/part_mesh.h"
+#include "execution/execution.h"
 
 #include <array>
 #include <vector>

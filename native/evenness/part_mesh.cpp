@@ -1,7 +1,7 @@
 #include "evenness/part_mesh.h"
 
-#include "core/connectivity.h"
 #include "core/length.h"
+#include "mesh/connectivity.h"
 
 #include <Eigen/Geometry>
 

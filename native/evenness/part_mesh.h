@@ -1,8 +1,8 @@
 // A part of a surface as a surface of its own.
 #pragma once
 
-#include "core/topology.h"
 #include "core/types.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "iteration/koebe_condensed.h"
 
 #include "circles/boundary_angles.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "iteration/condensed_state.h"
 #include "iteration/convergence.h"
 #include "iteration/grounded_state.h"

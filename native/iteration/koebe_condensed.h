@@ -1,7 +1,7 @@
 // The Koebe iteration on boundary angles alone: the condensed engine (docs/method.md).
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "iteration/koebe_outcome.h"
 #include "linear/condensed_laplacian.h"
 

@@ -1,6 +1,6 @@
 #include "iteration/sparse_state.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "linear/dense_spd.h"
 #include "linear/kernel_buffer.h"
 

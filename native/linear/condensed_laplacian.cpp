@@ -1,7 +1,7 @@
 #include "linear/condensed_laplacian.h"
 
 #include "core/errors.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <algorithm>
 #include <limits>

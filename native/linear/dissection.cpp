@@ -1,7 +1,7 @@
 #include "linear/dissection.h"
 
 #include "core/prefetch.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 #include "linear/front.h"
 
 #include "core/errors.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "linear/dense_blas.h"
 #include "linear/kernel_buffer.h"
 

@@ -1,7 +1,7 @@
 #include "linear/multifrontal_factor.h"
 
 #include "core/errors.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "linear/dense_blas.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "linear/selected_inverse.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "linear/dense_blas.h"
 #include "linear/subtrees.h"
 

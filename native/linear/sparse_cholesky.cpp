@@ -1,7 +1,7 @@
 #include "linear/sparse_cholesky.h"
 
-#include "core/memory_limit.h"
-#include "core/thread_share.h"
+#include "execution/memory_limit.h"
+#include "execution/thread_share.h"
 #include "linear/dense_spd.h"
 #include "linear/elimination_order.h"
 #include "linear/factor_numbers.h"

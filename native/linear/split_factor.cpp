@@ -1,6 +1,6 @@
 #include "linear/split_factor.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "linear/dissection.h"
 #include "linear/front.h"
 #include "linear/kernel_buffer.h"

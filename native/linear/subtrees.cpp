@@ -1,6 +1,6 @@
 #include "linear/subtrees.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "linear/kernel_buffer.h"
 
 #include <algorithm>

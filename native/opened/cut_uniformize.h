@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/execution.h"
 #include "cut/open_surface.h"
+#include "execution/execution.h"
 #include "pipeline/result.h"
 
 #include <vector>

@@ -1,7 +1,7 @@
 // A part laid into the plane: as its disk, or its tube opened along a slit.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "splitting/splitting.h"
 
 #include <vector>

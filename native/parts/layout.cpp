@@ -1,10 +1,10 @@
 #include "parts/layout.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/side_by_side.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
+#include "execution/side_by_side.h"
+#include "mesh/connectivity.h"
 #include "parts/flat_parts.h"
 #include "parts/packing.h"
 #include "splitting/closed_surface.h"

@@ -2,10 +2,10 @@
 
 #include "canonical/canonical_mesh.h"
 #include "core/counted.h"
-#include "core/detachable_run.h"
-#include "core/memory_limit.h"
-#include "core/peak_memory.h"
 #include "evenness/part_mesh.h"
+#include "execution/detachable_run.h"
+#include "execution/memory_limit.h"
+#include "execution/peak_memory.h"
 #include "linear/dense_spd.h"
 #include "parts/layout.h"
 #include "quality/stored_uv.h"

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/execution.h"
 #include "core/types.h"
 #include "evenness/part_map.h"
+#include "execution/execution.h"
 #include "pipeline/result.h"
 
 #include <array>

@@ -1,9 +1,9 @@
 // The input made ready: used vertices alone, a unit scale, the loops in the order of the iteration.
 #pragma once
 
-#include "core/topology.h"
 #include "core/types.h"
 #include "flaps/flaps.h"
+#include "mesh/topology.h"
 #include "pipeline/options.h"
 
 #include <vector>

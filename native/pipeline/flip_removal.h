@@ -2,7 +2,7 @@
 #pragma once
 
 #include "circles/circle_map.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "flaps/flaps.h"
 #include "foldover/untangle.h"
 #include "pipeline/domain.h"

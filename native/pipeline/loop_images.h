@@ -1,7 +1,7 @@
 // Where the Koebe iteration puts the loops of a domain, on more triangles where its own are too coarse.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "iteration/koebe_outcome.h"
 #include "linear/condensed_laplacian.h"
 #include "pipeline/domain.h"

@@ -1,8 +1,8 @@
 #include "pipeline/map_warnings.h"
 
 #include "circles/off_circle.h"
-#include "core/connectivity.h"
 #include "core/counted.h"
+#include "mesh/connectivity.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "circles/circle_map.h"
 #include "circles/moebius.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "pipeline/domain.h"
 #include "pipeline/map_from_loops.h"
 

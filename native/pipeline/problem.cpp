@@ -2,7 +2,7 @@
 
 #include "circles/boundary_angles.h"
 #include "circles/point_alignment.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "iteration/koebe_mesh.h"
 #include "pipeline/normalization.h"
 #include "quality/distortion.h"

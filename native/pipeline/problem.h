@@ -1,7 +1,7 @@
 // A surface on its way to a map, and what of it stays when its vertices move.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "flaps/flaps.h"
 #include "iteration/angle_forecast.h"
 #include "pipeline/domain.h"

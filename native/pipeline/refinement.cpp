@@ -1,6 +1,6 @@
 #include "pipeline/refinement.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 namespace koebe {
 

@@ -1,6 +1,6 @@
 #include "quality/distortion.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <algorithm>
 #include <cmath>

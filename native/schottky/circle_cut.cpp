@@ -1,7 +1,7 @@
 #include "schottky/circle_cut.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "circles/boundary_angles.h"
 #include "core/errors.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "iteration/disk_dirichlet_to_neumann.h"
 #include "linear/dense_spd.h"
 

@@ -1,8 +1,8 @@
 #include "schottky/handle_cut.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "cut/open_surface.h"
+#include "mesh/connectivity.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // A surface with handles, cut along a loop through each: genus 0, its loops in pairs, and the holes.
 #pragma once
 
-#include "core/execution.h"
-#include "core/topology.h"
 #include "core/types.h"
+#include "execution/execution.h"
+#include "mesh/topology.h"
 
 #include <array>
 #include <vector>

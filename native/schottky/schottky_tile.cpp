@@ -1,10 +1,10 @@
 #include "schottky/schottky_tile.h"
 
 #include "circles/off_circle.h"
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/tolerances.h"
 #include "foldover/untangle.h"
+#include "mesh/connectivity.h"
 #include "planar/boundary_crossings.h"
 #include "quality/stored_uv.h"
 #include "quality/verdict.h"

@@ -1,7 +1,7 @@
 // One copy of every face of a surface with handles, put together as a region of the plane.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "schottky/finer_faces.h"
 #include "schottky/handle_cut.h"
 #include "schottky/schottky_group.h"

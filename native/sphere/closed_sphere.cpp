@@ -1,8 +1,8 @@
 #include "sphere/closed_sphere.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "linear/sparse_cholesky.h"
+#include "mesh/connectivity.h"
 #include "sphere/spherical_balance.h"
 #include "sphere/spherical_points.h"
 #include "surface/intrinsic_metric.h"

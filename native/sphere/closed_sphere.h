@@ -1,7 +1,7 @@
 // A closed surface on the sphere.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "iteration/koebe_outcome.h"
 #include "surface/periodic_surface.h"
 

@@ -1,7 +1,7 @@
 // A closed surface on the sphere, one vertex opened.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "sphere/sphere_repair.h"
 
 #include <optional>

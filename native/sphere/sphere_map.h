@@ -3,8 +3,8 @@
 
 #include "circles/circle_fit.h"
 #include "core/api.h"
-#include "core/execution.h"
 #include "core/warning.h"
+#include "execution/execution.h"
 #include "quality/report.h"
 #include "sphere/spherical_points.h"
 

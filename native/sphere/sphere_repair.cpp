@@ -1,9 +1,9 @@
 #include "sphere/sphere_repair.h"
 
-#include "core/connectivity.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/repair_effort.h"
+#include "mesh/connectivity.h"
 #include "sphere/sphere_check.h"
 
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 // Flipped faces of a map to the sphere turned back.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "sphere/spherical_points.h"
 #include "surface/periodic_surface.h"
 

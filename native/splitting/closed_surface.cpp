@@ -1,7 +1,7 @@
 #include "splitting/closed_surface.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
+#include "mesh/connectivity.h"
 #include "splitting/halving.h"
 
 #include <algorithm>

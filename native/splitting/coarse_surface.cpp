@@ -1,6 +1,6 @@
 #include "splitting/coarse_surface.h"
 
-#include "core/halfedge_mesh.h"
+#include "mesh/halfedge_mesh.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,8 +1,8 @@
 // A surface with fewer faces.
 #pragma once
 
-#include "core/execution.h"
 #include "evenness/part_mesh.h"
+#include "execution/execution.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "splitting/concavity.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 #include <Eigen/Geometry>
 

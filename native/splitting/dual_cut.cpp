@@ -1,7 +1,7 @@
 #include "splitting/dual_cut.h"
 
-#include "core/connectivity.h"
 #include "core/length.h"
+#include "mesh/connectivity.h"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>

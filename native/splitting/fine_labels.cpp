@@ -1,6 +1,6 @@
 #include "splitting/fine_labels.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 #include "splitting/dual_cut.h"
 
 #include <algorithm>

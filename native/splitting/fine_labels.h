@@ -1,7 +1,7 @@
 // The parts of a coarse surface on the fine one.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "splitting/coarse_surface.h"
 
 #include <vector>

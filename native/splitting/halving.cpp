@@ -1,8 +1,8 @@
 #include "splitting/halving.h"
 
-#include "core/connectivity.h"
 #include "core/length.h"
 #include "cut/edge_graph.h"
+#include "mesh/connectivity.h"
 #include "splitting/dual_cut.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "splitting/hidden_cuts.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/side_by_side.h"
+#include "execution/side_by_side.h"
+#include "mesh/connectivity.h"
 #include "splitting/concavity.h"
 #include "splitting/dual_cut.h"
 

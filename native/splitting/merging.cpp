@@ -1,5 +1,5 @@
-#include "core/connectivity.h"
-#include "core/side_by_side.h"
+#include "execution/side_by_side.h"
+#include "mesh/connectivity.h"
 #include "splitting/piece_forecast.h"
 #include "splitting/splitting.h"
 

@@ -1,6 +1,6 @@
 #include "splitting/mirror_symmetry.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,8 +1,8 @@
 // Where a part could be cut.
 #pragma once
 
-#include "core/execution.h"
 #include "evenness/part_map.h"
+#include "execution/execution.h"
 #include "splitting/dual_cut.h"
 
 #include <vector>

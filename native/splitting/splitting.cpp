@@ -1,8 +1,8 @@
 #include "splitting/splitting.h"
 
-#include "core/connectivity.h"
 #include "core/length.h"
-#include "core/side_by_side.h"
+#include "execution/side_by_side.h"
+#include "mesh/connectivity.h"
 #include "splitting/halving.h"
 #include "splitting/piece_forecast.h"
 #include "splitting/proposals.h"

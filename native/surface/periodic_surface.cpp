@@ -1,9 +1,9 @@
 #include "surface/periodic_surface.h"
 
-#include "core/connectivity.h"
 #include "core/counted.h"
 #include "core/errors.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
+#include "mesh/connectivity.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>

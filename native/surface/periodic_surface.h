@@ -1,7 +1,7 @@
 // A surface that a map takes to a torus, a cylinder or a sphere: a vertex has one position for each sum of periods.
 #pragma once
 
-#include "core/topology.h"
+#include "mesh/topology.h"
 #include "surface/intrinsic_metric.h"
 #include "surface/one_form.h"
 

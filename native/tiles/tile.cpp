@@ -1,11 +1,11 @@
 #include "tiles/tile.h"
 
-#include "core/connectivity.h"
 #include "core/tolerances.h"
 #include "cut/seamed_mesh.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/untangle.h"
+#include "mesh/connectivity.h"
 #include "planar/boundary_crossings.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A map to a torus or a cylinder as UVs: one tile, cut in the UVs alone, whose copies fill the plane or a strip.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "tiles/flat_map.h"
 
 #include <array>

@@ -2,10 +2,10 @@
 
 #include "canonical/canonical_mesh.h"
 #include "circles/off_circle.h"
-#include "core/connectivity.h"
 #include "core/counted.h"
-#include "core/detachable_run.h"
-#include "core/peak_memory.h"
+#include "execution/detachable_run.h"
+#include "execution/peak_memory.h"
+#include "mesh/connectivity.h"
 
 #include <Eigen/Geometry>
 

@@ -2,7 +2,7 @@
 
 #include "circles/boundary_angles.h"
 #include "circles/circle_projection.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "iteration/convergence.h"
 #include "iteration/disk_dirichlet_to_neumann.h"
 #include "linear/sparse_cholesky.h"

@@ -1,7 +1,7 @@
 // A surface of genus 1 on a flat torus, its holes round.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "iteration/koebe_outcome.h"
 #include "tiles/flat_map.h"
 

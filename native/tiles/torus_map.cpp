@@ -1,4 +1,4 @@
-#include "core/stopwatch.h"
+#include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
 #include "quality/take_verdict.h"
 #include "tiles/tile_map.h"

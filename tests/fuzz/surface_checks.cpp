@@ -3,13 +3,13 @@
 #include "surface_facts.h"
 
 #include "canonical/canonical_form.h"
-#include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/halfedge_mesh.h"
-#include "core/topology.h"
 #include "flaps/flaps.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "mesh/connectivity.h"
+#include "mesh/halfedge_mesh.h"
+#include "mesh/topology.h"
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>

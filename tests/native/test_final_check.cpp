@@ -1,6 +1,6 @@
 #include "circle_domain.h"
 #include "core/errors.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "pipeline/final_check.h"
 #include "pipeline/refinement.h"
 #include "pipeline/uniformize.h"

@@ -1,7 +1,7 @@
 // Matrices that are factored in pieces: as one that is factored whole, and bit for bit the same on any number of
 // threads. The thread sanitizer looks on in `make test-tsan`.
 #include "core/errors.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "linear/dense_spd.h"
 #include "linear/dissection.h"
 #include "linear/sparse_cholesky.h"

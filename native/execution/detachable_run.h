@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/execution.h"
-#include "core/thread_memory.h"
+#include "execution/execution.h"
+#include "execution/thread_memory.h"
 
 #include <chrono>
 #include <condition_variable>

@@ -1,7 +1,7 @@
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 #include "core/errors.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,9 +1,9 @@
-#include "core/topology.h"
+#include "mesh/topology.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/prefetch.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

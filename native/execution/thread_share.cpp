@@ -1,6 +1,6 @@
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
-#include "core/side_by_side.h"
+#include "execution/side_by_side.h"
 
 #include <algorithm>
 #include <thread>

@@ -1,4 +1,4 @@
-#include "core/thread_memory.h"
+#include "execution/thread_memory.h"
 
 #include <array>
 #include <cstddef>

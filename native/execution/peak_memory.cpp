@@ -1,4 +1,4 @@
-#include "core/peak_memory.h"
+#include "execution/peak_memory.h"
 
 #if defined(_WIN32)
 #include <windows.h>

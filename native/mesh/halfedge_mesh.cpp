@@ -1,4 +1,4 @@
-#include "core/halfedge_mesh.h"
+#include "mesh/halfedge_mesh.h"
 
 #include "core/errors.h"
 #include "core/process_setting.h"

@@ -1,4 +1,4 @@
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 
 #include "core/errors.h"
 

@@ -1,7 +1,7 @@
-#include "core/side_by_side.h"
+#include "execution/side_by_side.h"
 
-#include "core/thread_memory.h"
-#include "core/thread_share.h"
+#include "execution/thread_memory.h"
+#include "execution/thread_share.h"
 
 #include <algorithm>
 #include <atomic>
