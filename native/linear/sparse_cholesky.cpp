@@ -3,12 +3,12 @@
 #include "execution/memory_limit.h"
 #include "execution/thread_share.h"
 #include "linear/dense_spd.h"
-#include "linear/elimination_order.h"
-#include "linear/factor_numbers.h"
-#include "linear/multifrontal_factor.h"
-#include "linear/part_substitution.h"
-#include "linear/selected_inverse.h"
-#include "linear/supernodal_factor.h"
+#include "linear/factor/elimination_order.h"
+#include "linear/factor/factor_numbers.h"
+#include "linear/factor/multifrontal_factor.h"
+#include "linear/factor/part_substitution.h"
+#include "linear/factor/selected_inverse.h"
+#include "linear/factor/supernodal_factor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include "core/errors.h"
 #include "execution/thread_share.h"
 #include "linear/dense_spd.h"
-#include "linear/dissection.h"
+#include "linear/factor/dissection.h"
+#include "linear/factor/split_factor.h"
 #include "linear/sparse_cholesky.h"
-#include "linear/split_factor.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

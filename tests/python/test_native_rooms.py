@@ -16,8 +16,8 @@ WITH_THE_COMMAND = {"batch"}  # built with it, by a list of its own
 
 
 def included(source):
-    """What a file includes of native/: room/file."""
-    return re.findall(r'^#include "(\w+)/[\w.]+"', source, re.MULTILINE)
+    """The room of each file of native/ that a source includes."""
+    return re.findall(r'^#include "(\w+)/[\w./]+"', source, re.MULTILINE)
 
 
 def arrows():
@@ -46,6 +46,11 @@ def test_nothing_includes_a_front():
     assert [room for room, others in arrows().items() if others & WITH_THE_COMMAND] == ["cli"]
 
 
+def test_nothing_but_linear_includes_the_factor():
+    sources = {path for path in NATIVE.rglob("*.[ch]*") if '#include "linear/factor/' in path.read_text(encoding="utf-8")}
+    assert {path.relative_to(NATIVE).parts[0] for path in sources} == {"linear"}
+
+
 def test_circles_know_no_mesh():
     assert arrows()["circles"] == {"core"}
 
@@ -57,9 +62,9 @@ def test_every_room_is_on_the_map():
 
 def test_every_source_is_built():
     built = (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8")
-    listed = set(re.findall(r"^ +(\w+/\w+\.cpp)$", built, re.MULTILINE))
-    others = FRONTS | WITH_THE_COMMAND | {OTHERS}
-    there = {path.relative_to(NATIVE).as_posix() for path in NATIVE.glob("*/*.cpp") if path.parent.name not in others}
+    listed = set(re.findall(r"^ +(\w+/[\w/]+\.cpp)$", built, re.MULTILINE))
+    sources = {path.relative_to(NATIVE) for path in NATIVE.rglob("*.cpp")}
+    there = {path.as_posix() for path in sources if path.parts[0] not in FRONTS | WITH_THE_COMMAND | {OTHERS}}
     assert listed == there
 
 

@@ -1,8 +1,8 @@
-// The supernodes of a factor A = L L'. For the .cpp files of this folder only.
+// The supernodes of a factor A = L L'. For the .cpp files of linear/ only.
 #pragma once
 
 #include "linear/cholmod_support.h"
-#include "linear/split_factor.h"
+#include "linear/factor/split_factor.h"
 
 #include <cstddef>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "linear/part_substitution.h"
+#include "linear/factor/part_substitution.h"
 
 namespace koebe::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "linear/factor_numbers.h"
+#include "linear/factor/factor_numbers.h"
 
 #include "linear/kernel_buffer.h"
 

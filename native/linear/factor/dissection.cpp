@@ -1,4 +1,4 @@
-#include "linear/dissection.h"
+#include "linear/factor/dissection.h"
 
 #include "core/prefetch.h"
 #include "execution/thread_share.h"

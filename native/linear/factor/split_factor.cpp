@@ -1,8 +1,8 @@
-#include "linear/split_factor.h"
+#include "linear/factor/split_factor.h"
 
 #include "execution/thread_share.h"
-#include "linear/dissection.h"
-#include "linear/front.h"
+#include "linear/factor/dissection.h"
+#include "linear/factor/front.h"
 #include "linear/kernel_buffer.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-#include "linear/selected_inverse.h"
+#include "linear/factor/selected_inverse.h"
 
 #include "execution/thread_share.h"
 #include "linear/dense_blas.h"
-#include "linear/subtrees.h"
+#include "linear/factor/subtrees.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include "linear/supernodal_factor.h"
+#include "linear/factor/supernodal_factor.h"
 
-#include "linear/front.h"
+#include "linear/factor/front.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "linear/subtrees.h"
+#include "linear/factor/subtrees.h"
 
 #include "execution/thread_share.h"
 #include "linear/kernel_buffer.h"

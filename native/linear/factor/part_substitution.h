@@ -1,7 +1,7 @@
-// Substitution on a part of a factor. For the .cpp files of this folder only.
+// Substitution on a part of a factor. For the .cpp files of linear/ only.
 #pragma once
 
-#include "linear/supernodal_factor.h"
+#include "linear/factor/supernodal_factor.h"
 
 #include <vector>
 

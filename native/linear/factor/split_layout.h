@@ -1,5 +1,4 @@
-// Where the pieces and the separators of a dissected matrix stand in its factor. For the .cpp files of this folder
-// only.
+// Where the pieces and the separators of a dissected matrix stand in its factor. For the .cpp files of linear/ only.
 #pragma once
 
 #include "core/types.h"

@@ -1,7 +1,7 @@
-// An elimination tree cut into parts for several threads. For the .cpp files of this folder only.
+// An elimination tree cut into parts for several threads. For the .cpp files of linear/ only.
 #pragma once
 
-#include "linear/supernodal_factor.h"
+#include "linear/factor/supernodal_factor.h"
 
 #include <functional>
 #include <vector>

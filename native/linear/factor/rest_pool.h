@@ -1,4 +1,4 @@
-// Memory for what pieces leave to their separators. For the .cpp files of this folder only.
+// Memory for what pieces leave to their separators. For the .cpp files of linear/ only.
 #pragma once
 
 #include "core/types.h"

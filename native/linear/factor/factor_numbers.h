@@ -1,8 +1,8 @@
-// The numbers of a factor that CHOLMOD has analyzed. For the .cpp files of this folder only.
+// The numbers of a factor that CHOLMOD has analyzed. For the .cpp files of linear/ only.
 #pragma once
 
-#include "linear/piece_factor.h"
-#include "linear/supernodal_factor.h"
+#include "linear/factor/piece_factor.h"
+#include "linear/factor/supernodal_factor.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "linear/front.h"
+#include "linear/factor/front.h"
 
 #include "core/errors.h"
 #include "execution/thread_share.h"

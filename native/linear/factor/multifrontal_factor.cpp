@@ -1,4 +1,4 @@
-#include "linear/multifrontal_factor.h"
+#include "linear/factor/multifrontal_factor.h"
 
 #include "core/errors.h"
 #include "execution/memory_limit.h"

@@ -1,4 +1,4 @@
-// The order in which a sparse factorization eliminates. For the .cpp files of this folder only.
+// The order in which a sparse factorization eliminates. For the .cpp files of linear/ only.
 #pragma once
 
 #include "linear/cholmod_support.h"

@@ -1,9 +1,9 @@
-#include "linear/piece_factor.h"
+#include "linear/factor/piece_factor.h"
 
 #include "core/errors.h"
 #include "linear/cholmod_support.h"
 #include "linear/dense_blas.h"
-#include "linear/elimination_order.h"
+#include "linear/factor/elimination_order.h"
 #include "linear/large_array.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// A Cholesky factor of which a part is computed anew. For the .cpp files of this folder only.
+// A Cholesky factor of which a part is computed anew. For the .cpp files of linear/ only.
 #pragma once
 
-#include "linear/subtrees.h"
+#include "linear/factor/subtrees.h"
 
 #include <vector>
 

@@ -1,10 +1,10 @@
-// A factor made of pieces that are eliminated side by side. For the .cpp files of this folder only.
+// A factor made of pieces that are eliminated side by side. For the .cpp files of linear/ only.
 #pragma once
 
 #include "core/types.h"
+#include "linear/factor/piece_factor.h"
+#include "linear/factor/split_layout.h"
 #include "linear/large_array.h"
-#include "linear/piece_factor.h"
-#include "linear/split_layout.h"
 
 #include <memory>
 #include <vector>

@@ -2,8 +2,8 @@
 // folder only.
 #pragma once
 
-#include "linear/rest_pool.h"
-#include "linear/split_layout.h"
+#include "linear/factor/rest_pool.h"
+#include "linear/factor/split_layout.h"
 
 #include <vector>
 

@@ -1,5 +1,4 @@
-// A sparse symmetric matrix cut into pieces that can be eliminated side by side. For the .cpp files of this folder
-// only.
+// A sparse symmetric matrix cut into pieces that can be eliminated side by side. For the .cpp files of linear/ only.
 #pragma once
 
 #include "core/types.h"

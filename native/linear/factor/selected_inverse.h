@@ -1,7 +1,7 @@
-// Entries of the inverse of a sparse matrix. For the .cpp files of this folder only.
+// Entries of the inverse of a sparse matrix. For the .cpp files of linear/ only.
 #pragma once
 
-#include "linear/supernodal_factor.h"
+#include "linear/factor/supernodal_factor.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-// A dense block of a factorization, eliminated, and solved with. For the .cpp files of this folder only.
+// A dense block of a factorization, eliminated, and solved with. For the .cpp files of linear/ only.
 #pragma once
 
 #include "core/types.h"

@@ -1,4 +1,4 @@
-#include "linear/elimination_order.h"
+#include "linear/factor/elimination_order.h"
 
 namespace koebe::detail {
 
