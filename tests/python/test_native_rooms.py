@@ -51,6 +51,14 @@ def test_nothing_but_linear_includes_the_factor():
     assert {path.relative_to(NATIVE).parts[0] for path in sources} == {"linear"}
 
 
+def test_the_folders_of_the_command_are_one_upon_the_other():
+    folders = ["process", "files", "options", "commands"]
+    for k, folder in enumerate(folders):
+        text = "".join(path.read_text(encoding="utf-8") for path in (NATIVE / "cli" / folder).glob("*.[ch]*"))
+        included_folders = set(re.findall(r'^#include "cli/(\w+)/', text, re.MULTILINE))
+        assert folder in included_folders and included_folders <= set(folders[: k + 1])
+
+
 def test_circles_know_no_mesh():
     assert arrows()["circles"] == {"core"}
 
@@ -71,7 +79,10 @@ def test_every_source_is_built():
 @pytest.mark.parametrize("room", sorted(FRONTS | WITH_THE_COMMAND))
 def test_every_source_of_a_room_with_a_list_of_its_own_is_built(room):
     built = (NATIVE / room / "CMakeLists.txt").read_text(encoding="utf-8")
-    assert {path.name for path in (NATIVE / room).glob("*.cpp")} == set(re.findall(r"\b\w+\.cpp\b", built))
+    folder = NATIVE / room
+    others = {path.parent for path in folder.glob("*/CMakeLists.txt")}
+    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*.cpp") if path.parent not in others}
+    assert there == set(re.findall(r"\b[\w/]+\.cpp\b", built))
 
 
 NAMED = re.compile(
