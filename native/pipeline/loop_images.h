@@ -2,6 +2,7 @@
 #pragma once
 
 #include "execution/execution.h"
+#include "iteration/iteration_options.h"
 #include "iteration/koebe_outcome.h"
 #include "linear/condensed_laplacian.h"
 #include "pipeline/domain.h"

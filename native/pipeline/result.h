@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/types.h"
+#include "iteration/koebe_outcome.h"
 #include "pipeline/options.h"
 #include "quality/report.h"
 
