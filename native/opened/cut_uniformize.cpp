@@ -10,7 +10,7 @@
 #include "opened/cut_sheet.h"
 #include "opened/cut_warnings.h"
 #include "opened/disk_packing.h"
-#include "pipeline/domain.h"
+#include "pipeline/map_input.h"
 #include "pipeline/uniformize.h"
 #include "quality/take_verdict.h"
 

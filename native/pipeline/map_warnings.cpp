@@ -24,7 +24,7 @@ std::string figure(double value)
 }
 
 /// Some faces in the input's numbering, rising.
-std::vector<Index> input_faces(const Domain& whole, const std::vector<Index>& faces)
+std::vector<Index> input_faces(const MapInput& whole, const std::vector<Index>& faces)
 {
     std::vector<Index> result;
     for (const Index f : faces) result.push_back(whole.original_faces[f]);
@@ -32,7 +32,7 @@ std::vector<Index> input_faces(const Domain& whole, const std::vector<Index>& fa
     return result;
 }
 
-Warning flap_warning(const Domain& whole, const std::vector<Flap>& flaps)
+Warning flap_warning(const MapInput& whole, const std::vector<Flap>& flaps)
 {
     std::vector<Index> faces;
     std::size_t rim = 0, inner = 0;
@@ -63,7 +63,7 @@ struct LostRegion {
     double shortest = 0.0;  // longest edge of the smallest face, in UV units and 64 bits
 };
 
-std::vector<LostRegion> lost_regions(const Domain& whole, const PlanarPoints& uv)
+std::vector<LostRegion> lost_regions(const MapInput& whole, const PlanarPoints& uv)
 {
     const Triangles& triangles = whole.surface.triangles;
     std::vector<char> met(triangles.rows(), 0), flipped(triangles.rows(), 0);
@@ -133,7 +133,7 @@ std::vector<Warning> circle_warnings(const CircleMap& map)
     return warnings;
 }
 
-std::vector<Warning> input_warnings(const Domain& whole)
+std::vector<Warning> input_warnings(const MapInput& whole)
 {
     std::vector<Warning> warnings;
     if (const auto& unused = whole.surface.unused; !unused.empty())
@@ -170,7 +170,7 @@ std::vector<Warning> iteration_warnings(const KoebeOutcome& outcome, bool no_cir
     return warnings;
 }
 
-std::vector<Warning> flip_warnings(const Domain& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
+std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
                                    const UntangleReport& untangled, const Distortion& distortion)
 {
     std::vector<Warning> warnings;

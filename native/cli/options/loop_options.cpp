@@ -1,7 +1,7 @@
 #include "cli/options/loop_options.h"
 
 #include "cli/options/wrong_usage.h"
-#include "pipeline/domain.h"
+#include "pipeline/map_input.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>

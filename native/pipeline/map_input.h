@@ -13,7 +13,7 @@ namespace koebe {
 inline constexpr double same_length = 1e-9;  ///< relative difference of loops that are equally long
 
 /// The surface in its canonical form, with the loops in the order of the iteration.
-struct Domain {
+struct MapInput {
     Surface surface;
     Vertices vertices;
     std::vector<Index> original;        // vertex of the input for each vertex
@@ -27,22 +27,22 @@ struct Domain {
 };
 
 /// Whether the surface is a disk without inner vertices.
-bool is_polygon(const Domain& domain);
+bool is_polygon(const MapInput& input);
 
-/// The place of a loop of the domain among the input's loops, which are in the order of their lowest vertices.
-int rank_by_lowest_vertex(const Domain& domain, const VertexLoop& loop);
+/// The place of a loop of the surface among the input's loops, which are in the order of their lowest vertices.
+int rank_by_lowest_vertex(const MapInput& input, const VertexLoop& loop);
 
 /// @throws InputError importance without a balance, of another number of vertices, or not from 0 to 1
 void require_importance(const UniformizeOptions& options, Index vertex_count);
 
 /// @throws InputError, TopologyError
-Domain prepare_domain(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
+MapInput prepare_input(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
 
-/// The same domain with its vertices elsewhere: its loops keep their order, the outer one too.
+/// The same surface with its vertices elsewhere: its loops keep their order, the outer one too.
 /// @param vertices (V, 3) of the input, as many as before @throws InputError
-void move_domain(Domain& domain, const Vertices& vertices);
+void move_input(MapInput& input, const Vertices& vertices);
 
-/// The domain without its flaps; takes the surface out of the cut.
-Domain core_domain(const Domain& whole, FlapCut& cut);
+/// The surface without its flaps; takes the surface out of the cut.
+MapInput core_input(const MapInput& whole, FlapCut& cut);
 
 }  // namespace koebe
