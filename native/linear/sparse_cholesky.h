@@ -19,7 +19,7 @@ class SparseCholesky {
 public:
     /// @param matrix symmetric: the lower triangle, or both
     /// @param last the rows B
-    /// @param split_rows a larger matrix is cut into pieces that are factored side by side (factor/split_factor.h)
+    /// @param split_rows a larger matrix is cut into pieces that are factored side by side (factor/analysis.h)
     /// @throws SolverError if the matrix is not positive definite
     explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd,
                             const std::vector<Index>& last = {}, Index split_rows = 50000);

@@ -58,7 +58,7 @@ void eliminate_wide(double* columns, int width, int height, MatrixXd& left)
 /// The lower triangle of a matrix in the factor's order, column by column.
 class ColumnsInOrder {
 public:
-    ColumnsInOrder(const SupernodalFactor& l, const SparseMatrix& matrix)
+    ColumnsInOrder(const Supernodes& l, const SparseMatrix& matrix)
         : l_(l), begin_(l.size() + 1, 0), entries_(matrix.nonZeros())
     {
         each_entry(matrix, [&](Index column, Index, double) { ++begin_[column + 1]; });
@@ -72,9 +72,9 @@ public:
     {
         const std::ptrdiff_t height = l_.height(s), width = l_.width(s);
         std::fill_n(columns, height * width, 0.0);
-        for (Index r = 0; r < height; ++r) place[l_.rows(s)[r]] = r;
+        for (Index r = 0; r < height; ++r) place[l_.rows_of(s)[r]] = r;
         for (std::ptrdiff_t j = 0; j < width; ++j) {
-            const Index column = l_.first_column(s) + static_cast<Index>(j);
+            const Index column = l_.first[s] + static_cast<Index>(j);
             for (Index e = begin_[column]; e < begin_[column + 1]; ++e)
                 columns[j * height + place[entries_[e].row]] = entries_[e].value;
         }
@@ -97,7 +97,7 @@ private:
             }
     }
 
-    const SupernodalFactor& l_;
+    const Supernodes& l_;
     std::vector<Index> begin_;
     std::vector<Entry> entries_;
 };
@@ -108,10 +108,7 @@ MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& 
                                        const std::vector<std::vector<Index>>& changing)
     : l_(l)
 {
-    l_.make_room();
-    values_ = static_cast<double*>(l_.factor->x);
-    px_ = static_cast<const Index*>(l_.factor->px);
-    const Index count = static_cast<Index>(l_.factor->nsuper);
+    const Index count = l_.count();
     changes_.assign(count, 0);
     for (const std::vector<Index>& set : changing)
         for (const Index v : set)
@@ -132,8 +129,8 @@ MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& 
         const Index parent = l_.parent(s);
         if (parent == s) continue;
         children_[parent].push_back(s);
-        const Index* among = l_.rows(parent);
-        const Index* row = l_.rows(s) + l_.width(s);
+        const Index* among = l_.rows_of(parent);
+        const Index* row = l_.rows_of(s) + l_.width(s);
         Index at = 0;
         for (Index r = l_.width(s); r < l_.height(s); ++r, ++row) {
             while (among[at] != *row) ++at;
@@ -150,12 +147,12 @@ void MultifrontalFactor::take(const SparseMatrix& matrix)
     all_.upward([&](const std::vector<Index>& supernodes) {
         const auto place = std::make_unique_for_overwrite<Index[]>(l_.size());
         for (const Index s : supernodes) {
-            in_order.assemble(s, columns(s), place.get());
+            in_order.assemble(s, l_.values(s), place.get());
             const Index below = l_.height(s) - l_.width(s);
             left_[s] = MatrixXd::Zero(below, below);
             add_children(s, false);
             if (changes_[s]) {
-                kept_columns_[s] = Eigen::Map<const MatrixXd>(columns(s), l_.height(s), l_.width(s));
+                kept_columns_[s] = Eigen::Map<const MatrixXd>(l_.values(s), l_.height(s), l_.width(s));
                 kept_left_[s] = std::move(left_[s]);
             } else {
                 eliminate(s);
@@ -171,10 +168,10 @@ void MultifrontalFactor::find_addends(const std::vector<std::vector<Index>>& cha
             for (std::size_t r = c; r < changing[k].size(); ++r) {
                 const auto [low, high] = std::minmax(l_.rank[changing[k][r]], l_.rank[changing[k][c]]);
                 const Index s = l_.supernode[low];
-                const Index* rows = l_.rows(s);
+                const Index* rows = l_.rows_of(s);
                 const std::ptrdiff_t at = std::lower_bound(rows, rows + l_.height(s), high) - rows;
                 addends_[s].push_back({static_cast<Index>(k), static_cast<Index>(r), static_cast<Index>(c),
-                                       at + static_cast<std::ptrdiff_t>(low - l_.first_column(s)) * l_.height(s)});
+                                       at + static_cast<std::ptrdiff_t>(low - l_.first[s]) * l_.height(s)});
             }
 }
 
@@ -189,7 +186,7 @@ void MultifrontalFactor::add_children(Index s, bool changing)
         const MatrixXd& from = left_[child];
         const int count = static_cast<int>(place.size());
         for (int c = 0; c < count; ++c) {
-            double* to = place[c] < width ? columns(s) + place[c] * height : &left_[s](0, place[c] - width) - width;
+            double* to = place[c] < width ? l_.values(s) + place[c] * height : &left_[s](0, place[c] - width) - width;
             const double* column = &from(0, c);
             for (int r = c; r < count; ++r) to[place[r]] += column[r];
         }
@@ -201,18 +198,18 @@ void MultifrontalFactor::eliminate(Index s)
 {
     const int width = l_.width(s), height = l_.height(s);
     if (width <= narrow)
-        eliminate_narrow(columns(s), width, height, left_[s]);
+        eliminate_narrow(l_.values(s), width, height, left_[s]);
     else
-        eliminate_wide(columns(s), width, height, left_[s]);
+        eliminate_wide(l_.values(s), width, height, left_[s]);
 }
 
 void MultifrontalFactor::refactorize(const std::vector<MatrixXd>& blocks)
 {
     changing_.upward([&](const std::vector<Index>& supernodes) {
         for (const Index s : supernodes) {
-            std::copy_n(kept_columns_[s].data(), kept_columns_[s].size(), columns(s));
+            std::copy_n(kept_columns_[s].data(), kept_columns_[s].size(), l_.values(s));
             left_[s] = kept_left_[s];
-            for (const Addend& a : addends_[s]) columns(s)[a.place] += blocks[a.set](a.row, a.column);
+            for (const Addend& a : addends_[s]) l_.values(s)[a.place] += blocks[a.set](a.row, a.column);
             add_children(s, true);
             eliminate(s);
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "linear/factor/subtrees.h"
+#include "linear/factor/supernodal_factor.h"
 
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace koebe::detail {
 /// those up to the root have to be computed anew: what the others leave over is kept.
 class MultifrontalFactor {
 public:
-    /// @param l analyzed and numbered; gets room for the values
+    /// @param l gets the values
     /// @param matrix A, of which the lower triangle is read
     /// @param changing rows of A: what refactorize() adds, it adds to entries between these
     MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& matrix,
@@ -35,14 +36,11 @@ private:
         std::ptrdiff_t place;
     };
 
-    double* columns(Index s) { return values_ + px_[s]; }
     void find_addends(const std::vector<std::vector<Index>>& changing);
     void add_children(Index s, bool changing);
     void eliminate(Index s);
 
     SupernodalFactor& l_;
-    double* values_ = nullptr;
-    const Index* px_ = nullptr;
     std::vector<char> changes_;                       // per supernode
     Subtrees all_, changing_;                         // supernodes, and those that change
     std::vector<std::vector<Index>> children_;        // per supernode

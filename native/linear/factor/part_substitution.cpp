@@ -20,7 +20,7 @@ public:
             front_.col(j) /= column[j];
             for (int r = j + 1; r < height; ++r) front_.col(r) -= column[r] * front_.col(j);
         }
-        for (int r = 0; r < height; ++r) y_.col(l_.rows(s)[r]) = front_.col(r);
+        for (int r = 0; r < height; ++r) y_.col(l_.rows_of(s)[r]) = front_.col(r);
     }
 
     void backward(Index s)
@@ -38,7 +38,7 @@ public:
             }
             if (r < height) even -= column[r] * front_.col(r);
             front_.col(j) = (even + odd) / column[j];
-            y_.col(l_.first_column(s) + j) = front_.col(j);
+            y_.col(l_.first[s] + j) = front_.col(j);
         }
     }
 
@@ -47,7 +47,7 @@ private:
     {
         const int height = l_.height(s);
         if (front_.cols() < height) front_ = Values(y_.rows(), height);
-        for (int r = 0; r < height; ++r) front_.col(r) = y_.col(l_.rows(s)[r]);
+        for (int r = 0; r < height; ++r) front_.col(r) = y_.col(l_.rows_of(s)[r]);
     }
 
     const SupernodalFactor& l_;
@@ -70,7 +70,7 @@ void with_columns(const SupernodalFactor& l, MatrixXd& y, const Visit& visit)
 
 std::vector<char> PartSubstitution::ways_from(const std::vector<Index>& rows) const
 {
-    std::vector<char> visited(l_.factor->nsuper, 0);
+    std::vector<char> visited(l_.count(), 0);
     for (const Index v : rows)
         for (Index s = l_.supernode[l_.rank[v]]; !visited[s]; s = l_.parent(s)) visited[s] = 1;
     return visited;

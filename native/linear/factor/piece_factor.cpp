@@ -1,59 +1,21 @@
 #include "linear/factor/piece_factor.h"
 
 #include "core/errors.h"
-#include "linear/cholmod_support.h"
 #include "linear/dense_blas.h"
-#include "linear/factor/elimination_order.h"
-#include "linear/large_array.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 namespace koebe::detail {
 namespace {
 
-/// The piece's columns, lower triangle, its interface behind it with nothing but a diagonal.
-SparseMatrix with_interface(const SparseMatrix& matrix, const std::vector<Index>& rows,
-                            const std::vector<Index>& interface, const std::vector<Index>& rank,
-                            const std::vector<Index>& number)
-{
-    const Index size = static_cast<Index>(rows.size()), all = size + static_cast<Index>(interface.size());
-    SparseMatrix result(all, all);
-    std::size_t entries = interface.size();
-    for (const Index v : rows) entries += matrix.outerIndexPtr()[v + 1] - matrix.outerIndexPtr()[v];
-    result.reserve(static_cast<Eigen::Index>(entries));
-    std::vector<Index> beyond;
-    for (Index c = 0; c < size; ++c) {
-        result.startVec(c);
-        beyond.clear();
-        for (SparseMatrix::InnerIterator it(matrix, rows[c]); it; ++it) {
-            const Index w = static_cast<Index>(it.row());
-            if (rank[w] >= 0)
-                beyond.push_back(rank[w]);
-            else if (number[w] >= c)
-                result.insertBack(number[w], c) = it.value();
-        }
-        std::sort(beyond.begin(), beyond.end());
-        for (const Index r : beyond)
-            result.insertBack(size + (std::lower_bound(interface.begin(), interface.end(), r) - interface.begin()), c) =
-                1.0;
-    }
-    for (Index c = size; c < all; ++c) {
-        result.startVec(c);
-        result.insertBack(c, c) = 1.0;
-    }
-    result.finalize();
-    return result;
-}
-
 class PieceFactorization {
 public:
-    PieceFactorization(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
+    PieceFactorization(const SparseMatrix& matrix, const Supernodes& l, const FactorPart& part, Index tops,
                        double* values, const LowerMatrix& rest, const MatrixPlaces* places)
         : matrix_(matrix),
           places_(places),
-          layout_(layout),
+          l_(l),
           part_(part),
           tops_(tops),
           values_(values),
@@ -64,12 +26,12 @@ public:
           next_(count_, -1),
           done_rows_(count_, 0),
           owner_(size_),
-          place_(size_ + layout.rank.size() - tops),
-          number_(layout.rank.size() - tops)
+          place_(size_ + l.rank.size() - tops),
+          number_(l.rank.size() - tops)
     {
         for (Index s = 0; s < count_; ++s)
-            std::fill(owner_.begin() + layout.first[part.first_supernode + s] - part.begin,
-                      owner_.begin() + layout.first[part.first_supernode + s + 1] - part.begin, s);
+            std::fill(owner_.begin() + l.first[part.first_supernode + s] - part.begin,
+                      owner_.begin() + l.first[part.first_supernode + s + 1] - part.begin, s);
         for (std::size_t i = 0; i < part.interface.size(); ++i)
             number_[part.interface[i] - tops] = static_cast<Index>(i);
     }
@@ -92,11 +54,11 @@ public:
     }
 
 private:
-    Index first(Index s) const { return layout_.first[part_.first_supernode + s]; }
-    int width(Index s) const { return layout_.width(part_.first_supernode + s); }
-    int height(Index s) const { return layout_.height(part_.first_supernode + s); }
-    const Index* rows(Index s) const { return layout_.rows_of(part_.first_supernode + s); }
-    double* block(Index s) const { return values_ + layout_.value_begin[part_.first_supernode + s]; }
+    Index first(Index s) const { return l_.first[part_.first_supernode + s]; }
+    int width(Index s) const { return l_.width(part_.first_supernode + s); }
+    int height(Index s) const { return l_.height(part_.first_supernode + s); }
+    const Index* rows(Index s) const { return l_.rows_of(part_.first_supernode + s); }
+    double* block(Index s) const { return values_ + l_.value_begin[part_.first_supernode + s]; }
     Index& place(Index row) { return place_[row < part_.end ? row - part_.begin : size_ + row - tops_]; }
 
     double* room(std::size_t numbers)
@@ -122,8 +84,8 @@ private:
             return;
         }
         for (Index c = 0; c < w; ++c)
-            for (SparseMatrix::InnerIterator it(matrix_, layout_.order[first(s) + c]); it; ++it)
-                if (const Index row = layout_.rank[it.row()]; row >= first(s) + c)
+            for (SparseMatrix::InnerIterator it(matrix_, l_.order[first(s) + c]); it; ++it)
+                if (const Index row = l_.rank[it.row()]; row >= first(s) + c)
                     to[place(row) + static_cast<std::ptrdiff_t>(c) * h] = it.value();
     }
 
@@ -204,8 +166,8 @@ private:
 
     const SparseMatrix& matrix_;
     const MatrixPlaces* places_;
-    const SupernodeLayout& layout_;
-    const SplitPart& part_;
+    const Supernodes& l_;
+    const FactorPart& part_;
     Index tops_;
     double* values_;
     const LowerMatrix& rest_;
@@ -222,43 +184,10 @@ private:
 
 }  // namespace
 
-PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Index>& rows,
-                              const std::vector<Index>& interface, const std::vector<Index>& rank,
-                              const std::vector<Index>& number)
-{
-    const Index size = static_cast<Index>(rows.size());
-    const SparseMatrix own = with_interface(matrix, rows, interface, rank, number);
-    std::vector<Index> last(interface.size());
-    std::iota(last.begin(), last.end(), size);
-    CholmodCommon common;
-    std::vector<Index> order = elimination_order(own, last, Ordering::amd, true, common);
-    common->nmethods = 1;
-    common->method[0].ordering = CHOLMOD_GIVEN;
-    common->postorder = 0;
-    cholmod_sparse lower = view(own, -1);
-    const Factor symbolic = detail::own(cholmod_analyze_p(&lower, order.data(), nullptr, 0, common.get()), common);
-    common.require(symbolic != nullptr, "symbolic analysis");
-
-    PieceSupernodes result;
-    const Index* first = static_cast<const Index*>(symbolic->super);
-    const Index* row_begin = static_cast<const Index*>(symbolic->pi);
-    const Index* all_rows = static_cast<const Index*>(symbolic->s);
-    // A supernode that goes on into the interface is cut off there.
-    Index count = 0;
-    while (count < static_cast<Index>(symbolic->nsuper) && first[count] < size) ++count;
-    result.first.assign(first, first + count);
-    result.first.push_back(size);
-    result.row_begin.assign(row_begin, row_begin + count + 1);
-    result.rows.assign(all_rows, all_rows + row_begin[count]);
-    order.resize(size);
-    for (const Index i : order) result.order.push_back(rows[i]);
-    return result;
-}
-
-void factorize_piece(const SparseMatrix& matrix, const SupernodeLayout& layout, const SplitPart& part, Index tops,
+void factorize_piece(const SparseMatrix& matrix, const Supernodes& l, const FactorPart& part, Index tops,
                      double* values, const LowerMatrix& rest, const MatrixPlaces* places)
 {
-    PieceFactorization(matrix, layout, part, tops, values, rest, places).run();
+    PieceFactorization(matrix, l, part, tops, values, rest, places).run();
 }
 
 }  // namespace koebe::detail

@@ -13,12 +13,12 @@ namespace {
 /// J, lower triangle, and then R.
 class PatternInverse {
 public:
-    explicit PatternInverse(const SupernodalFactor& l) : l_(l), blocks_(l.supernode_count()) {}
+    explicit PatternInverse(const SupernodalFactor& l) : l_(l), blocks_(l.count()) {}
 
     void compute(Index s)
     {
         const int width = l_.width(s), height = l_.height(s), below = height - width;
-        const Index* rows = l_.rows(s) + width;
+        const Index* rows = l_.rows_of(s) + width;
         MatrixXd& z = blocks_[s];
         z = Eigen::Map<const MatrixXd>(l_.values(s), height, width);
         const MatrixXd y = below_times_inverse(s);
@@ -35,7 +35,7 @@ public:
             while (end < below && l_.supernode[rows[end]] == owner) ++end;
             locate(owner, rows, c, place);
             for (int column = c; column < end; ++column) {
-                const double* from = &blocks_[owner](0, rows[column] - l_.first_column(owner));
+                const double* from = &blocks_[owner](0, rows[column] - l_.first[owner]);
                 for (int r = column; r < below; ++r) corner(r, column) = from[place[r]];
             }
             c = end;
@@ -52,8 +52,8 @@ public:
     double entry(Index row, Index column) const
     {
         const Index s = l_.supernode[column];
-        const Index* rows = l_.rows(s);
-        return blocks_[s](std::lower_bound(rows, rows + l_.height(s), row) - rows, column - l_.first_column(s));
+        const Index* rows = l_.rows_of(s);
+        return blocks_[s](std::lower_bound(rows, rows + l_.height(s), row) - rows, column - l_.first[s]);
     }
 
 private:
@@ -70,7 +70,7 @@ private:
     /// Where the rows from number `first` on stand among those of a supernode, both ascending.
     void locate(Index owner, const Index* rows, int first, std::vector<Index>& place) const
     {
-        const Index* among = l_.rows(owner);
+        const Index* among = l_.rows_of(owner);
         Index at = 0;
         for (std::size_t r = first; r < place.size(); ++r) {
             while (among[at] != rows[r]) ++at;
@@ -86,7 +86,7 @@ private:
 
 std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vector<std::vector<Index>>& sets)
 {
-    std::vector<char> needed(l.supernode_count(), 0);
+    std::vector<char> needed(l.count(), 0);
     for (const std::vector<Index>& set : sets)
         for (const Index v : set)
             for (Index s = l.supernode[l.rank[v]]; !needed[s]; s = l.parent(s)) needed[s] = 1;

@@ -16,9 +16,9 @@ constexpr double worth_sharing = 4.0e6;  // less work takes less time than a thr
 }  // namespace
 
 /// A subtree that is too large is cut: its root goes to the top. Work is counted in multiplications.
-Subtrees::Subtrees(const SupernodalFactor& l, const std::vector<char>& chosen)
+Subtrees::Subtrees(const Supernodes& l, const std::vector<char>& chosen)
 {
-    const Index count = l.supernode_count();
+    const Index count = l.count();
     std::vector<double> work(count, 0.0);
     double all = 0.0;
     for (Index s = 0; s < count; ++s) {

@@ -1,7 +1,7 @@
 // An elimination tree cut into parts for several threads. For the .cpp files of linear/ only.
 #pragma once
 
-#include "linear/factor/supernodal_factor.h"
+#include "linear/factor/supernodes.h"
 
 #include <functional>
 #include <vector>
@@ -14,7 +14,7 @@ class Subtrees {
 public:
     Subtrees() = default;
     /// @param chosen per supernode
-    Subtrees(const SupernodalFactor& l, const std::vector<char>& chosen);
+    Subtrees(const Supernodes& l, const std::vector<char>& chosen);
 
     /// Some supernodes, ascending and so each after its children.
     using Work = std::function<void(const std::vector<Index>& supernodes)>;

@@ -4,7 +4,7 @@
 #include "execution/thread_share.h"
 #include "linear/dense_spd.h"
 #include "linear/factor/dissection.h"
-#include "linear/factor/split_factor.h"
+#include "linear/factor/analysis.h"
 #include "linear/sparse_cholesky.h"
 
 #include <Eigen/Dense>
@@ -136,7 +136,7 @@ TEST(Dissection, pieces_have_no_entry_between_them_and_every_row_is_somewhere_on
     }
 }
 
-TEST(SplitFactor, gives_what_the_whole_factor_gives)
+TEST(FactorInPieces, gives_what_the_whole_factor_gives)
 {
     const SerialDenseKernels serial;
     for (const Case& c : cases()) {
@@ -153,7 +153,7 @@ TEST(SplitFactor, gives_what_the_whole_factor_gives)
     }
 }
 
-TEST(SplitFactor, is_the_same_on_any_number_of_threads)
+TEST(FactorInPieces, is_the_same_on_any_number_of_threads)
 {
     const SerialDenseKernels serial;
     for (const Case& c : cases()) {
@@ -170,7 +170,7 @@ TEST(SplitFactor, is_the_same_on_any_number_of_threads)
     }
 }
 
-TEST(SplitFactor, takes_other_numbers_in_the_same_pattern)
+TEST(FactorInPieces, takes_other_numbers_in_the_same_pattern)
 {
     const SerialDenseKernels serial;
     for (const Case& c : cases()) {
@@ -184,16 +184,16 @@ TEST(SplitFactor, takes_other_numbers_in_the_same_pattern)
     }
 }
 
-TEST(SplitFactor, a_matrix_that_does_not_come_apart_is_factored_whole)
+TEST(FactorInPieces, a_matrix_that_does_not_come_apart_is_factored_whole)
 {
     const SerialDenseKernels serial;
     SparseMatrix dense = (MatrixXd::Constant(200, 200, -1e-3) + MatrixXd::Identity(200, 200)).sparseView();
-    EXPECT_EQ(SplitFactor::analyze(dense, {}, 50), nullptr);
+    EXPECT_FALSE(analyze_in_pieces(dense, {}, 50).has_value());
     const VectorXd f = some_numbers(200);
     EXPECT_LT(VectorXd(dense * SparseCholesky(dense, Ordering::amd, {}, 50).solve(f) - f).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(SplitFactor, a_matrix_that_is_not_positive_definite_is_an_error)
+TEST(FactorInPieces, a_matrix_that_is_not_positive_definite_is_an_error)
 {
     const SerialDenseKernels serial;
     for (const Index bad : {0, columns * rows / 2, columns * rows - 1}) {
@@ -201,7 +201,7 @@ TEST(SplitFactor, a_matrix_that_is_not_positive_definite_is_an_error)
         matrix.coeffRef(bad, bad) = -1.0;
         for (const int threads : {1, 2}) {
             const ThreadShare share(threads);
-            ASSERT_NE(SplitFactor::analyze(matrix, {}, piece_rows), nullptr);
+            ASSERT_TRUE(analyze_in_pieces(matrix, {}, piece_rows).has_value());
             EXPECT_THROW(SparseCholesky(matrix, Ordering::amd, {}, piece_rows), SolverError);
         }
     }
