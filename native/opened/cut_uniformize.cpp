@@ -1,9 +1,8 @@
 #include "opened/cut_uniformize.h"
 
 #include "balance/area_balance.h"
-#include "canonical/canonical_mesh.h"
+#include "canonical/corner_map.h"
 #include "core/errors.h"
-#include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
 #include "mesh/topology.h"
@@ -321,7 +320,6 @@ void name_piece(const CanonicalMesh& mesh, MappedPiece& piece)
 
 void name_pieces(const CanonicalMesh& mesh, CutUniformizeResult& result)
 {
-    mesh.name_corners(result.uv);
     for (MappedPiece& piece : result.pieces) name_piece(mesh, piece);
     for (SurfaceCut& cut : result.cuts) {
         mesh.name_path(cut.vertices);
@@ -332,8 +330,6 @@ void name_pieces(const CanonicalMesh& mesh, CutUniformizeResult& result)
         mesh.name_face(out.like);
     }
     std::ranges::sort(result.left_out, {}, &LeftOutFace::face);
-    mesh.name_faces(result.turned);
-    mesh.name_report(result);
 }
 
 }  // namespace
@@ -342,12 +338,10 @@ CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangl
                                          const std::vector<Index>& polygon, const UniformizeOptions& options,
                                          ExecutionContext& context)
 {
-    return run_detachable<CutUniformizeResult>(context, [vertices, triangles, polygon, options](ExecutionContext& own) {
-        const auto work = [&](const CanonicalMesh& mesh) {
-            return cut_map_and_pack(mesh, mesh.of_faces(polygon), canonical_options(mesh, options), own);
-        };
-        return in_canonical_form(vertices, triangles, work, name_pieces);
-    });
+    const auto compute = [polygon, options](const CanonicalMesh& mesh, ExecutionContext& own) {
+        return cut_map_and_pack(mesh, mesh.of_faces(polygon), canonical_options(mesh, options), own);
+    };
+    return corner_map<CutUniformizeResult>(vertices, triangles, context, compute, name_pieces);
 }
 
 CutUniformizeResult uniformize_with_cuts(const Vertices& vertices, const Triangles& triangles,

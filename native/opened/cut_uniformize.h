@@ -19,14 +19,13 @@ struct MappedPiece {
 };
 
 /// Converged are all pieces; distortion is that of all, where they lie in the end; warnings of one kind are together.
-struct CutUniformizeResult : MapReport {
-    PlanarPoints uv;  ///< (3F, 2) of each corner, in [0, 1]^2
+/// The UVs lie in [0, 1]^2; faces are turned to the orientation of their piece.
+struct CutUniformizeResult : CornerMapReport {
     Method method = Method::gk;
     Engine engine = Engine::condensed;
     std::vector<MappedPiece> pieces;
     std::vector<SurfaceCut> cuts;
     std::vector<LeftOutFace> left_out;  ///< these are drawn where the face is that they are like; not in any figure
-    std::vector<Index> turned;          ///< faces that were turned to the orientation of their piece
     int handles = 0;                    ///< that were cut
 };
 

@@ -1,6 +1,7 @@
 #include "opened/cut_warnings.h"
 
 #include "core/counted.h"
+#include "quality/shared_warnings.h"
 
 #include <algorithm>
 #include <array>
@@ -124,10 +125,7 @@ std::vector<Warning> cut_warnings(const CutUniformizeResult& result)
             {WarningKind::pieces,
              std::to_string(result.pieces.size()) + " pieces, each with a map of its own, side by side in the square"});
     if (!result.left_out.empty()) warnings.push_back(left_out_warning(result.left_out));
-    if (!result.turned.empty())
-        warnings.push_back({WarningKind::reoriented_faces,
-                            counted(result.turned.size(), "face") + " turned to the orientation of the others",
-                            result.turned});
+    warn_reoriented(result.turned, warnings);
     for (Warning& warning : merged(result.pieces)) warnings.push_back(std::move(warning));
     std::vector<Index> flipped;
     const Distortion& distortion = result.distortion;

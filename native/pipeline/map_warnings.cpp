@@ -3,6 +3,7 @@
 #include "circles/off_circle.h"
 #include "core/counted.h"
 #include "mesh/connectivity.h"
+#include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
@@ -139,13 +140,12 @@ std::vector<Warning> input_warnings(const MapInput& whole)
     if (const auto& unused = whole.surface.unused; !unused.empty())
         warnings.push_back({WarningKind::unused_vertices,
                             "vertices of no face, put at the centre: " + std::to_string(unused.size()), unused});
-    if (const auto& turned = whole.surface.reoriented; !turned.empty())
-        warnings.push_back(
-            {WarningKind::reoriented_faces, counted(turned.size(), "face") + " turned to the orientation of the others",
-             turned,
-             2 * turned.size() == static_cast<std::size_t>(whole.surface.triangles.rows())
-                 ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
-                 : ""});
+    const auto& turned = whole.surface.reoriented;
+    warn_reoriented(
+        turned, warnings,
+        2 * turned.size() == static_cast<std::size_t>(whole.surface.triangles.rows())
+            ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
+            : "");
     if (whole.thinnest < delicate)
         warnings.push_back(
             {WarningKind::thin_faces,

@@ -292,7 +292,7 @@ PYBIND11_MODULE(_koebe, m)
     py::class_<SphereResult, MapReport>(m, "SphereResult")
         .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
         .def_property_readonly("uv", [](const SphereResult& r) { return r.uv; })
-        .def("report", [](const SphereResult& r, SphereLayout layout) { return to_object(to_json(r, layout)); });
+        .def("report", [](const SphereResult& r, SphereLayout) { return to_object(to_json(r)); });
     m.def("sphere_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const SphereOptions& options, const py::object& progress, const CancelToken& cancel) {
         return without_gil(progress, cancel, [&](ExecutionContext& context) {

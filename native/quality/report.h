@@ -36,4 +36,10 @@ struct MapReport {
     std::vector<Warning> warnings;
 };
 
+/// A map of which each corner of a face has UVs of its own, so that the two sides of a cut can differ.
+struct CornerMapReport : MapReport {
+    PlanarPoints uv;            ///< (3F, 2) of corner 3 f + k of the input's face f
+    std::vector<Index> turned;  ///< faces that were turned to the orientation of the others
+};
+
 }  // namespace koebe

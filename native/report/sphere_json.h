@@ -9,6 +9,6 @@
 namespace koebe {
 
 /// Everything but the points and the UVs; "input" is empty, as in to_json(UniformizeResult).
-KOEBE_API nlohmann::ordered_json to_json(const SphereResult& result, SphereLayout layout);
+KOEBE_API nlohmann::ordered_json to_json(const SphereResult& result);
 
 }  // namespace koebe

@@ -1,15 +1,15 @@
 #include "schottky/schottky_map.h"
 
 #include "balance/area_balance.h"
-#include "canonical/canonical_mesh.h"
+#include "canonical/corner_map.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/errors.h"
-#include "execution/detachable_run.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
+#include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
 #include "schottky/circle_cut.h"
@@ -140,10 +140,7 @@ bool unequal_circles(const SchottkyHandle& handle)
 void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool iterated,
           SchottkyNormalization normalization, SchottkyResult& result)
 {
-    if (!result.turned.empty())
-        result.warnings.push_back({WarningKind::reoriented_faces,
-                                   counted(result.turned.size(), "face") + " turned to the orientation of the others",
-                                   result.turned});
+    warn_reoriented(result.turned, result.warnings);
     if (!iterated)
         result.warnings.push_back(
             {WarningKind::not_converged,
@@ -173,14 +170,8 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
                  result.distortion.below_resolution});
         return;
     }
-    Warning warning{WarningKind::not_one_to_one, "no one-to-one map was found: "};
-    std::ranges::set_difference(result.distortion.flipped, result.distortion.below_resolution,
-                                std::back_inserter(warning.elements));
-    if (!warning.elements.empty()) warning.sentence += counted(warning.elements.size(), "face") + " flipped";
-    if (faults.boundary)
-        warning.sentence +=
-            std::string(warning.elements.empty() ? "" : "; ") + "the boundary of the UVs crosses itself";
-    result.warnings.push_back(std::move(warning));
+    warn_not_one_to_one(result.distortion.flipped, result.distortion.below_resolution,
+                        {faults.boundary ? "the boundary of the UVs crosses itself" : ""}, result.warnings);
 }
 
 /// A cut surface and its map.
@@ -408,14 +399,11 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
 
 void name_schottky(const CanonicalMesh& mesh, SchottkyResult& result)
 {
-    mesh.name_corners(result.uv);
     for (SchottkyHole& hole : result.holes) {
         mesh.name_loop(hole.vertices);
         mesh.name_vertices(hole.off_circle);
     }
     for (SchottkyHandle& handle : result.handles) mesh.name_path(handle.cut);
-    mesh.name_faces(result.turned);
-    mesh.name_report(result);
 }
 
 }  // namespace
@@ -428,14 +416,12 @@ const char* to_string(SchottkyNormalization normalization) noexcept
 SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                             ExecutionContext& context)
 {
-    return run_detachable<SchottkyResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        const auto work = [&](const CanonicalMesh& mesh) {
-            SchottkyOptions here = options;
-            here.polygon = mesh.of_faces(options.polygon);
-            return schottky_map_here(mesh.vertices, mesh.triangles, here, own);
-        };
-        return in_canonical_form(vertices, triangles, work, name_schottky);
-    });
+    const auto compute = [options](const CanonicalMesh& mesh, ExecutionContext& own) {
+        SchottkyOptions here = options;
+        here.polygon = mesh.of_faces(options.polygon);
+        return schottky_map_here(mesh.vertices, mesh.triangles, here, own);
+    };
+    return corner_map<SchottkyResult>(vertices, triangles, context, compute, name_schottky);
 }
 
 }  // namespace koebe

@@ -47,13 +47,12 @@ struct SchottkyHole {
     std::vector<Index> off_circle;  ///< vertices that are not on the circle, rising
 };
 
-struct SchottkyResult : MapReport {
-    PlanarPoints uv;                      ///< (3F, 2) in [0, 1]^2 of corner 3 f + k of the input's face f
+/// Its UVs lie in [0, 1]^2.
+struct SchottkyResult : CornerMapReport {
     std::vector<SchottkyHole> holes;      ///< by falling length, the first on the unit circle
     std::vector<SchottkyHandle> handles;  ///< by falling length of their cuts
     bool by_circles = false;    ///< the UVs are cut along the pairs of circles, as exactly as faces can be; else along
                                 ///< the edges of the cuts, as the circles meet each other or a hole
-    std::vector<Index> turned;  ///< faces that were turned to the orientation of the others
     int sweeps = 0;
     std::vector<double> changes;  ///< in each sweep
 };

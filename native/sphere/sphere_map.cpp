@@ -1,14 +1,14 @@
 #include "sphere/sphere_map.h"
 
-#include "canonical/canonical_mesh.h"
+#include "canonical/corner_map.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
-#include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "pipeline/uniformize.h"
+#include "quality/shared_warnings.h"
 #include "quality/take_verdict.h"
 #include "sphere/closed_sphere.h"
 #include "sphere/opened_sphere.h"
@@ -255,11 +255,7 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
                     const SphereFaults& faults, bool balanced, bool drawn, bool opened, SphereResult& result)
 {
     result.warnings = map.warnings;
-    if (!domain.surface.reoriented.empty())
-        result.warnings.push_back(
-            {WarningKind::reoriented_faces,
-             counted(domain.surface.reoriented.size(), "face") + " turned to the orientation of the others",
-             domain.surface.reoriented});
+    warn_reoriented(domain.surface.reoriented, result.warnings);
     std::vector<Index> unused(static_cast<std::size_t>(result.vertex_count));
     std::iota(unused.begin(), unused.end(), 0);
     std::erase_if(unused, [&](Index v) { return std::ranges::binary_search(domain.original, v); });
@@ -297,18 +293,10 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
                                        std::to_string(tiny.size()) + " of them too small for 32-bit UVs",
                                    turned_over});
     if (!faults.any()) return;
-    Warning warning{WarningKind::not_one_to_one, "no one-to-one map was found: "};
-    const std::size_t first = warning.sentence.size();
-    const auto add = [&](bool bad, const std::string& what) {
-        if (!bad) return;
-        if (warning.sentence.size() > first) warning.sentence += "; ";
-        warning.sentence += what;
-    };
-    std::ranges::set_difference(faults.flipped, faults.below_resolution, std::back_inserter(warning.elements));
-    add(!warning.elements.empty(), counted(warning.elements.size(), "face") + " flipped");
-    add(!faults.holes.empty(), counted(faults.holes.size(), "loop") + " out of shape");
-    add(faults.covering, "the sphere is not covered once");
-    result.warnings.push_back(std::move(warning));
+    warn_not_one_to_one(faults.flipped, faults.below_resolution,
+                        {faults.holes.empty() ? "" : counted(faults.holes.size(), "loop") + " out of shape",
+                         faults.covering ? "the sphere is not covered once" : ""},
+                        result.warnings);
 }
 
 /// @param options with the polygons of the canonical mesh
@@ -376,6 +364,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     result.loops = loops_on_sphere(domain, map, sphere);
     result.distortion = {distortion_on_sphere(domain, sphere.points),
                          judge_corners(vertices, triangles, result.uv, result.turned)};
+    result.layout.kind = options.layout;
     result.layout.flipped = result.distortion.flipped;
     result.layout.below_resolution = result.distortion.below_resolution;
     result.flipped_on_sphere = faults.flipped;
@@ -399,16 +388,13 @@ void name_sphere(const CanonicalMesh& mesh, SphereResult& result)
     const Vertices points = std::move(result.points);
     result.points.resize(points.rows(), 3);
     for (Eigen::Index v = 0; v < points.rows(); ++v) result.points.row(mesh.original_vertices[v]) = points.row(v);
-    mesh.name_corners(result.uv);
     for (SphereLoop& loop : result.loops) {
         mesh.name_loop(loop.vertices);
         mesh.name_vertices(loop.off_circle);
     }
-    for (auto* faces :
-         {&result.turned, &result.flipped_on_sphere, &result.below_sphere_resolution, &result.layout.crossing,
-          &result.layout.torn, &result.layout.flipped, &result.layout.below_resolution})
+    for (auto* faces : {&result.flipped_on_sphere, &result.below_sphere_resolution, &result.layout.crossing,
+                        &result.layout.torn, &result.layout.flipped, &result.layout.below_resolution})
         mesh.name_faces(*faces);
-    mesh.name_report(result);
 }
 
 }  // namespace
@@ -421,14 +407,12 @@ const char* to_string(SphereLayout layout) noexcept
 SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, const SphereOptions& options,
                         ExecutionContext& context)
 {
-    return run_detachable<SphereResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        const auto work = [&](const CanonicalMesh& mesh) {
-            SphereOptions here = options;
-            here.polygon = mesh.of_faces(options.polygon);
-            return sphere_map_here(mesh, here, own);
-        };
-        return in_canonical_form(vertices, triangles, work, name_sphere);
-    });
+    const auto compute = [options](const CanonicalMesh& mesh, ExecutionContext& own) {
+        SphereOptions here = options;
+        here.polygon = mesh.of_faces(options.polygon);
+        return sphere_map_here(mesh, here, own);
+    };
+    return corner_map<SphereResult>(vertices, triangles, context, compute, name_sphere);
 }
 
 }  // namespace koebe

@@ -39,6 +39,7 @@ struct SphereLoop {
 
 /// What there is to know of the UVs: faces all.
 struct SphereLayoutReport {
+    SphereLayout kind = SphereLayout::equirectangular;
     std::vector<Index> crossing;  ///< with corners beyond the layout's edge, where the pattern continues
     /// Round a pole of the longitudes, or round the middle of a side of the square: no UVs fit to all their neighbours.
     std::vector<Index> torn;
@@ -48,11 +49,9 @@ struct SphereLayoutReport {
 
 /// angle_error_deg and the like are of the flat faces between their corners on the sphere; the verdict, with what is
 /// flipped and below resolution, is on the UVs.
-struct SphereResult : MapReport {
+struct SphereResult : CornerMapReport {
     Vertices points;                ///< (V, 3) unit vectors in the input's order; vertices of no face are at (0, 0, 1)
-    PlanarPoints uv;                ///< (3F, 2) of corner 3 f + k of the input's face f
     std::vector<SphereLoop> loops;  ///< by falling length
-    std::vector<Index> turned;      ///< faces that were turned to the orientation of the others
     double mean_point =
         0.0;  ///< length of the mean of the surface's points, by area: 0 but for what was moved after the balance
     int sweeps = 0;

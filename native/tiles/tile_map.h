@@ -43,14 +43,12 @@ struct TileLoop {
     std::array<std::array<double, 2>, 2> slit{};  ///< its ends in UVs
 };
 
-/// Its distortion is that of the tile, in units of UVs.
-struct TileResult : MapReport {
-    PlanarPoints uv;  ///< (3F, 2) u and v of corner 3 f + k of the input's face f, in [0, 1]^2: 32-bit floats
+/// Its distortion is that of the tile, in units of UVs, which are 32-bit floats in [0, 1]^2.
+struct TileResult : CornerMapReport {
     std::vector<std::array<double, 2>> periods;  ///< in UVs: of a torus two, of a ring one, along u
     /// Of a torus the ratio of its periods, reduced; of a ring i times its height over its period, log(R / r) / 2 pi.
     Complex modulus;
     std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim first
-    std::vector<Index> turned;    ///< faces that were turned to the orientation of the others
     double cut_length = 0.0;      ///< of the cut in the UVs, over the root of the surface's area
     int sweeps = 0;
     std::vector<double> changes;  ///< of the circles in each sweep

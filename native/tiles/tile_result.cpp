@@ -1,11 +1,11 @@
 #include "tiles/tile_result.h"
 
-#include "canonical/canonical_mesh.h"
+#include "canonical/corner_map.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
-#include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "mesh/connectivity.h"
+#include "quality/shared_warnings.h"
 
 #include <Eigen/Geometry>
 
@@ -100,11 +100,7 @@ double cut_length(const PeriodicSurface& domain, const Tile& tile)
 
 void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& faults, TileResult& result)
 {
-    if (!domain.surface.reoriented.empty())
-        result.warnings.push_back(
-            {WarningKind::reoriented_faces,
-             counted(domain.surface.reoriented.size(), "face") + " turned to the orientation of the others",
-             domain.surface.reoriented});
+    warn_reoriented(domain.surface.reoriented, result.warnings);
     if (!map.converged)
         result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
     if (!map.apart)
@@ -118,30 +114,19 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
                                    counted(faults.below_resolution.size(), "face") + " too small for 32-bit UVs",
                                    faults.below_resolution});
     if (!faults.any()) return;
-    Warning warning{WarningKind::not_one_to_one, "no one-to-one map was found: "};
-    const std::size_t first = warning.sentence.size();
-    const auto add = [&](bool bad, const std::string& what) {
-        if (!bad) return;
-        if (warning.sentence.size() > first) warning.sentence += "; ";
-        warning.sentence += what;
-    };
-    std::ranges::set_difference(faults.flipped, faults.below_resolution, std::back_inserter(warning.elements));
-    add(!warning.elements.empty(), counted(warning.elements.size(), "face") + " flipped");
-    add(!faults.holes.empty(), counted(faults.holes.size(), "loop") + " out of shape");
-    add(faults.seams, "the sides of the cut do not fit");
-    add(faults.covering, "the tile does not cover its cell once");
-    result.warnings.push_back(std::move(warning));
+    warn_not_one_to_one(faults.flipped, faults.below_resolution,
+                        {faults.holes.empty() ? "" : counted(faults.holes.size(), "loop") + " out of shape",
+                         faults.seams ? "the sides of the cut do not fit" : "",
+                         faults.covering ? "the tile does not cover its cell once" : ""},
+                        result.warnings);
 }
 
 void name_tile(const CanonicalMesh& mesh, TileResult& result)
 {
-    mesh.name_corners(result.uv);
     for (TileLoop& loop : result.loops) {
         mesh.name_loop(loop.vertices);
         mesh.name_vertices(loop.off_circle);
     }
-    mesh.name_faces(result.turned);
-    mesh.name_report(result);
 }
 
 }  // namespace
@@ -149,16 +134,14 @@ void name_tile(const CanonicalMesh& mesh, TileResult& result)
 TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                           ExecutionContext& context, TileMap* map)
 {
-    return run_detachable<TileResult>(context, [vertices, triangles, options, map](ExecutionContext& own) {
-        const auto work = [&](const CanonicalMesh& mesh) {
-            TileOptions here = options;
-            here.outer = mesh.vertex(options.outer);
-            here.inner = mesh.vertex(options.inner);
-            here.polygon = mesh.of_faces(options.polygon);
-            return map(mesh.vertices, mesh.triangles, here, own);
-        };
-        return in_canonical_form(vertices, triangles, work, name_tile);
-    });
+    const auto compute = [options, map](const CanonicalMesh& mesh, ExecutionContext& own) {
+        TileOptions here = options;
+        here.outer = mesh.vertex(options.outer);
+        here.inner = mesh.vertex(options.inner);
+        here.polygon = mesh.of_faces(options.polygon);
+        return map(mesh.vertices, mesh.triangles, here, own);
+    };
+    return corner_map<TileResult>(vertices, triangles, context, compute, name_tile);
 }
 
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,

@@ -1,110 +1,44 @@
 // koebe parts IN OUT
+#include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
-#include "cli/files/mesh_input.h"
-#include "cli/files/output_files.h"
 #include "cli/options/mapping_options.h"
 #include "cli/options/validators.h"
-#include "cli/process/exit_code.h"
-#include "cli/process/interrupt.h"
-#include "cli/process/progress_line.h"
-#include "cli/process/result_line.h"
-#include "cli/process/standard_streams.h"
 
 #include "core/counted.h"
-#include "io/atomic_file.h"
-#include "io/corner_uvs.h"
-#include "io/mesh_writer.h"
 #include "parts/parts.h"
-#include "report/json.h"
 #include "report/parts_json.h"
 #include "report/parts_svg.h"
 
-#include <chrono>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
 namespace koebe::cli {
 namespace {
 
-struct Request {
-    std::string input, output, json, svg;
-    WrittenFormat format = WrittenFormat::obj;
-    PartsOptions options;
-    bool quiet = false;
-
-    std::vector<OutputFile> files() const { return {{"OUT", output}, {"--json", json}, {"--svg", svg}}; }
+struct Request : MapRequest {
+    PartsOptions parts;
 };
-
-/// The parts' faces as filed.
-void file_faces(const MeshInput& input, PartsResult& result)
-{
-    for (PartReport& part : result.parts) part.faces = filed_faces(input.triangulation, part.faces);
-    add_input_warnings(input, result.warnings);
-}
-
-void write_files(const Request& request, const MeshInput& input, PartsResult& result, ExecutionContext& context)
-{
-    std::vector<AtomicFile> files;
-    const std::vector<Warning> losses =
-        write_with_corner_uvs(files.emplace_back(request.output), request.format, input.polygons,
-                              polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
-    if (!request.svg.empty()) files.emplace_back(request.svg).write(parts_svg(result.uv, result.part));
-    file_faces(input, result);
-    result.warnings.insert(result.warnings.end(), losses.begin(), losses.end());
-    if (!request.json.empty()) {
-        nlohmann::ordered_json report = to_json(result);
-        report["input"] = std::filesystem::path(request.input).filename().string();
-        report["options"] = {{"price", request.options.price},
-                             {"round_cuts", request.options.round_cuts},
-                             {"most_lost", request.options.most_lost}};
-        files.emplace_back(request.json).write(json_text(report));
-    }
-    context.checkpoint();
-    for (AtomicFile& file : files) file.commit();
-}
-
-std::string result_line(const Request& request, const PartsResult& result)
-{
-    char figures[160];
-    std::snprintf(figures, sizeof figures,
-                  ", cuts %.2f of the root of the area, texel density within %.3g, angle error %.2f deg, ",
-                  result.cut_length, result.density_ratio_5_95, result.distortion.angle_error_deg.mean);
-    std::string line = one_line(request.output) + ": " + counted(result.parts.size(), "part") + figures +
-                       std::to_string(result.distortion.flipped.size()) + " flipped";
-    if (const std::size_t tiny = result.distortion.below_resolution.size(); tiny > 0)
-        line += " (" + std::to_string(tiny) + " below resolution)";
-    std::snprintf(figures, sizeof figures, ", %.2f s", result.seconds.total);
-    return line + figures + (result.converged ? "" : ", not converged") + warning_count(result.warnings) + "\n";
-}
 
 int run(const Request& request)
 {
-    const CancelToken token = cancel_on_signal();
-    require_writable_files(request.files(), !request.quiet);
-    const MeshInput input = read_mesh_input(request.input, token);
-    PartsResult result;
-    {
-        ProgressLine progress(request.quiet);
-        ExecutionContext context(progress.callback(), token);
-        PartsOptions options = request.options;
-        options.polygon = input.triangulation.face;
-        result = with_filed_faces(
-            input, [&] { return parts_of(input.polygons.vertices, input.triangulation.triangles, options, context); });
-        write_files(request, input, result, context);
-    }
-    if (!request.quiet) {
-        print(result_line(request, result), "; the files are written");
-        show_warnings(result.warnings);
-    }
-    return result.converged ? done : not_converged;
-}
-
-void check(Request& request)
-{
-    request.format = required_format(request.output);
-    require_different_files(request.files(), {request.input}, !request.quiet);
+    auto kind = corner_map_kind<PartsResult>(
+        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
+            PartsOptions options = request.parts;
+            options.polygon = polygon;
+            return parts_of(vertices, triangles, options, context);
+        });
+    kind.many_pieces = true;
+    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
+        PartsResult result = compute(input, context);
+        for (PartReport& part : result.parts) part.faces = filed_faces(input.triangulation, part.faces);
+        return result;
+    };
+    kind.draw = [](const MeshInput&, const PartsResult& result) { return parts_svg(result.uv, result.part); };
+    kind.first_words = [](const PartsResult& result) {
+        return counted(result.parts.size(), "part") + ", cuts " + rounded("%.2f", result.cut_length) +
+               " of the root of the area, texel density within " + rounded("%.3g", result.density_ratio_5_95);
+    };
+    return run_map_of(request, kind);
 }
 
 }  // namespace
@@ -120,18 +54,23 @@ Subcommand add_parts(CLI::App& app)
             "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
         ->required();
     options
-        ->add_option("--price", request->options.price,
+        ->add_option("--price", request->parts.price,
                      "of a part, in area times log density outside a factor 3: a higher one makes fewer parts")
         ->check(positive_number())
         ->type_name("PRICE")
         ->capture_default_str();
-    options->add_flag("--round-cuts", request->options.round_cuts,
+    options->add_flag("--round-cuts", request->parts.round_cuts,
                       "loops at cuts on circles and straight lines, for more angle error");
-    add_most_lost(*options, request->options.most_lost);
+    add_most_lost(*options, request->parts.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");
-    options->callback([request] { check(*request); });
+    options->callback([request] {
+        check_map_files(*request);
+        request->entries["options"] = {{"price", request->parts.price},
+                                       {"round_cuts", request->parts.round_cuts},
+                                       {"most_lost", request->parts.most_lost}};
+    });
     return {options, [request] { return run(*request); }};
 }
 

@@ -1,12 +1,11 @@
 // koebe schottky IN OUT
-#include "cli/commands/map_run.h"
+#include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
 #include "cli/options/mapping_options.h"
 #include "cli/options/validators.h"
 #include "cli/process/end_with_input.h"
 
 #include "core/counted.h"
-#include "io/corner_uvs.h"
 #include "report/schottky_json.h"
 #include "report/schottky_svg.h"
 #include "schottky/schottky_map.h"
@@ -27,23 +26,13 @@ struct SchottkyRequest : MapRequest {
 int run_schottky(const SchottkyRequest& request)
 {
     if (request.ends_with_input) end_with_input();
-    MapKind<SchottkyResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        SchottkyOptions options = request.schottky;
-        options.polygon = input.triangulation.face;
-        SchottkyResult result = with_filed_faces(input, [&] {
-            return schottky_map(input.polygons.vertices, input.triangulation.triangles, options, context);
+    auto kind = corner_map_kind<SchottkyResult>(
+        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
+            SchottkyOptions options = request.schottky;
+            options.polygon = polygon;
+            return schottky_map(vertices, triangles, options, context);
         });
-        result.turned = filed_faces(input.triangulation, result.turned);
-        add_input_warnings(input, result.warnings);
-        return result;
-    };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SchottkyResult& result) {
-        return write_with_corner_uvs(file, request.format, input.polygons,
-                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
-    };
     kind.draw = [](const MeshInput&, const SchottkyResult& result) { return schottky_svg(result); };
-    kind.report = [](const SchottkyResult& result) { return to_json(result); };
     kind.first_words = [](const SchottkyResult& result) {
         return counted(result.handles.size(), "handle") + ", " + counted(result.holes.size(), "loop") + ", " +
                counted(static_cast<std::size_t>(result.sweeps), "sweep");

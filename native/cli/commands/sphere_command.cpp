@@ -1,12 +1,11 @@
 // koebe sphere IN OUT
-#include "cli/commands/map_run.h"
+#include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
 #include "cli/options/mapping_options.h"
 #include "cli/options/validators.h"
 #include "cli/process/end_with_input.h"
 
 #include "core/counted.h"
-#include "io/corner_uvs.h"
 #include "report/sphere_json.h"
 #include "report/sphere_svg.h"
 #include "sphere/sphere_map.h"
@@ -31,41 +30,30 @@ PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
     return mesh;
 }
 
-std::vector<Warning> write_sphere_mesh(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
-                                       const MeshInput& input, const SphereResult& result, bool moved)
-{
-    const PlanarPoints uvs = polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
-    return write_with_corner_uvs(file, format, mesh, uvs, {input.file, moved});
-}
-
 int run_sphere(const SphereRequest& request)
 {
     if (request.ends_with_input) end_with_input();
-    MapKind<SphereResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        SphereOptions options = request.sphere_options;
-        options.polygon = input.triangulation.face;
-        SphereResult result = with_filed_faces(input, [&] {
-            return sphere_map(input.polygons.vertices, input.triangulation.triangles, options, context);
+    auto kind = corner_map_kind<SphereResult>(
+        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
+            SphereOptions options = request.sphere_options;
+            options.polygon = polygon;
+            return sphere_map(vertices, triangles, options, context);
         });
-        result.turned = filed_faces(input.triangulation, result.turned);
+    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
+        SphereResult result = compute(input, context);
         for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::torn, &SphereLayoutReport::flipped,
                            &SphereLayoutReport::below_resolution})
             result.layout.*faces = filed_faces(input.triangulation, result.layout.*faces);
-        add_input_warnings(input, result.warnings);
         return result;
     };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        return write_sphere_mesh(file, request.format, input.polygons, input, result, false);
-    };
     kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        return write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result,
-                                 true);
+        return write_with_corner_uvs(file, required_format(request.sphere), on_unit_sphere(input, result),
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv),
+                                     {input.file, true});
     };
     kind.draw = [](const MeshInput& input, const SphereResult& result) {
         return sphere_svg(input.triangulation.triangles, result);
     };
-    kind.report = [&](const SphereResult& result) { return to_json(result, request.sphere_options.layout); };
     kind.first_words = [](const SphereResult& result) {
         return counted(result.loops.size(), "loop") + ", " + counted(static_cast<std::size_t>(result.sweeps), "sweep");
     };

@@ -1,12 +1,11 @@
 // koebe torus IN OUT, koebe ring IN OUT
-#include "cli/commands/map_run.h"
+#include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
 #include "cli/options/mapping_options.h"
 #include "cli/options/validators.h"
 #include "cli/process/end_with_input.h"
 
 #include "core/counted.h"
-#include "io/corner_uvs.h"
 #include "report/tile_json.h"
 #include "report/tile_svg.h"
 #include "tiles/tile_map.h"
@@ -37,22 +36,13 @@ std::string first_words(const TileResult& result)
 int run(const Request& request, TileFunction map)
 {
     if (request.ends_with_input) end_with_input();
-    MapKind<TileResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        TileOptions options = request.tile;
-        options.polygon = input.triangulation.face;
-        TileResult result = with_filed_faces(
-            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
-        result.turned = filed_faces(input.triangulation, result.turned);
-        add_input_warnings(input, result.warnings);
-        return result;
-    };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const TileResult& result) {
-        return write_with_corner_uvs(file, request.format, input.polygons,
-                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
-    };
+    auto kind = corner_map_kind<TileResult>(
+        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
+            TileOptions options = request.tile;
+            options.polygon = polygon;
+            return map(vertices, triangles, options, context);
+        });
     kind.draw = [](const MeshInput&, const TileResult& result) { return tile_svg(result); };
-    kind.report = [](const TileResult& result) { return to_json(result); };
     kind.first_words = first_words;
     return run_map_of(request, kind);
 }
