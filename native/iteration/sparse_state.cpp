@@ -8,9 +8,8 @@
 
 namespace koebe {
 
-SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
-                         const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
-                         std::vector<VectorXd> first_angles)
+SparseState::SparseState(const SparseMatrix& laplacian, FilledLaplacian& surface, const std::vector<VertexLoop>& loops,
+                         const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles)
     : GroundedState(loops, edges, std::move(first_angles)),
       vertex_count_(static_cast<Index>(laplacian.rows())),
       surface_(surface),

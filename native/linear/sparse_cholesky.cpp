@@ -101,6 +101,8 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
+Index SparseCholesky::size() const { return impl_->l.size(); }
+
 MatrixXd SparseCholesky::solve(const MatrixXd& right_hand_side) const { return impl_->l.solve(right_hand_side); }
 
 MatrixXd SparseCholesky::last_schur() const

@@ -39,6 +39,9 @@ public:
     /// @throws SolverError if that is not positive definite
     void refactorize(const std::vector<MatrixXd>& blocks);
 
+    /// Rows of the matrix.
+    Index size() const;
+
     /// Solves for each column of the right-hand side.
     MatrixXd solve(const MatrixXd& right_hand_side) const;
 

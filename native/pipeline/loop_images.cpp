@@ -40,7 +40,7 @@ KoebeOutcome run_engine(const MapInput& input, const AssembledInput& assembled, 
         return koebe_mesh(input.vertices, input.surface, input.loops, options, context, options.mesh).outcome;
     if (!assembled.factored) return {};
     const IntrinsicMetric& metric = assembled.metric;
-    return koebe_condensed(assembled.laplacian, *assembled.condensed, input.loops, input.edges,
+    return koebe_condensed(assembled.laplacian, *assembled.boundary, input.loops, input.edges,
                            vertex_areas(metric.triangles, metric.lengths, input.surface.vertex_count), options, context,
                            last);
 }
@@ -74,7 +74,7 @@ void AssembledInput::take_metric(const MapInput& input)
 {
     if (std::exchange(moved, false)) return;
     factored = false;
-    condensed.reset();
+    boundary.reset();
     places.reset();
     uses = 1;
     metric = intrinsic_metric(input.vertices, input.surface);
@@ -108,21 +108,21 @@ bool AssembledInput::move_metric(const MapInput& input)
 void AssembledInput::factorize(const MapInput& input, const IterationOptions& options)
 {
     try {
-        if (condensed)
-            condensed->renew(laplacian);
+        if (boundary)
+            boundary->renew(laplacian);
         else
-            condensed.emplace(condense(laplacian, input.loops, options));
+            boundary = condense(laplacian, input.loops, options);
         factored = true;
     } catch (...) {
-        condensed.reset();
+        boundary.reset();
         throw;
     }
 }
 
 void AssembledInput::reorder(const MapInput& input)
 {
-    if (!condensed || condensed->reorder_boundary(boundary_of(input))) return;
-    condensed.reset();
+    if (!boundary || boundary->reorder_boundary(boundary_of(input))) return;
+    boundary.reset();
     factored = false;
 }
 

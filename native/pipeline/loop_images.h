@@ -4,10 +4,11 @@
 #include "execution/execution.h"
 #include "iteration/iteration_options.h"
 #include "iteration/koebe_outcome.h"
-#include "linear/condensed_laplacian.h"
+#include "linear/boundary_solver.h"
 #include "pipeline/map_input.h"
 #include "surface/intrinsic_metric.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,11 +17,11 @@ namespace koebe {
 /// What is assembled once for a surface, in two steps; once more where its vertices have moved.
 struct AssembledInput {
     IntrinsicMetric metric;
-    SparseMatrix laplacian;                       ///< cotan weights of the metric
-    int uses = 0;                                 ///< metrics that there were on its triangles, up to two
-    std::optional<LaplacianPlaces> places;        ///< of these triangles, from the third metric on them
-    std::optional<CondensedLaplacian> condensed;  ///< its factor, the loops last
-    bool factored = false;                        ///< whether that is of this Laplacian
+    SparseMatrix laplacian;                    ///< cotan weights of the metric
+    int uses = 0;                              ///< metrics that there were on its triangles, up to two
+    std::optional<LaplacianPlaces> places;     ///< of these triangles, from the third metric on them
+    std::unique_ptr<BoundarySolver> boundary;  ///< its factor
+    bool factored = false;                     ///< whether that is of this Laplacian
 
     bool moved = false;  ///< whether move_metric has done what take_metric would
 

@@ -56,7 +56,7 @@ MatrixXd points_on_circles(const MapInput& input, const FlapCut& cut, const std:
 /// The interior, small circles moved to where it wants them. @return whether map has become one
 bool extend(const MapSolver& solver, MatrixXd& boundary, AnnulusPosition annulus, CircleMap& map)
 {
-    map.uv = balance_flux(solver.condensed, solver.laplacian, solver.input.loops, map.circles, boundary, annulus);
+    map.uv = balance_flux(solver.boundary, solver.laplacian, solver.input.loops, map.circles, boundary, annulus);
     return map.uv.allFinite() && circles_apart(map.circles);
 }
 

@@ -4,7 +4,7 @@
 #include "circles/circle_map.h"
 #include "circles/moebius.h"
 #include "iteration/koebe_outcome.h"
-#include "linear/condensed_laplacian.h"
+#include "linear/boundary_solver.h"
 #include "pipeline/map_input.h"
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace koebe {
 
 /// What a map of a surface is made with.
 struct MapSolver {
-    const CondensedLaplacian& condensed;  ///< of the Laplacian, its boundary the concatenation of the surface's loops
+    BoundarySolver& boundary;  ///< of the Laplacian, its boundary the concatenation of the surface's loops
     const SparseMatrix& laplacian;
     const MapInput& input;
 };

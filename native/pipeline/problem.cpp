@@ -74,7 +74,7 @@ bool move_problem(Problem& problem, const Vertices& vertices)
     MapInput& whole = problem.whole;
     const Vertices before = whole.vertices;
     move_input(whole, vertices);
-    if (!problem.assembled.condensed) return whole.vertices == before;
+    if (!problem.assembled.boundary) return whole.vertices == before;
     if (!goes_by_length(whole)) return false;
     const std::vector<Index> kept = std::move(problem.cut.vertices);
     problem.cut = flaps_of(whole);

@@ -26,7 +26,7 @@ struct Problem {
     VectorXcd first_places;  ///< of the input's vertices: where lay_over_first is to bring them, NaN inside, or none
 
     const MapInput& input() const { return core ? *core : whole; }
-    MapSolver solver() const { return {*assembled.condensed, assembled.laplacian, input()}; }
+    MapSolver solver() const { return {*assembled.boundary, assembled.laplacian, input()}; }
 };
 
 /// @throws InputError, TopologyError, OutOfMemory

@@ -47,7 +47,7 @@ std::vector<Index> all_loop_vertices(const HandleCut& cut)
 
 /// The inside harmonic between the loops. These were moved a little, onto circles and to fit each other: without a
 /// shift a flux would run to the smallest of them, and be all that the map is near there.
-void fill_inside(const CondensedLaplacian& surface, const GluedState& state, SchottkyPlane& plane)
+void fill_inside(CondensedLaplacian& surface, const GluedState& state, SchottkyPlane& plane)
 {
     plane.shift(state.shifts_without_flux(plane.images));
     Eigen::Index count = 0, row = 0;
@@ -71,7 +71,7 @@ PlanarPoints as_points(const VectorXcd& z)
 /// With holes: the automorphism of the disk with the most even texels, or the nearest one with room for equal circles.
 /// The loops are solved for anew, not moved: where a handle's loops are tiny, a flux of the size of the mesh's errors
 /// would draw all of them to one side.
-SchottkyPlane plane_in_disk(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state,
+SchottkyPlane plane_in_disk(const HandleCut& cut, CondensedLaplacian& surface, const GluedState& state,
                             SchottkyNormalization normalization)
 {
     const VectorXcd rim = state.rim();
@@ -88,7 +88,7 @@ SchottkyPlane plane_in_disk(const HandleCut& cut, const CondensedLaplacian& surf
 }
 
 /// Without holes: of the handles whose generator can be z -> lambda z the one with the most even texels.
-SchottkyPlane annular_plane(const HandleCut& cut, const CondensedLaplacian& surface, const GluedState& state)
+SchottkyPlane annular_plane(const HandleCut& cut, CondensedLaplacian& surface, const GluedState& state)
 {
     SchottkyPlane plane = schottky_plane(cut, state.images_round_infinity());
     fill_inside(surface, state, plane);
@@ -194,7 +194,7 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
     const SparseMatrix laplacian =
         cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), map.cut.surface.vertex_count);
     seconds.metric += stage.lap();
-    const CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut), Ordering::amd);
+    CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut), Ordering::amd);
     seconds.factor += stage.lap();
     context.begin_stage("iterate", from + 0.6 * (until - from), until);
     GluedState state(surface, map.cut.loops);

@@ -230,7 +230,7 @@ TEST(Passes, extensions_and_fluxes)
     for (Eigen::Index b = 0; b < values.rows(); ++b) values.row(b) << std::sin(0.1 * b), std::cos(0.3 * b);
     for (const Index grounded : {Index{0}, outer})
         expect_same_bits([&] {
-            const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, grounded);
+            CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, grounded);
             MatrixXd extension = condensed.extend(values);
             const VectorXd load = extension.col(0);
             InteriorSolution inner = condensed.solve_interior(load);
