@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/api.h"
+#include "core/not_copied.h"
 #include "execution/execution.h"
 #include "execution/thread_memory.h"
 
@@ -24,12 +25,10 @@ namespace detail {
 /// Counts a computation from its making to the end of its thread. The libraries a thread works in are taken down when
 /// the process exits, so an exit waits for those that are counted; where one does not end soon, having been left in a
 /// kernel without checkpoints, the process ends without taking anything down.
-class KOEBE_API CountedRun {
+class KOEBE_API CountedRun : NotCopied {
 public:
     CountedRun();
     ~CountedRun();
-    CountedRun(const CountedRun&) = delete;
-    CountedRun& operator=(const CountedRun&) = delete;
 };
 
 }  // namespace detail

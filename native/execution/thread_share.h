@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/api.h"
+#include "core/not_copied.h"
 
 #include <cstddef>
 #include <functional>
@@ -11,13 +12,11 @@ namespace koebe {
 
 /// How many threads what runs on this thread may take, itself counted, for the object's lifetime. It is 1 where nothing
 /// is said, and always in work that runs beside other work (side_by_side, each_beside).
-class KOEBE_API ThreadShare {
+class KOEBE_API ThreadShare : NotCopied {
 public:
     /// @param threads 0: as many as the machine has
     explicit ThreadShare(int threads);
     ~ThreadShare();
-    ThreadShare(const ThreadShare&) = delete;
-    ThreadShare& operator=(const ThreadShare&) = delete;
 
     static int here();
 
@@ -26,12 +25,10 @@ private:
 };
 
 /// This thread has work beside others for the object's lifetime: its share is 1 whatever is said.
-class BesideOthers {
+class BesideOthers : NotCopied {
 public:
     BesideOthers();
     ~BesideOthers();
-    BesideOthers(const BesideOthers&) = delete;
-    BesideOthers& operator=(const BesideOthers&) = delete;
 
 private:
     bool before_;

@@ -6,9 +6,9 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
-#include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
+#include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
@@ -301,8 +301,7 @@ std::vector<CutMap> maps_of(HandleCut cut, const FinerFaces& faces, const Schott
 SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                          int finer, ExecutionContext& context)
 {
-    const Stopwatch total;
-    Stopwatch stage;
+    MapClock clock;
     SchottkyResult result;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
@@ -314,17 +313,18 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
         throw TopologyError(TopologyKind::genus, "the surface has no handle: a Schottky group needs one at least");
     const FinerFaces faces = finer_faces(vertices, surface.triangles, enough_faces, finer);
     HandleCut first = cut_handles(faces.vertices, faces.triangles, result.vertex_count, context);
-    result.seconds.topology = stage.lap();
+    clock.end(&StageSeconds::topology);
     std::vector<std::vector<Index>> paths;  // of the cuts along edges
     for (std::size_t k = first.holes; k < first.loops.size(); k += 2) {
         std::vector<Index>& path = paths.emplace_back();
         for (const Index v : first.loops[k].vertices)
             if (first.original[v] < result.vertex_count) path.push_back(first.original[v]);
     }
-    std::vector<CutMap> maps = maps_of(std::move(first), faces, options, result.seconds, context);
+    StageSeconds of_maps;
+    std::vector<CutMap> maps = maps_of(std::move(first), faces, options, of_maps, context);
+    clock.take(of_maps);
 
     context.begin_stage("finish", 0.9, 1.0);
-    stage.lap();
     LaidMap best;
     for (std::size_t i = maps.size(); i-- > 0;) {  // the last one is the best, if it is one to one
         LaidMap laid_map = laid(std::move(maps[i]), faces, options.polygon, context);
@@ -357,10 +357,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     result.distortion = {distortion_of(best.tile, cut), judge_corners(vertices, triangles, result.uv, result.turned)};
     result.converged = best.map.converged && !best.faults.any();
     warn(circles, best.faults, best.map.converged, options.normalization, result);
-    result.seconds.finish = stage.lap();
-    result.seconds.total = total.elapsed();
-    result.peak_memory_mb = peak_memory_mb();
-    context.advance(1.0);
+    clock.finish(result, context);
     return result;
 }
 

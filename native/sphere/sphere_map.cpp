@@ -3,11 +3,11 @@
 #include "canonical/corner_map.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
-#include "execution/peak_memory.h"
-#include "execution/stopwatch.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
+#include "pipeline/loop_numbers.h"
 #include "pipeline/uniformize.h"
+#include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
 #include "quality/take_verdict.h"
 #include "sphere/closed_sphere.h"
@@ -81,22 +81,10 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
     map.converged = disk.converged;
     map.sweeps = disk.sweeps;
     for (const KoebeStep& step : disk.history) map.changes.push_back(step.change);
-    for (Warning warning : disk.warnings) {  // of flips and of faces too small the sphere has its own
-        if (elements_of(warning.kind) == ElementKind::loops) {
-            for (Index& k : warning.elements)
-                k = static_cast<Index>(std::ranges::find(report, &disk.loops.at(k)) - report.begin());
-            std::ranges::sort(warning.elements);
-        }
-        switch (warning.kind) {
-        case WarningKind::below_resolution:
-        case WarningKind::flipped:
-        case WarningKind::not_one_to_one:
-        case WarningKind::reoriented_faces:
-        case WarningKind::off_circle:
-        case WarningKind::unused_vertices: break;
-        default: map.warnings.push_back(std::move(warning));
-        }
-    }
+    map.warnings =
+        with_loops_renumbered(disk, report,
+                              {WarningKind::below_resolution, WarningKind::flipped, WarningKind::not_one_to_one,
+                               WarningKind::reoriented_faces, WarningKind::off_circle, WarningKind::unused_vertices});
     return map;
 }
 
@@ -208,12 +196,8 @@ Vertices directions_of(const PeriodicSurface& domain, const VectorXd& weights)
 ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Vertices& points)
 {
     const Triangles& triangles = domain.surface.triangles;
-    Triangles apart(triangles.rows(), 3);
-    std::iota(apart.data(), apart.data() + apart.size(), 0);
-    Vertices vertices(triangles.size(), 3);
     PlanarPoints flat(triangles.size(), 2);
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
-        for (int k = 0; k < 3; ++k) vertices.row(3 * f + k) = domain.vertices.row(triangles(f, k));
         const SpherePoint a = points.row(triangles(f, 0)), b = points.row(triangles(f, 1)).transpose() - a,
                           c = points.row(triangles(f, 2)).transpose() - a;
         const double along = b.norm(), share = along > 0.0 ? b.dot(c) / along : 0.0;
@@ -222,7 +206,7 @@ ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Ver
         flat.row(3 * f + 1) << along, 0.0;
         flat.row(3 * f + 2) << share, upright_on_sphere(triangles, points, f) ? height : -height;
     }
-    return measure_distortion(vertices, apart, flat);
+    return measure_corner_distortion(domain.vertices, triangles, flat);
 }
 
 std::vector<Index> named(const PeriodicSurface& domain, const std::vector<Index>& vertices)
@@ -305,15 +289,14 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     const Vertices& vertices = mesh.vertices;
     const Triangles& triangles = mesh.triangles;
     const SerialDenseKernels serial;
-    const Stopwatch total;
-    Stopwatch stage;
+    MapClock clock;
     SphereResult result;
     context.begin_stage("topology", 0.0, 0.1);
     const PeriodicSurface domain = periodless_sphere(vertices, triangles);
     VectorXd weights = vertex_areas(domain.surface.triangles, edge_lengths(domain.vertices, domain.surface.triangles),
                                     domain.surface.vertex_count);
     if (!(weights.sum() > 0.0)) weights.setOnes();  // a surface without area is spread by its vertices
-    result.seconds.topology = stage.lap();
+    clock.end(&StageSeconds::topology);
     context.begin_stage("iterate", 0.1, 0.8);
     PlaneMap map;
     if (domain.loops.empty()) {
@@ -330,7 +313,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
                              [&] { context.checkpoint(); });
         map = holed_plane_map(vertices, triangles, domain, options, own);
     }
-    result.seconds.iterate = stage.lap();
+    clock.end(&StageSeconds::iterate);
 
     context.begin_stage("finish", 0.8, 1.0);
     const SphericalBalance balance = balance_on_sphere(map.z, weights);
@@ -376,10 +359,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     take_verdict(
         {.most_lost = options.most_lost, .advice = "Finer faces, the other layout or parts (koebe parts) lose less"},
         result);
-    result.seconds.finish = stage.lap();
-    result.seconds.total = total.elapsed();
-    result.peak_memory_mb = peak_memory_mb();
-    context.advance(1.0);
+    clock.finish(result, context);
     return result;
 }
 

@@ -1,11 +1,12 @@
 #include "circles/moebius.h"
 #include "core/errors.h"
 #include "core/tolerances.h"
-#include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
 #include "linear/sparse_cholesky.h"
 #include "mesh/connectivity.h"
+#include "pipeline/loop_numbers.h"
 #include "pipeline/uniformize.h"
+#include "quality/map_clock.h"
 #include "quality/take_verdict.h"
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
@@ -280,16 +281,9 @@ RoundRing round_ring(const Vertices& vertices, const Triangles& triangles, const
     ring.converged = disk.converged;
     ring.sweeps = disk.sweeps;
     for (const KoebeStep& step : disk.history) ring.changes.push_back(step.change);
-    for (Warning warning : disk.warnings) {  // of flips and of faces too small the tile has its own
-        if (elements_of(warning.kind) == ElementKind::loops) {
-            for (Index& k : warning.elements)
-                k = static_cast<Index>(std::ranges::find(report, &disk.loops.at(k)) - report.begin());
-            std::ranges::sort(warning.elements);
-        }
-        if (warning.kind != WarningKind::below_resolution && warning.kind != WarningKind::flipped &&
-            warning.kind != WarningKind::not_one_to_one && warning.kind != WarningKind::reoriented_faces)
-            ring.warnings.push_back(std::move(warning));
-    }
+    ring.warnings = with_loops_renumbered(disk, report,
+                                          {WarningKind::below_resolution, WarningKind::flipped,
+                                           WarningKind::not_one_to_one, WarningKind::reoriented_faces});
     return ring;
 }
 
@@ -351,13 +345,11 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
                          ExecutionContext& context)
 {
     const SerialDenseKernels serial;
-    const Stopwatch total;
-    Stopwatch stage;
-    StageSeconds seconds;
+    MapClock clock;
     context.begin_stage("topology", 0.0, 0.1);
     PeriodicSurface domain = periodic_ring(vertices, triangles, options.outer, options.inner);
     domain.polygon = options.polygon;
-    seconds.topology = stage.lap();
+    clock.end(&StageSeconds::topology);
     const HoleShape shape = options.holes == RingHoles::circles      ? HoleShape::open
                             : options.holes == RingHoles::concentric ? HoleShape::along_u
                                                                      : HoleShape::along_v;
@@ -374,7 +366,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
         height = -std::log(ring->circles[1].radius) / two_pi;
         map = unrolled(domain, *ring, height);
     }
-    seconds.iterate = stage.lap();
+    clock.end(&StageSeconds::iterate);
     context.begin_stage("finish", 0.9, 1.0);
     TileResult result = tile_result(vertices, triangles, domain, shape, map, context);
     result.modulus = {0.0, height};
@@ -390,10 +382,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
         result.warnings.insert(result.warnings.begin(), ring->warnings.begin(), ring->warnings.end());
     }
     take_verdict({.most_lost = options.most_lost}, result);
-    seconds.finish = stage.lap();
-    seconds.total = total.elapsed();
-    result.seconds = seconds;
-    context.advance(1.0);
+    clock.finish(result, context);
     return result;
 }
 

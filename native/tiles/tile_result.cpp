@@ -3,7 +3,6 @@
 #include "canonical/corner_map.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
-#include "execution/peak_memory.h"
 #include "mesh/connectivity.h"
 #include "quality/shared_warnings.h"
 
@@ -33,16 +32,10 @@ PlanarPoints corner_uvs(const Triangles& triangles, const PeriodicSurface& domai
 /// Every face with corners of its own.
 ComputedDistortion distortion_of(const PeriodicSurface& domain, const Tile& tile)
 {
-    const Triangles& triangles = domain.surface.triangles;
-    Triangles apart(triangles.rows(), 3);
-    std::iota(apart.data(), apart.data() + apart.size(), 0);
-    Vertices vertices(triangles.size(), 3);
-    PlanarPoints points(triangles.size(), 2);
-    for (Eigen::Index c = 0; c < triangles.size(); ++c) {
-        vertices.row(c) = domain.vertices.row(triangles.data()[c]);
+    PlanarPoints points(domain.surface.triangles.size(), 2);
+    for (Eigen::Index c = 0; c < points.rows(); ++c)
         for (int i = 0; i < 2; ++i) points(c, i) = 2.0 * uv_grid * static_cast<double>(tile.corners[c][i]) - 1.0;
-    }
-    return measure_distortion(vertices, apart, points);
+    return measure_corner_distortion(domain.vertices, domain.surface.triangles, points);
 }
 
 TileLoop loop_report(const PeriodicSurface& domain, const FlatMap& map, std::size_t k)
@@ -167,7 +160,6 @@ TileResult tile_result(const Vertices& vertices, const Triangles& triangles, con
     result.sweeps = static_cast<int>(map.changes.size());
     result.changes = map.changes;
     result.distortion = {distortion_of(domain, tile), judge_corners(vertices, triangles, result.uv, result.turned)};
-    result.peak_memory_mb = peak_memory_mb();
     warn(domain, map, faults, result);
     if (domain.first_hole == 0)
         for (std::size_t k = 0; k < map.circles.size(); ++k) {

@@ -1,5 +1,5 @@
-#include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
+#include "quality/map_clock.h"
 #include "quality/take_verdict.h"
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
@@ -12,27 +12,22 @@ TileResult torus_map_here(const Vertices& vertices, const Triangles& triangles, 
                           ExecutionContext& context)
 {
     const SerialDenseKernels serial;
-    const Stopwatch total;
-    Stopwatch stage;
-    StageSeconds seconds;
+    MapClock clock;
     context.begin_stage("topology", 0.0, 0.1);
     PeriodicSurface domain = periodic_torus(vertices, triangles);
     domain.polygon = options.polygon;
-    seconds.topology = stage.lap();
+    clock.end(&StageSeconds::topology);
     context.begin_stage("iterate", 0.1, 0.9);
     IterationOptions iteration;
     iteration.tolerance = options.tolerance;
     iteration.max_sweeps = options.max_sweeps;
     FlatMap map = torus_circles(domain, iteration, context);
-    seconds.iterate = stage.lap();
+    clock.end(&StageSeconds::iterate);
     context.begin_stage("finish", 0.9, 1.0);
     TileResult result = tile_result(vertices, triangles, domain, HoleShape::open, map, context);
     result.modulus = map.periods[1] / map.periods[0];
     take_verdict({.most_lost = options.most_lost}, result);
-    seconds.finish = stage.lap();
-    seconds.total = total.elapsed();
-    result.seconds = seconds;
-    context.advance(1.0);
+    clock.finish(result, context);
     return result;
 }
 

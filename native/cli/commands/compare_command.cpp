@@ -62,11 +62,7 @@ int run_family(const Request& request, const CancelToken& token)
             return order;
         },
         token);
-    AtomicFile file(request.csv);
-    file.write(distance_table(family));
-    ExecutionContext({}, token).checkpoint();
-    file.commit();
-    return exit_code_of(family);
+    return write_table(family, distance_table(family), request.csv, token);
 }
 
 int run(const Request& request)

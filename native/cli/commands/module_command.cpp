@@ -10,7 +10,6 @@
 #include "cli/process/interrupt.h"
 #include "cli/process/standard_streams.h"
 
-#include "io/atomic_file.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
 
@@ -62,11 +61,7 @@ int run_family(const Request& request, const CancelToken& token)
     const ShapeFamily family = read_family(
         {mesh_files({request.input}), request.reference, request.with_error, request.options},
         [&](const ShapeInput& shape) { return chosen_order(shape, request); }, token);
-    AtomicFile file(request.csv);
-    file.write(module_table(family));
-    ExecutionContext({}, token).checkpoint();
-    file.commit();
-    return exit_code_of(family);
+    return write_table(family, module_table(family), request.csv, token);
 }
 
 int run(const Request& request)

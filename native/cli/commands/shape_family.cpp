@@ -3,6 +3,7 @@
 #include "cli/process/error_line.h"
 #include "cli/process/exit_code.h"
 #include "execution/detachable_run.h"
+#include "io/atomic_file.h"
 #include "io/file_error.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"
@@ -141,8 +142,12 @@ ShapeFamily read_family(const FamilyRequest& request, const std::function<std::v
     return family;
 }
 
-int exit_code_of(const ShapeFamily& family)
+int write_table(const ShapeFamily& family, const std::string& table, const std::string& path, const CancelToken& token)
 {
+    AtomicFile file(path);
+    file.write(table);
+    ExecutionContext({}, token).checkpoint();
+    file.commit();
     const auto missing = std::ranges::count_if(family.rows, [](const FamilyRow& row) { return !row.known; });
     if (missing > 0)
         std::fprintf(stderr, "InputError: %d of %d shapes have no module, as their notes say; the table is written\n",

@@ -40,8 +40,9 @@ std::vector<std::string> mesh_files(const std::vector<std::string>& paths);
 ShapeFamily read_family(const FamilyRequest& request, const std::function<std::vector<int>(const ShapeInput&)>& order,
                         const CancelToken& token);
 
-/// What the command ends with; a line on stderr if shapes have no module.
-int exit_code_of(const ShapeFamily& family);
+/// Writes a table of the family to a file; a line on stderr if shapes have no module. @return what the command ends
+/// with
+int write_table(const ShapeFamily& family, const std::string& table, const std::string& path, const CancelToken& token);
 
 /// A row a shape: label, the module, its bars if there are, note. RFC 4180, NA where there is no number: as R's
 /// read.csv and pandas read it.

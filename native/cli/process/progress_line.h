@@ -1,6 +1,7 @@
 // Progress on stderr, if a person is looking.
 #pragma once
 
+#include "core/not_copied.h"
 #include "execution/execution.h"
 
 #include <string>
@@ -8,12 +9,10 @@
 namespace koebe::cli {
 
 /// One line that is drawn over and over, and gone when the object is. Nothing at all if stderr is no terminal.
-class ProgressLine {
+class ProgressLine : NotCopied {
 public:
     explicit ProgressLine(bool quiet);
     ~ProgressLine() { clear(); }
-    ProgressLine(const ProgressLine&) = delete;
-    ProgressLine& operator=(const ProgressLine&) = delete;
 
     /// For an ExecutionContext; refers to this object. Empty if nothing is to be shown.
     ProgressCallback callback();
