@@ -9,11 +9,11 @@
 // The unit of time is what any linear conformal map costs at least: assemble the cotan Laplacian, order it by AMD,
 // factor it (supernodal) and solve for two columns.
 #include "circle_domain.h"
-#include "core/topology.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 #include "linear/cholmod_support.h"
 #include "linear/dense_spd.h"
+#include "mesh/topology.h"
 #include "pipeline/uniformize.h"
 #include "report/json.h"
 #include "surface/laplacian.h"

@@ -8,8 +8,8 @@
 #include "core/errors.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
+#include "opened/cut_uniformize.h"
 #include "parts/parts.h"
-#include "pipeline/cut_uniformize.h"
 #include "pipeline/uniformize.h"
 
 #include <algorithm>

@@ -23,7 +23,7 @@ constexpr double concentric = 1e-6;  // of the inner radius
 
 class SmallCircles {
 public:
-    SmallCircles(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
+    SmallCircles(BoundarySolver& condensed, const SparseMatrix& laplacian,
                  const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
                  AnnulusPosition annulus)
         : condensed_(condensed),
@@ -166,7 +166,7 @@ private:
         return result;
     }
 
-    const CondensedLaplacian& condensed_;
+    BoundarySolver& condensed_;
     const SparseMatrix& laplacian_;
     const std::vector<VertexLoop>& loops_;
     std::vector<Circle>& circles_;
@@ -177,7 +177,7 @@ private:
 
 }  // namespace
 
-PlanarPoints balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
+PlanarPoints balance_flux(BoundarySolver& condensed, const SparseMatrix& laplacian,
                           const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
                           AnnulusPosition annulus)
 {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "linear/condensed_laplacian.h"
+#include "linear/boundary_solver.h"
 
 #include <vector>
 
@@ -23,7 +23,7 @@ enum class AnnulusPosition { concentric, free };
 /// @param laplacian of the same surface as `condensed`
 /// @param loops the outer one first, `boundary` (m, 2) their images in that order, on the circles
 /// @return (V, 2) the harmonic extension of the boundary
-PlanarPoints balance_flux(const CondensedLaplacian& condensed, const SparseMatrix& laplacian,
+PlanarPoints balance_flux(BoundarySolver& condensed, const SparseMatrix& laplacian,
                           const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
                           AnnulusPosition annulus);
 

@@ -1,10 +1,10 @@
 #include "baselines/ricci_flow.h"
 
 #include "circles/circle_fit.h"
-#include "core/connectivity.h"
 #include "flow/curvature.h"
 #include "flow/flat_layout.h"
 #include "iteration/convergence.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

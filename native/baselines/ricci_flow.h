@@ -2,7 +2,7 @@
 #pragma once
 
 #include "baselines/circle_packing.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "flow/convex_newton.h"
 #include "iteration/koebe_outcome.h"
 #include "surface/intrinsic_metric.h"

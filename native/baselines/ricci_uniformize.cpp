@@ -2,19 +2,19 @@
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
-#include "core/detachable_run.h"
-#include "core/peak_memory.h"
 #include "core/tolerances.h"
+#include "execution/detachable_run.h"
+#include "execution/peak_memory.h"
 #include "flaps/flap_map.h"
 #include "linear/dense_spd.h"
-#include "pipeline/domain.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
+#include "pipeline/map_input.h"
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
 #include "pipeline/normalization.h"
-#include "pipeline/take_verdict.h"
 #include "quality/distortion.h"
+#include "quality/take_verdict.h"
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void draw_in(const VertexLoop& outer, PlanarPoints& points)
 }
 
 /// The flow's layout with the circles fitted to its loops, two loops concentric.
-CircleMap in_normal_position(const RicciFlowResult& flow, const Domain& domain)
+CircleMap in_normal_position(const RicciFlowResult& flow, const MapInput& input)
 {
     CircleMap map;
     std::vector<Circle> circles;
@@ -60,11 +60,11 @@ CircleMap in_normal_position(const RicciFlowResult& flow, const Domain& domain)
     const VectorXcd positions = moebius(flow.positions);
     for (std::size_t k = 0; k < circles.size(); ++k) {
         map.circles.push_back(k == 0 ? circles[0] : moebius(circles[k]));
-        map.roundness.push_back(roundness(gather_loop(positions, domain.loops[k]), map.circles[k]));
+        map.roundness.push_back(roundness(gather_loop(positions, input.loops[k]), map.circles[k]));
     }
     map.uv.resize(positions.size(), 2);
     map.uv << positions.real(), positions.imag();
-    draw_in(domain.loops[0], map.uv);
+    draw_in(input.loops[0], map.uv);
     return map;
 }
 
@@ -81,17 +81,17 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     const auto begin = Clock::now();
 
     context.begin_stage("topology", 0.0, 0.05);
-    const Domain whole = prepare_domain(vertices, triangles, options.common);
+    const MapInput whole = prepare_input(vertices, triangles, options.common);
     FlapCut cut = cut_flaps(whole.vertices, whole.surface, whole.loops);
-    std::optional<Domain> core;
-    if (!cut.flaps.empty()) core = core_domain(whole, cut);
-    const Domain& domain = core ? *core : whole;
-    result.outer_loop = domain.outer_rank;
+    std::optional<MapInput> core;
+    if (!cut.flaps.empty()) core = core_input(whole, cut);
+    const MapInput& input = core ? *core : whole;
+    result.outer_loop = input.outer_rank;
     result.seconds.topology = seconds_since(begin);
 
     context.begin_stage("metric", 0.05, 0.1);
     auto stage = Clock::now();
-    const IntrinsicMetric metric = intrinsic_metric(domain.vertices, domain.surface, {.delaunay = options.delaunay});
+    const IntrinsicMetric metric = intrinsic_metric(input.vertices, input.surface, {.delaunay = options.delaunay});
     result.seconds.metric = seconds_since(stage);
 
     context.begin_stage("iterate", 0.1, 0.9);
@@ -103,7 +103,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
                                   .newton = {}};
     const RicciFlowResult flow = [&] {
         const SerialDenseKernels serial;
-        return ricci_flow(metric, domain.surface.vertex_count, domain.loops, flow_options, context);
+        return ricci_flow(metric, input.surface.vertex_count, input.loops, flow_options, context);
     }();
     result.converged = flow.outcome.converged;
     result.sweeps = flow.outcome.sweeps;
@@ -113,8 +113,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 
     context.begin_stage("finish", 0.9, 1.0);
     stage = Clock::now();
-    CircleMap map = in_normal_position(flow, domain);
-    const std::size_t own_flips = flipped_faces(domain.surface.triangles, map.uv).size();
+    CircleMap map = in_normal_position(flow, input);
+    const std::size_t own_flips = flipped_faces(input.surface.triangles, map.uv).size();
     map = hang_back(whole, cut, std::move(map), context);
     put_in_place(whole, map);
     // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "baselines/ricci_flow.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "pipeline/result.h"
 
 namespace koebe {

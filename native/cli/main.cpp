@@ -1,7 +1,7 @@
-#include "cli/command.h"
+#include "cli/commands/command.h"
 
 #if !defined(KOEBE_OWN_KERNELS)
-#include "cli/dense_buffers.h"
+#include "cli/process/dense_buffers.h"
 #endif
 
 int main(int argc, char** argv)

@@ -1,11 +1,11 @@
 #include "conformal/annulus_map.h"
 
 #include "conformal/closed_disk.h"
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "flow/flat_layout.h"
 #include "flow/yamabe_flow.h"
 #include "linear/sparse_cholesky.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 #include "circles/moebius.h"
 #include "conformal/annulus_map.h"
 #include "conformal/closed_disk.h"
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "linear/sparse_cholesky.h"
+#include "mesh/connectivity.h"
 #include "surface/deepest_vertex.h"
 #include "surface/harmonic_map.h"
 

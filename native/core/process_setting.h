@@ -1,6 +1,8 @@
 // Settings of the whole process that several calls at once need.
 #pragma once
 
+#include "core/not_copied.h"
+
 #include <mutex>
 
 namespace koebe {
@@ -9,7 +11,7 @@ namespace koebe {
 /// are on. So a call that ends does not put back what another one, perhaps cancelled and left behind, still needs.
 /// @tparam Setting makes its setting in its constructor and puts back what was before in its destructor
 template <typename Setting>
-class ProcessSetting {
+class ProcessSetting : NotCopied {
 public:
     ProcessSetting()
     {
@@ -24,8 +26,6 @@ public:
         delete setting_;
         setting_ = nullptr;
     }
-    ProcessSetting(const ProcessSetting&) = delete;
-    ProcessSetting& operator=(const ProcessSetting&) = delete;
 
 private:
     static inline std::mutex mutex_;

@@ -1,6 +1,7 @@
 // CGAL without output.
 #pragma once
 
+#include "core/not_copied.h"
 #include "core/process_setting.h"
 
 #include <CGAL/assertions_behaviour.h>
@@ -8,7 +9,7 @@
 namespace koebe {
 
 /// CGAL reports failed checks by printing, and then throws: now it only throws.
-class CgalHandlersIgnored {
+class CgalHandlersIgnored : NotCopied {
 public:
     CgalHandlersIgnored() : error_(CGAL::set_error_handler(ignore)), warning_(CGAL::set_warning_handler(ignore)) {}
     ~CgalHandlersIgnored()
@@ -16,8 +17,6 @@ public:
         CGAL::set_error_handler(error_);
         CGAL::set_warning_handler(warning_);
     }
-    CgalHandlersIgnored(const CgalHandlersIgnored&) = delete;
-    CgalHandlersIgnored& operator=(const CgalHandlersIgnored&) = delete;
 
 private:
     static void ignore(const char*, const char*, const char*, int, const char*) {}

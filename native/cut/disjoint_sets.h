@@ -1,6 +1,7 @@
 // Sets that are joined, by Boost.
 #pragma once
 
+#include "core/not_copied.h"
 #include "core/types.h"
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -12,15 +13,13 @@
 
 namespace koebe {
 
-class DisjointSets {
+class DisjointSets : NotCopied {
 public:
     explicit DisjointSets(std::size_t count)
         : rank_(count, 0), parent_(count), sets_(Map(rank_.data()), Map(parent_.data()))
     {
         std::iota(parent_.begin(), parent_.end(), 0);
     }
-    DisjointSets(const DisjointSets&) = delete;
-    DisjointSets& operator=(const DisjointSets&) = delete;
 
     Index find(Index element) { return sets_.find_set(element); }
     /// false: they were in one set before.

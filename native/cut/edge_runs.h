@@ -1,8 +1,8 @@
 // The half-edges of each edge.
 #pragma once
 
-#include "core/connectivity.h"
 #include "core/types.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <span>

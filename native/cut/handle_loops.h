@@ -3,7 +3,7 @@
 
 #include "cut/seamed_mesh.h"
 
-#include "core/execution.h"
+#include "execution/execution.h"
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/execution.h"
 #include "core/types.h"
+#include "execution/execution.h"
 
 #include <vector>
 

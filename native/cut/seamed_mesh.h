@@ -1,8 +1,8 @@
 // Faces joined over some of their edges: all others are seams.
 #pragma once
 
-#include "core/connectivity.h"
 #include "core/types.h"
+#include "mesh/connectivity.h"
 
 #include <utility>
 #include <vector>

@@ -1,8 +1,8 @@
 // A one-to-one map of any surface of genus 0 with boundary: convex combinations (Tutte 1963), safe in floating point.
 #pragma once
 
-#include "core/execution.h"
-#include "core/topology.h"
+#include "execution/execution.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "circles/circle_map.h"
-#include "core/execution.h"
-#include "core/topology.h"
 #include "embedding/fixed_places.h"
+#include "execution/execution.h"
 #include "flaps/flaps.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

@@ -3,13 +3,13 @@
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
-#include "core/execution.h"
-#include "core/topology.h"
 #include "embedding/convex_embedding.h"
 #include "embedding/fixed_places.h"
+#include "execution/execution.h"
 #include "flaps/flaps.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
+#include "mesh/topology.h"
 
 #include <cstddef>
 #include <vector>

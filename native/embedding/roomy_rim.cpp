@@ -1,6 +1,6 @@
 #include "embedding/roomy_rim.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

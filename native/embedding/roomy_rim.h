@@ -1,8 +1,8 @@
 // Where the outer loop's vertices go for everything behind them to have room.
 #pragma once
 
-#include "core/topology.h"
 #include "embedding/convex_embedding.h"
+#include "mesh/topology.h"
 
 namespace koebe {
 

@@ -1,8 +1,8 @@
 // Where flaps go once the rest of the surface is mapped: into their hole, or onto the rim of the disk.
 #pragma once
 
-#include "core/execution.h"
 #include "core/types.h"
+#include "execution/execution.h"
 #include "flaps/flaps.h"
 
 namespace koebe {

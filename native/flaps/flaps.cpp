@@ -1,6 +1,6 @@
 #include "flaps/flaps.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 #include "surface/laplacian.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Parts of a surface that hang on one boundary loop by a single interior edge.
 #pragma once
 
-#include "core/topology.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

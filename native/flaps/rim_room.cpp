@@ -1,6 +1,6 @@
 #include "flaps/rim_room.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,8 +1,8 @@
 // Newton's method for the convex energies of discrete conformal metrics.
 #pragma once
 
-#include "core/execution.h"
 #include "core/types.h"
+#include "execution/execution.h"
 #include "linear/sparse_cholesky.h"
 
 #include <memory>

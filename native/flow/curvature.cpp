@@ -1,6 +1,6 @@
 #include "flow/curvature.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 #include "flow/flat_layout.h"
 
-#include "core/connectivity.h"
 #include "linear/sparse_cholesky.h"
+#include "mesh/connectivity.h"
 
 #include <cmath>
 #include <utility>

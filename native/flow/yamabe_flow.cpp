@@ -1,8 +1,8 @@
 #include "flow/yamabe_flow.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "flow/curvature.h"
+#include "mesh/connectivity.h"
 #include "surface/edge_flip.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "core/topology.h"
+#include "mesh/topology.h"
 #include "planar/planar_predicates.h"
 
 #include <cmath>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "core/execution.h"
-#include "core/topology.h"
+#include "execution/execution.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

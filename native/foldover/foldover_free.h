@@ -2,7 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 
 #include <Eigen/Core>
 

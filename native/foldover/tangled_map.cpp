@@ -1,7 +1,7 @@
 #include "foldover/tangled_map.h"
 
-#include "core/thread_share.h"
 #include "core/tolerances.h"
+#include "execution/thread_share.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"

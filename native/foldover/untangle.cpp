@@ -1,6 +1,6 @@
 #include "foldover/untangle.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "foldover/untangle_patch.h"
 #include "quality/stored_uv.h"
 

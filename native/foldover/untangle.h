@@ -2,9 +2,9 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "core/execution.h"
-#include "core/topology.h"
+#include "execution/execution.h"
 #include "foldover/repair_effort.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

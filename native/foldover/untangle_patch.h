@@ -1,7 +1,7 @@
 // Neighbourhoods of flipped faces, and the attempts to turn them back.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/repair_effort.h"
 #include "foldover/tangled_map.h"

@@ -2,8 +2,8 @@
 
 #include "core/errors.h"
 #include "core/silent_cgal.h"
-#include "core/topology.h"
 #include "holes/aged_cells.h"
+#include "mesh/topology.h"
 
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,7 +1,7 @@
 #include "holes/fan_filling.h"
 
 #include "core/errors.h"
-#include "core/halfedge_mesh.h"
+#include "mesh/halfedge_mesh.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>

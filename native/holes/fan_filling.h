@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/topology.h"
 #include "core/types.h"
+#include "mesh/topology.h"
 #include "planar/planar_mesh.h"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #include "io/binary_ply.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "io/polygon_soup.h"
 
 #include <algorithm>

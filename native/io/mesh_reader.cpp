@@ -1,6 +1,6 @@
 #include "io/mesh_reader.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "io/descriptor.h"
 #include "io/extension.h"
 #include "io/file_error.h"

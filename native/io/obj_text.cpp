@@ -1,6 +1,6 @@
 #include "io/obj_text.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "io/text_numbers.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "core/errors.h"
 #include "core/silent_cgal.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>

@@ -1,6 +1,6 @@
 #include "io/text_writer.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <cmath>
 #include <condition_variable>

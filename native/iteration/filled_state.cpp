@@ -1,7 +1,7 @@
 #include "iteration/filled_state.h"
 
 #include "circles/boundary_angles.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "iteration/disk_dirichlet_to_neumann.h"
 
 #include <cmath>

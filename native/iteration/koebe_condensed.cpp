@@ -1,12 +1,14 @@
 #include "iteration/koebe_condensed.h"
 
 #include "circles/boundary_angles.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "iteration/condensed_state.h"
 #include "iteration/convergence.h"
 #include "iteration/grounded_state.h"
 #include "iteration/sparse_state.h"
 #include "iteration/sweep_order.h"
+#include "linear/condensed_laplacian.h"
+#include "linear/filled_laplacian.h"
 #include "surface/deepest_vertex.h"
 
 #include <algorithm>
@@ -41,22 +43,24 @@ bool grounds_outer_loop(const std::vector<VertexLoop>& loops, std::size_t bounda
 }
 
 /// The flux at the boundary from a source of 1 in the vertex deepest inside S.
-VectorXd flux_of_deepest_source(const CondensedLaplacian& surface, const VectorXd& areas)
+VectorXd flux_of_deepest_source(BoundarySolver& surface, const VectorXd& areas)
 {
     VectorXd source = VectorXd::Zero(areas.size());
     source[deepest_vertex(surface, areas)] = 1.0;
     return surface.solve_interior(source).boundary_flux;
 }
 
-std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, BoundarySolver& surface,
                                          const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                                          bool at_once, const VectorXd& flux_of_source,
                                          const std::vector<VectorXd>& first)
 {
-    if (!surface.has_sigma()) return std::make_unique<SparseState>(laplacian, surface, loops, edges, first);
+    if (auto* const filled = dynamic_cast<FilledLaplacian*>(&surface))
+        return std::make_unique<SparseState>(laplacian, *filled, loops, edges, first);
+    auto& condensed = dynamic_cast<CondensedLaplacian&>(surface);
     require_memory(dense_copies * 8.0 * std::pow(surface.boundary_size(), 2), "the boundary's dense matrices");
-    if (at_once) return std::make_unique<DenseGroundedState>(surface, loops, edges, first);
-    return std::make_unique<CondensedState>(surface, loops, edges, flux_of_source, first);
+    if (at_once) return std::make_unique<DenseGroundedState>(condensed, loops, edges, first);
+    return std::make_unique<CondensedState>(condensed, loops, edges, flux_of_source, first);
 }
 
 /// The angles to begin with, none unless there is one for each vertex.
@@ -86,8 +90,8 @@ private:
 
 }  // namespace
 
-CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
-                            const IterationOptions& options, std::optional<std::size_t> most_condensed)
+std::unique_ptr<BoundarySolver> condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                                         const IterationOptions& options, std::optional<std::size_t> most_condensed)
 {
     std::vector<Index> boundary;
     for (const VertexLoop& loop : loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
@@ -96,18 +100,19 @@ CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<Ver
     const Index grounded =
         !all && grounds_outer_loop(loops, boundary.size(), vertex_count) ? static_cast<Index>(loops[0].size()) : 0;
     const std::size_t most = most_condensed.value_or(static_cast<std::size_t>(all ? longest : most_kept(vertex_count)));
-    if (loops.size() > 1 && boundary.size() - grounded > most) return CondensedLaplacian(laplacian, loops);
-    return CondensedLaplacian(laplacian, boundary, Ordering::amd, grounded);
+    if (loops.size() > 1 && boundary.size() - grounded > most)
+        return std::make_unique<FilledLaplacian>(laplacian, loops);
+    return std::make_unique<CondensedLaplacian>(laplacian, boundary, Ordering::amd, grounded);
 }
 
-KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                              const VectorXd& areas, const IterationOptions& options, ExecutionContext& context,
                              const KoebeOutcome* last)
 {
     KoebeOutcome outcome;
     const int loop_count = static_cast<int>(loops.size());
-    const bool at_once = !goes_in_turn(loops, options) || !surface.has_sigma();
+    const bool at_once = !goes_in_turn(loops, options) || dynamic_cast<FilledLaplacian*>(&surface);
     const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
     const VectorXd flux_of_source =
         sourced ? flux_of_deepest_source(surface, areas) : VectorXd::Zero(surface.boundary_size());

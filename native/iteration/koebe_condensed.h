@@ -1,10 +1,12 @@
 // The Koebe iteration on boundary angles alone: the condensed engine (docs/method.md).
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
+#include "iteration/iteration_options.h"
 #include "iteration/koebe_outcome.h"
-#include "linear/condensed_laplacian.h"
+#include "linear/boundary_solver.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,12 +14,13 @@ namespace koebe {
 
 /// The Laplacian of a surface with these loops, condensed as the iteration takes it best. An outer loop with a third of
 /// all boundary vertices is grounded, unless they are few: then Sigma has the inner loops alone. Where more than
-/// `most_condensed` boundary vertices would be kept there is no Sigma.
+/// `most_condensed` boundary vertices would be kept there is no Sigma: a FilledLaplacian.
 /// @param options where they let steps follow each other nothing is grounded
 /// @param most_condensed without it 5 sqrt(V), and no more than 3,000; in turn 3,000
 /// @throws SolverError
-CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
-                            const IterationOptions& options, std::optional<std::size_t> most_condensed = {});
+std::unique_ptr<BoundarySolver> condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                                         const IterationOptions& options,
+                                         std::optional<std::size_t> most_condensed = {});
 
 /// Runs the iteration (paper, section 4.4) on the state of one angle per boundary vertex.
 ///
@@ -47,7 +50,7 @@ CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<Ver
 /// as soon as the next sweep, changing the circles by the same share of this one's, would move them by less than a
 /// third of the tolerance
 /// @throws SolverError, Cancelled
-KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                              const VectorXd& areas, const IterationOptions& options, ExecutionContext& context,
                              const KoebeOutcome* last = nullptr);

@@ -1,10 +1,11 @@
 // The Koebe iteration on a mesh whose holes are filled by triangles: the reference engine, beside the paper.
 #pragma once
 
-#include "core/execution.h"
-#include "core/topology.h"
+#include "execution/execution.h"
+#include "iteration/iteration_options.h"
 #include "iteration/koebe_mesh_options.h"
 #include "iteration/koebe_outcome.h"
+#include "mesh/topology.h"
 #include "surface/laplacian.h"
 
 #include <vector>

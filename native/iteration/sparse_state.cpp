@@ -1,6 +1,6 @@
 #include "iteration/sparse_state.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "linear/dense_spd.h"
 #include "linear/kernel_buffer.h"
 
@@ -8,9 +8,8 @@
 
 namespace koebe {
 
-SparseState::SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface,
-                         const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
-                         std::vector<VectorXd> first_angles)
+SparseState::SparseState(const SparseMatrix& laplacian, FilledLaplacian& surface, const std::vector<VertexLoop>& loops,
+                         const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles)
     : GroundedState(loops, edges, std::move(first_angles)),
       vertex_count_(static_cast<Index>(laplacian.rows())),
       surface_(surface),

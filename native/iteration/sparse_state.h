@@ -2,7 +2,7 @@
 #pragma once
 
 #include "iteration/filled_state.h"
-#include "linear/condensed_laplacian.h"
+#include "linear/filled_laplacian.h"
 #include "linear/sparse_cholesky.h"
 
 #include <vector>
@@ -15,9 +15,9 @@ class SparseState final : public GroundedState {
 public:
     /// The first angles are those that one sweep makes of the arc length.
     /// @param first_angles these instead, if there are any
-    /// @param surface of the same Laplacian, without a Sigma, its loops these; must outlive this
+    /// @param surface of the same Laplacian, its loops these; must outlive this
     /// @param laplacian (V, V) both triangles stored
-    SparseState(const SparseMatrix& laplacian, const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
+    SparseState(const SparseMatrix& laplacian, FilledLaplacian& surface, const std::vector<VertexLoop>& loops,
                 const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles = {});
 
     std::vector<VectorXcd> images() override;
@@ -35,7 +35,7 @@ private:
     void couple(const SparseMatrix& laplacian, const VertexLoop& outer);
 
     Index vertex_count_;
-    const CondensedLaplacian& surface_;
+    FilledLaplacian& surface_;
     std::vector<VertexLoop> inner_loops_;
     std::vector<Index> inner_;                // all their vertices
     std::vector<Index> beside_outer_;         // the outer loop's neighbours

@@ -1,7 +1,7 @@
 // The order in which a sweep of the Koebe iteration opens the loops (paper, section 4.4).
 #pragma once
 
-#include "iteration/koebe_outcome.h"
+#include "iteration/iteration_options.h"
 
 #include <vector>
 

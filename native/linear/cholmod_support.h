@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/errors.h"
+#include "core/not_copied.h"
 #include "core/types.h"
 
 #include <cholmod.h>
@@ -14,7 +15,7 @@
 namespace koebe::detail {
 
 /// A started workspace; settings are CHOLMOD's own but for supernodal L L' and silence.
-class CholmodCommon {
+class CholmodCommon : NotCopied {
 public:
     CholmodCommon()
     {
@@ -25,8 +26,6 @@ public:
         common_.error_handler = nullptr;
     }
     ~CholmodCommon() { cholmod_finish(&common_); }
-    CholmodCommon(const CholmodCommon&) = delete;
-    CholmodCommon& operator=(const CholmodCommon&) = delete;
     cholmod_common* get() { return &common_; }
     cholmod_common* operator->() { return &common_; }
 

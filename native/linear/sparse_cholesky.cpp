@@ -1,17 +1,17 @@
 #include "linear/sparse_cholesky.h"
 
-#include "core/memory_limit.h"
-#include "core/thread_share.h"
+#include "execution/memory_limit.h"
+#include "execution/thread_share.h"
 #include "linear/dense_spd.h"
-#include "linear/elimination_order.h"
-#include "linear/factor_numbers.h"
-#include "linear/multifrontal_factor.h"
-#include "linear/part_substitution.h"
-#include "linear/selected_inverse.h"
-#include "linear/supernodal_factor.h"
+#include "linear/factor/analysis.h"
+#include "linear/factor/multifrontal_factor.h"
+#include "linear/factor/part_substitution.h"
+#include "linear/factor/selected_inverse.h"
+#include "linear/factor/supernodal_factor.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace koebe {
 
@@ -22,29 +22,42 @@ namespace {
 constexpr std::size_t solved_at_a_time = 32768;  // rows of a thread
 constexpr Index pieces_of_large = 10;            // at least: more of them take longer to find than they save
 
+/// @param room for the upper triangle, where it is missing
+const SparseMatrix& both_triangles(const SparseMatrix& matrix, SparseMatrix& room)
+{
+    for (Index c = 0; c < static_cast<Index>(matrix.cols()); ++c)
+        if (const SparseMatrix::InnerIterator it(matrix, c); it && it.row() < c) return matrix;
+    room = matrix.selfadjointView<Eigen::Lower>();
+    return room;
+}
+
 }  // namespace
 
 struct SparseCholesky::Impl {
+    Impl(Analysis analysis, const std::vector<Index>& rows_kept_last) : l(std::move(analysis)), last(rows_kept_last) {}
+
     SupernodalFactor l;
     std::vector<Index> last;
     MatrixXd trailing;                           // L_BB in the factor's own order
-    SparseMatrix both;                           // triangles of the matrix, where one was given
     std::unique_ptr<MultifrontalFactor> fronts;  // of a matrix that changes in a few rows
-    std::unique_ptr<FactorNumbers> numbers;      // of one that changes as a whole
 
-    const SparseMatrix& full(const SparseMatrix& matrix)
+    /// @throws OutOfMemory where the factor would not fit
+    static std::unique_ptr<Impl> of(Analysis analysis, const std::vector<Index>& last)
     {
-        for (Index c = 0; c < static_cast<Index>(matrix.cols()); ++c)
-            if (const SparseMatrix::InnerIterator it(matrix, c); it && it.row() < c) return matrix;
-        both = matrix.selfadjointView<Eigen::Lower>();
-        return both;
+        const double trailing_and_schur = 2.0 * sizeof(double) * std::pow(last.size(), 2);
+        require_memory(analysis.memory() + trailing_and_schur, "the factorization");
+        return std::make_unique<Impl>(std::move(analysis), last);
     }
 
-    void analyze(const SparseMatrix& matrix, Ordering ordering);
+    void take(const SparseMatrix& matrix)
+    {
+        l.factorize(matrix);
+        take_trailing();
+    }
     void take_trailing() { trailing = l.trailing_block(static_cast<Index>(last.size())); }
     Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
     Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
-    MatrixXd half_solve(const MatrixXd& f);
+    MatrixXd half_solve(const MatrixXd& f) const;
     MatrixXd in_given_order(const MatrixXd& solution) const;
     MatrixXd last_in_given_order(const MatrixXd& trailing_rows) const;
     MatrixXd in_factors_order(const MatrixXd& last_values) const;
@@ -53,67 +66,29 @@ struct SparseCholesky::Impl {
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
                                Index split_rows)
-    : impl_(std::make_unique<Impl>())
 {
-    impl_->last = last;
-    if (SupernodalFactor& l = impl_->l; ordering == Ordering::amd && matrix.rows() > split_rows) {
-        l.split = SplitFactor::analyze(impl_->full(matrix), last,
-                                       std::max(split_rows, static_cast<Index>(matrix.rows() / pieces_of_large)));
-        if (l.split) {
-            require_memory(l.split->memory(), "the factorization");
-            l.number();
-            refactorize(matrix);
-            return;
-        }
-    }
-    impl_->analyze(matrix, ordering);
-    refactorize(matrix);
+    const Index size = static_cast<Index>(matrix.rows());
+    const bool large = ordering == Ordering::amd && size > split_rows;
+    SparseMatrix room;
+    const SparseMatrix& given = large ? both_triangles(matrix, room) : matrix;
+    std::optional<Analysis> pieces;
+    if (large) pieces = analyze_in_pieces(given, last, std::max(split_rows, size / pieces_of_large));
+    impl_ = Impl::of(pieces ? *std::move(pieces) : analyze(given, last, ordering), last);
+    impl_->take(given);
 }
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
                                const std::vector<std::vector<Index>>& changing)
-    : impl_(std::make_unique<Impl>())
+    : impl_(Impl::of(analyze(matrix, last, ordering), last))
 {
-    impl_->last = last;
-    impl_->analyze(matrix, ordering);
     impl_->fronts = std::make_unique<MultifrontalFactor>(impl_->l, matrix, changing);
-}
-
-void SparseCholesky::Impl::analyze(const SparseMatrix& matrix, Ordering ordering)
-{
-    cholmod_sparse lower = view(matrix, -1);
-    // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
-    // postorder A_II by itself and forbid any further change.
-    for (const bool forced : {false, true}) {
-        std::vector<Index> order;
-        if (!last.empty()) order = elimination_order(matrix, last, ordering, forced, l.common);
-        l.common->nmethods = 1;
-        l.common->method[0].ordering = !last.empty()               ? CHOLMOD_GIVEN
-                                       : ordering == Ordering::amd ? CHOLMOD_AMD
-                                                                   : CHOLMOD_METIS;
-        l.common->postorder = forced ? 0 : 1;
-        l.factor =
-            own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, l.common.get()), l.common);
-        l.common.require(l.factor != nullptr, "symbolic analysis");
-        require_memory(8.0 * (static_cast<double>(l.factor->xsize) + 2.0 * std::pow(last.size(), 2)),
-                       "the factorization");
-        l.number();
-        if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= inner_count(); })) break;
-    }
 }
 
 void SparseCholesky::refactorize(const SparseMatrix& matrix)
 {
-    SupernodalFactor& l = impl_->l;
     if (impl_->fronts) return impl_->fronts->take(matrix);
-    if (l.split) {
-        l.split->factorize(impl_->full(matrix));
-        impl_->both = {};
-        return impl_->take_trailing();
-    }
-    if (!impl_->numbers) impl_->numbers = std::make_unique<FactorNumbers>(l);
-    impl_->numbers->take(matrix);
-    impl_->take_trailing();
+    SparseMatrix room;
+    impl_->take(impl_->l.is_in_pieces() ? both_triangles(matrix, room) : matrix);
 }
 
 void SparseCholesky::refactorize(const std::vector<MatrixXd>& blocks)
@@ -126,10 +101,9 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-MatrixXd SparseCholesky::solve(const MatrixXd& right_hand_side) const
-{
-    return impl_->l.solve(CHOLMOD_A, right_hand_side);
-}
+Index SparseCholesky::size() const { return impl_->l.size(); }
+
+MatrixXd SparseCholesky::solve(const MatrixXd& right_hand_side) const { return impl_->l.solve(right_hand_side); }
 
 MatrixXd SparseCholesky::last_schur() const
 {
@@ -140,14 +114,15 @@ MatrixXd SparseCholesky::last_schur() const
 }
 
 /// L y = (f_I, 0) has y_I = L_II^-1 f_I and L_BB y_B = -L_BI y_I; in the factor's own order.
-MatrixXd SparseCholesky::Impl::half_solve(const MatrixXd& f)
+MatrixXd SparseCholesky::Impl::half_solve(const MatrixXd& f) const
 {
     MatrixXd load = MatrixXd::Zero(l.size(), f.cols());
     in_pieces(static_cast<std::size_t>(inner_count()), solved_at_a_time, [&](std::size_t begin, std::size_t end) {
         for (Index c = 0; c < static_cast<Index>(f.cols()); ++c)
-            for (std::size_t j = begin; j < end; ++j) load(j, c) = f(l.order()[j], c);
+            for (std::size_t j = begin; j < end; ++j) load(j, c) = f(l.order[j], c);
     });
-    return l.solve(CHOLMOD_L, load);
+    l.solve_lower(load);
+    return load;
 }
 
 MatrixXd SparseCholesky::Impl::in_given_order(const MatrixXd& solution) const
@@ -155,7 +130,7 @@ MatrixXd SparseCholesky::Impl::in_given_order(const MatrixXd& solution) const
     MatrixXd result(solution.rows(), solution.cols());
     in_pieces(static_cast<std::size_t>(result.rows()), solved_at_a_time, [&](std::size_t begin, std::size_t end) {
         for (Index c = 0; c < static_cast<Index>(result.cols()); ++c)
-            for (std::size_t j = begin; j < end; ++j) result(l.order()[j], c) = solution(j, c);
+            for (std::size_t j = begin; j < end; ++j) result(l.order[j], c) = solution(j, c);
     });
     return result;
 }
@@ -203,9 +178,9 @@ MatrixXd SparseCholesky::extend(const MatrixXd& last_values, const MatrixXd& f) 
     const MatrixXd values = impl_->in_factors_order(last_values);
     MatrixXd load = f.size() > 0 ? impl_->half_solve(f) : MatrixXd(MatrixXd::Zero(impl_->l.size(), last_values.cols()));
     load.bottomRows(count) = impl_->trailing.triangularView<Eigen::Lower>().transpose() * values;
-    const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, load);
+    impl_->l.solve_upper(load);
 
-    MatrixXd result = impl_->in_given_order(solution);
+    MatrixXd result = impl_->in_given_order(load);
     result(impl_->last, Eigen::all) = last_values;
     return result;
 }
@@ -223,8 +198,8 @@ std::pair<VectorXd, VectorXd> SparseCholesky::solve_inner(const VectorXd& f) con
     MatrixXd half = impl_->half_solve(f);
     const MatrixXd flux = impl_->trailing.triangularView<Eigen::Lower>() * half.bottomRows(count);
     half.bottomRows(count).setZero();
-    const MatrixXd solution = impl_->l.solve(CHOLMOD_Lt, half);
-    return {impl_->in_given_order(solution), impl_->last_in_given_order(flux)};
+    impl_->l.solve_upper(half);
+    return {impl_->in_given_order(half), impl_->last_in_given_order(flux)};
 }
 
 std::vector<MatrixXd> SparseCholesky::inverse_blocks(const std::vector<std::vector<Index>>& sets) const

@@ -19,7 +19,7 @@ class SparseCholesky {
 public:
     /// @param matrix symmetric: the lower triangle, or both
     /// @param last the rows B
-    /// @param split_rows a larger matrix is cut into pieces that are factored side by side (linear/split_factor.h)
+    /// @param split_rows a larger matrix is cut into pieces that are factored side by side (factor/analysis.h)
     /// @throws SolverError if the matrix is not positive definite
     explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd,
                             const std::vector<Index>& last = {}, Index split_rows = 50000);
@@ -38,6 +38,9 @@ public:
     /// Factor of A + symmetric blocks, one on each set that changes: only what they reach is computed anew.
     /// @throws SolverError if that is not positive definite
     void refactorize(const std::vector<MatrixXd>& blocks);
+
+    /// Rows of the matrix.
+    Index size() const;
 
     /// Solves for each column of the right-hand side.
     MatrixXd solve(const MatrixXd& right_hand_side) const;

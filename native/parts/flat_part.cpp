@@ -1,10 +1,10 @@
 #include "parts/flat_part.h"
 
 #include "circles/circle_fit.h"
-#include "core/connectivity.h"
 #include "core/errors.h"
 #include "embedding/embedded_map.h"
 #include "foldover/untangle.h"
+#include "mesh/connectivity.h"
 #include "parts/free_rims.h"
 #include "parts/tube_slit.h"
 #include "planar/boundary_crossings.h"

@@ -1,8 +1,8 @@
 // A part laid into the plane: as its disk, or its tube opened along a slit.
 #pragma once
 
-#include "core/execution.h"
-#include "parts/splitting.h"
+#include "execution/execution.h"
+#include "splitting/splitting.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "parts/flat_parts.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/side_by_side.h"
+#include "execution/side_by_side.h"
 #include "foldover/angle_polish.h"
+#include "mesh/connectivity.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"

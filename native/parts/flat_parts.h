@@ -2,7 +2,7 @@
 #pragma once
 
 #include "parts/flat_part.h"
-#include "parts/mirror_symmetry.h"
+#include "splitting/mirror_symmetry.h"
 
 #include <optional>
 #include <vector>

@@ -1,9 +1,9 @@
 // Rims at cuts, which follow the surface's edges.
 #pragma once
 
-#include "core/execution.h"
-#include "core/topology.h"
 #include "core/types.h"
+#include "execution/execution.h"
+#include "mesh/topology.h"
 
 #include <vector>
 

@@ -1,17 +1,17 @@
 #include "parts/layout.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/side_by_side.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
-#include "parts/closed_surface.h"
-#include "parts/coarse_surface.h"
-#include "parts/fine_labels.h"
+#include "execution/side_by_side.h"
+#include "mesh/connectivity.h"
 #include "parts/flat_parts.h"
-#include "parts/hidden_cuts.h"
 #include "parts/packing.h"
-#include "parts/splitting.h"
+#include "splitting/closed_surface.h"
+#include "splitting/coarse_surface.h"
+#include "splitting/fine_labels.h"
+#include "splitting/hidden_cuts.h"
+#include "splitting/splitting.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // The parts of a mesh, flat and packed into the unit square.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "parts/parts.h"
 
 #include <vector>

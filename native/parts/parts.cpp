@@ -1,15 +1,15 @@
 #include "parts/parts.h"
 
+#include "canonical/corner_map.h"
 #include "core/counted.h"
-#include "core/detachable_run.h"
-#include "core/memory_limit.h"
-#include "core/peak_memory.h"
+#include "evenness/part_mesh.h"
+#include "execution/memory_limit.h"
+#include "execution/peak_memory.h"
 #include "linear/dense_spd.h"
 #include "parts/layout.h"
-#include "parts/part_mesh.h"
-#include "pipeline/canonical_mesh.h"
-#include "pipeline/take_verdict.h"
+#include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
+#include "quality/take_verdict.h"
 
 #include <algorithm>
 #include <array>
@@ -108,10 +108,7 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     if (!left_out.empty())
         warnings.push_back({WarningKind::collapsed_faces,
                             counted(left_out.size(), "face") + " of no area or like another, in no part", left_out});
-    if (!layout.reoriented.empty())
-        warnings.push_back({WarningKind::reoriented_faces,
-                            counted(layout.reoriented.size(), "face") + " turned to the orientation of the others",
-                            layout.reoriented});
+    warn_reoriented(layout.reoriented, warnings);
     if (!distortion.below_resolution.empty())
         warnings.push_back({WarningKind::below_resolution,
                             counted(distortion.below_resolution.size(), "face") + " below the resolution of 32-bit UVs",
@@ -158,6 +155,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
             result.uv.row(3 * f + k) = layout.uv.row(3 * f + mapped_corner(layout, triangles, f, k));
     result.distortion = {distortion_of(layout, uv, mapped),
                          judge_corners(vertices, triangles, result.uv, layout.reoriented, left_out)};
+    result.turned = layout.reoriented;
     result.parts = std::move(layout.parts);
     for (PartReport& part : result.parts)
         part.angle_error_deg = distortion_of(layout, uv, part.faces).angle_error_deg.mean;
@@ -178,13 +176,11 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
 
 void name_parts(const CanonicalMesh& mesh, PartsResult& result)
 {
-    mesh.name_corners(result.uv);
     mesh.name_values(result.part);
     for (PartReport& part : result.parts) {
         mesh.name_faces(part.faces);
         for (VertexLoop& loop : part.loops) mesh.name_loop(loop);
     }
-    mesh.name_report(result);
 }
 
 }  // namespace
@@ -192,15 +188,13 @@ void name_parts(const CanonicalMesh& mesh, PartsResult& result)
 PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                      ExecutionContext& context)
 {
-    return run_detachable<PartsResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        const auto work = [&](const CanonicalMesh& mesh) {
-            PartsOptions here = options;
-            here.polygon = mesh.of_faces(options.polygon);
-            for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
-            return compute(mesh.vertices, mesh.triangles, here, own);
-        };
-        return in_canonical_form(vertices, triangles, work, name_parts);
-    });
+    const auto compute_here = [options](const CanonicalMesh& mesh, ExecutionContext& own) {
+        PartsOptions here = options;
+        here.polygon = mesh.of_faces(options.polygon);
+        for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
+        return compute(mesh.vertices, mesh.triangles, here, own);
+    };
+    return corner_map<PartsResult>(vertices, triangles, context, compute_here, name_parts);
 }
 
 }  // namespace koebe

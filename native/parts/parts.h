@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/execution.h"
 #include "core/types.h"
-#include "parts/part_map.h"
+#include "evenness/part_map.h"
+#include "execution/execution.h"
 #include "pipeline/result.h"
 
 #include <array>
@@ -38,10 +38,9 @@ struct PartReport {
     double angle_error_deg = 0.0;  ///< mean
 };
 
-/// Converged are parts that are one to one, and lose little as stored (PartsOptions::most_lost).
-struct PartsResult : MapReport {
-    /// (3F, 2) in [0, 1]^2, corner 3 f + k of the input's face f. Across a cut the two sides differ.
-    PlanarPoints uv;
+/// Converged are parts that are one to one, and lose little as stored (PartsOptions::most_lost). The UVs lie in
+/// [0, 1]^2.
+struct PartsResult : CornerMapReport {
     std::vector<Index> part;  ///< (F) of each face; -1: in none, as it is degenerate or the double of another
     std::vector<PartReport> parts;
     double cut_length = 0.0;   ///< of cuts and slits, over the root of the area

@@ -1,7 +1,7 @@
 #include "parts/tube_slit.h"
 
-#include "core/connectivity.h"
 #include "core/length.h"
+#include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <cmath>

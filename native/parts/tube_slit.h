@@ -1,7 +1,7 @@
 // Where a tube is opened.
 #pragma once
 
-#include "parts/splitting.h"
+#include "splitting/splitting.h"
 
 #include <vector>
 

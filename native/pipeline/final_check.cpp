@@ -1,7 +1,7 @@
 #include "pipeline/final_check.h"
 
 #include "circles/crowded_circles.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "planar/boundary_crossings.h"
 #include "quality/stored_uv.h"
 

@@ -16,7 +16,7 @@ constexpr std::size_t few_flips = 4;  // more come of worse than two circles too
 
 /// Makes the inner circles smaller that faces still flipped have a vertex on: where less than an edge is between two
 /// circles, no place on them leaves those faces upright. @return whether there are any
-bool make_room(const Domain& whole, const std::vector<Index>& flipped, CircleMap& map)
+bool make_room(const MapInput& whole, const std::vector<Index>& flipped, CircleMap& map)
 {
     std::set<Index> corners, loops;
     for (const Index f : flipped)
@@ -39,7 +39,7 @@ bool make_room(const Domain& whole, const std::vector<Index>& flipped, CircleMap
 
 }  // namespace
 
-CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
+CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
 {
     if (cut.flaps.empty()) return map;
     const PlanarPoints core_uv = std::move(map.uv);
@@ -50,7 +50,7 @@ CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, Exec
     return map;
 }
 
-UntangleReport remove_flips(const Domain& whole, CircleMap& map, ExecutionContext& context)
+UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionContext& context)
 {
     UntangleReport report;
     RepairEffort effort(whole.surface.triangles.rows());

@@ -2,19 +2,19 @@
 #pragma once
 
 #include "circles/circle_map.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "flaps/flaps.h"
 #include "foldover/untangle.h"
-#include "pipeline/domain.h"
+#include "pipeline/map_input.h"
 
 namespace koebe {
 
 /// Hangs the flaps back (hang_flaps), flips left as they are.
 /// @param map of the core's vertices; of the surface's own if there are no flaps
-CircleMap hang_back(const Domain& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
+CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
 
-/// Turns flipped faces back (untangle); the domain's centre and point stay where they are. Circles between which no
+/// Turns flipped faces back (untangle); the surface's centre and point stay where they are. Circles between which no
 /// place leaves them upright are made smaller. @param map of the whole surface, changed in place
-UntangleReport remove_flips(const Domain& whole, CircleMap& map, ExecutionContext& context);
+UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionContext& context);
 
 }  // namespace koebe

@@ -17,32 +17,32 @@ namespace {
 constexpr Index most_refined_faces = 20000, most_for_the_mesh_engine = 4000;
 constexpr int most_refinements = 3;
 
-std::vector<Index> boundary_of(const Domain& domain)
+std::vector<Index> boundary_of(const MapInput& input)
 {
     std::vector<Index> boundary;
-    for (const VertexLoop& loop : domain.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
+    for (const VertexLoop& loop : input.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
     return boundary;
 }
 
 /// A disk without inner vertices has no harmonic function to speak of: its loop, evenly by length.
-KoebeOutcome polygon_outcome(const Domain& domain)
+KoebeOutcome polygon_outcome(const MapInput& input)
 {
     KoebeOutcome outcome;
-    outcome.loops = {unit_circle_points(arc_length_angles(domain.edges[0]))};
+    outcome.loops = {unit_circle_points(arc_length_angles(input.edges[0]))};
     outcome.converged = true;
     return outcome;
 }
 
-KoebeOutcome run_engine(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
+KoebeOutcome run_engine(const MapInput& input, const AssembledInput& assembled, const UniformizeOptions& options,
                         ExecutionContext& context, const KoebeOutcome* last = nullptr)
 {
     if (options.engine == Engine::mesh)
-        return koebe_mesh(domain.vertices, domain.surface, domain.loops, options, context, options.mesh).outcome;
+        return koebe_mesh(input.vertices, input.surface, input.loops, options, context, options.mesh).outcome;
     if (!assembled.factored) return {};
     const IntrinsicMetric& metric = assembled.metric;
-    return koebe_condensed(assembled.laplacian, *assembled.condensed, domain.loops, domain.edges,
-                           vertex_areas(metric.triangles, metric.lengths, domain.surface.vertex_count), options,
-                           context, last);
+    return koebe_condensed(assembled.laplacian, *assembled.boundary, input.loops, input.edges,
+                           vertex_areas(metric.triangles, metric.lengths, input.surface.vertex_count), options, context,
+                           last);
 }
 
 bool finite(const KoebeOutcome& outcome)
@@ -61,36 +61,36 @@ bool sound(const KoebeOutcome& outcome)
     return circles_apart(circles);
 }
 
-bool more_boundary_than_inside(const Domain& domain)
+bool more_boundary_than_inside(const MapInput& input)
 {
     std::size_t boundary = 0;
-    for (const VertexLoop& loop : domain.loops) boundary += loop.size();
-    return static_cast<std::size_t>(domain.surface.vertex_count) < 2 * boundary;
+    for (const VertexLoop& loop : input.loops) boundary += loop.size();
+    return static_cast<std::size_t>(input.surface.vertex_count) < 2 * boundary;
 }
 
 }  // namespace
 
-void AssembledDomain::take_metric(const Domain& domain)
+void AssembledInput::take_metric(const MapInput& input)
 {
     if (std::exchange(moved, false)) return;
     factored = false;
-    condensed.reset();
+    boundary.reset();
     places.reset();
     uses = 1;
-    metric = intrinsic_metric(domain.vertices, domain.surface);
-    take_laplacian(half_cotangents(metric.lengths), domain);
+    metric = intrinsic_metric(input.vertices, input.surface);
+    take_laplacian(half_cotangents(metric.lengths), input);
 }
 
-void AssembledDomain::take_laplacian(const EdgeLengths& halves, const Domain& domain)
+void AssembledInput::take_laplacian(const EdgeLengths& halves, const MapInput& input)
 {
-    SparseMatrix next = cotan_laplacian(metric.triangles, halves, domain.surface.vertex_count);
+    SparseMatrix next = cotan_laplacian(metric.triangles, halves, input.surface.vertex_count);
     laplacian.swap(next);  // an assignment would copy
 }
 
-bool AssembledDomain::move_metric(const Domain& domain)
+bool AssembledInput::move_metric(const MapInput& input)
 {
     EdgeLengths halves;
-    std::optional<IntrinsicMetric> kept = metric_with_flips_of(metric, domain.vertices, domain.surface, &halves);
+    std::optional<IntrinsicMetric> kept = metric_with_flips_of(metric, input.vertices, input.surface, &halves);
     if (!kept) return false;
     metric = *std::move(kept);
     factored = false;
@@ -99,37 +99,37 @@ bool AssembledDomain::move_metric(const Domain& domain)
         if (!places) places.emplace(metric.triangles, laplacian);
         places->fill(halves, laplacian);
     } else {
-        take_laplacian(halves, domain);
+        take_laplacian(halves, input);
     }
     ++uses;
     return true;
 }
 
-void AssembledDomain::factorize(const Domain& domain, const IterationOptions& options)
+void AssembledInput::factorize(const MapInput& input, const IterationOptions& options)
 {
     try {
-        if (condensed)
-            condensed->renew(laplacian);
+        if (boundary)
+            boundary->renew(laplacian);
         else
-            condensed.emplace(condense(laplacian, domain.loops, options));
+            boundary = condense(laplacian, input.loops, options);
         factored = true;
     } catch (...) {
-        condensed.reset();
+        boundary.reset();
         throw;
     }
 }
 
-void AssembledDomain::reorder(const Domain& domain)
+void AssembledInput::reorder(const MapInput& input)
 {
-    if (!condensed || condensed->reorder_boundary(boundary_of(domain))) return;
-    condensed.reset();
+    if (!boundary || boundary->reorder_boundary(boundary_of(input))) return;
+    boundary.reset();
     factored = false;
 }
 
-KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled, const UniformizeOptions& options,
+KoebeOutcome loop_images(const MapInput& input, const AssembledInput& assembled, const UniformizeOptions& options,
                          ExecutionContext& context, const KoebeOutcome* last)
 {
-    if (is_polygon(domain)) return polygon_outcome(domain);
+    if (is_polygon(input)) return polygon_outcome(input);
     const auto attempt = [&](const auto& run) {
         try {
             return run();
@@ -140,18 +140,18 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
         }
         return KoebeOutcome{};
     };
-    KoebeOutcome outcome = attempt([&] { return run_engine(domain, assembled, options, context, last); });
+    KoebeOutcome outcome = attempt([&] { return run_engine(input, assembled, options, context, last); });
     const bool condensed = options.engine == Engine::condensed;
-    bool wanting = !sound(outcome) || (condensed && more_boundary_than_inside(domain));
-    Domain fine;
+    bool wanting = !sound(outcome) || (condensed && more_boundary_than_inside(input));
+    MapInput fine;
     Index stride = 1;
     for (int level = 0; level < most_refinements && wanting; ++level) {
-        const Domain& coarse = level == 0 ? domain : fine;
+        const MapInput& coarse = level == 0 ? input : fine;
         if (4 * coarse.surface.triangles.rows() > (condensed ? most_refined_faces : most_for_the_mesh_engine)) break;
-        fine = refined_domain(coarse);
+        fine = refined_input(coarse);
         stride *= 2;
         KoebeOutcome finer = attempt([&] {
-            AssembledDomain refined;
+            AssembledInput refined;
             if (condensed) {
                 refined.take_metric(fine);
                 refined.factorize(fine, options);
@@ -160,7 +160,7 @@ KoebeOutcome loop_images(const Domain& domain, const AssembledDomain& assembled,
         });
         wanting = !sound(finer);
         if (!finite(finer) || (wanting && sound(outcome))) continue;
-        for (VectorXcd& image : finer.step_images) image.conservativeResize(domain.surface.vertex_count);
+        for (VectorXcd& image : finer.step_images) image.conservativeResize(input.surface.vertex_count);
         for (VectorXcd& loop : finer.loops) loop = VectorXcd(loop(Eigen::seqN(0, loop.size() / stride, stride)));
         finer.angles.clear();  // of more vertices than the loops have
         outcome = std::move(finer);

@@ -34,7 +34,7 @@ bool is_lost(const Circle& circle, const VectorXcd& image)
 }
 
 /// The images put on their circles: (m, 2), loop after loop. Takes their roundness.
-MatrixXd points_on_circles(const Domain& domain, const FlapCut& cut, const std::vector<VectorXcd>& images,
+MatrixXd points_on_circles(const MapInput& input, const FlapCut& cut, const std::vector<VectorXcd>& images,
                            CircleMap& map)
 {
     std::size_t boundary_count = 0;
@@ -45,7 +45,7 @@ MatrixXd points_on_circles(const Domain& domain, const FlapCut& cut, const std::
         map.roundness.push_back(roundness(images[k], map.circles[k]));
         const VectorXcd projected =
             k == 0 ? project_onto_circle(map.circles[k], images[k], 1,
-                                         rim_room(domain.surface, domain.loops[0], cut.flaps, cut.vertices))
+                                         rim_room(input.surface, input.loops[0], cut.flaps, cut.vertices))
                    : project_onto_circle(map.circles[k], images[k], -1);
         boundary.middleRows(row, projected.size()) << projected.real(), projected.imag();
         row += projected.size();
@@ -54,15 +54,15 @@ MatrixXd points_on_circles(const Domain& domain, const FlapCut& cut, const std::
 }
 
 /// The interior, small circles moved to where it wants them. @return whether map has become one
-bool extend(const DomainSolver& solver, MatrixXd& boundary, AnnulusPosition annulus, CircleMap& map)
+bool extend(const MapSolver& solver, MatrixXd& boundary, AnnulusPosition annulus, CircleMap& map)
 {
-    map.uv = balance_flux(solver.condensed, solver.laplacian, solver.domain.loops, map.circles, boundary, annulus);
+    map.uv = balance_flux(solver.boundary, solver.laplacian, solver.input.loops, map.circles, boundary, annulus);
     return map.uv.allFinite() && circles_apart(map.circles);
 }
 
 }  // namespace
 
-std::optional<CircleMap> map_from_loops(const DomainSolver& solver, const FlapCut& cut, const KoebeOutcome& outcome)
+std::optional<CircleMap> map_from_loops(const MapSolver& solver, const FlapCut& cut, const KoebeOutcome& outcome)
 {
     CircleMap map;
     map.circles.emplace_back();
@@ -77,17 +77,17 @@ std::optional<CircleMap> map_from_loops(const DomainSolver& solver, const FlapCu
     if (!circles_apart(map.circles)) return {};
     std::vector<VectorXcd> images;
     for (const VectorXcd& image : outcome.loops) images.push_back(moebius(image));
-    MatrixXd boundary = points_on_circles(solver.domain, cut, images, map);
+    MatrixXd boundary = points_on_circles(solver.input, cut, images, map);
     if (!extend(solver, boundary, AnnulusPosition::concentric, map)) return {};
     return map;
 }
 
-std::optional<CircleMap> moved_by(const DomainSolver& solver, const CircleMap& map, const Moebius& automorphism)
+std::optional<CircleMap> moved_by(const MapSolver& solver, const CircleMap& map, const Moebius& automorphism)
 {
     CircleMap moved = map;
     for (std::size_t k = 1; k < moved.circles.size(); ++k) moved.circles[k] = automorphism(moved.circles[k]);
     std::vector<Index> rows;
-    for (const VertexLoop& loop : solver.domain.loops) rows.insert(rows.end(), loop.begin(), loop.end());
+    for (const VertexLoop& loop : solver.input.loops) rows.insert(rows.end(), loop.begin(), loop.end());
     MatrixXd boundary = map.uv(rows, Eigen::all);
     const VectorXcd points = automorphism(boundary.col(0) + Complex(0.0, 1.0) * boundary.col(1));
     boundary << points.real(), points.imag();
@@ -95,12 +95,12 @@ std::optional<CircleMap> moved_by(const DomainSolver& solver, const CircleMap& m
     return moved;
 }
 
-std::optional<CircleMap> with_area_balanced(const DomainSolver& solver, const CircleMap& map)
+std::optional<CircleMap> with_area_balanced(const MapSolver& solver, const CircleMap& map)
 {
-    const Domain& domain = solver.domain;
+    const MapInput& input = solver.input;
     double distortion = 0.0;
     const Moebius balance = least_area_distortion(
-        face_scales(domain.vertices, domain.surface.triangles, map.uv, balance_sample, domain.importance), distortion);
+        face_scales(input.vertices, input.surface.triangles, map.uv, balance_sample, input.importance), distortion);
     return moved_by(solver, map, balance);
 }
 

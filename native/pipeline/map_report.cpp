@@ -9,7 +9,7 @@
 namespace koebe {
 namespace {
 
-LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
+LoopReport report_loop(const MapInput& whole, const CircleMap& map, std::size_t k)
 {
     LoopReport report;
     report.circle = map.circles[k];
@@ -35,7 +35,7 @@ LoopReport report_loop(const Domain& whole, const CircleMap& map, std::size_t k)
 
 }  // namespace
 
-void report_map(const Vertices& vertices, const Triangles& triangles, const Domain& whole, const CircleMap& map,
+void report_map(const Vertices& vertices, const Triangles& triangles, const MapInput& whole, const CircleMap& map,
                 UniformizeResult& result)
 {
     result.loops.clear();

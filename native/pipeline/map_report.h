@@ -2,16 +2,16 @@
 #pragma once
 
 #include "circles/circle_map.h"
-#include "pipeline/domain.h"
+#include "pipeline/map_input.h"
 #include "pipeline/result.h"
 
 namespace koebe {
 
 /// Fills uv, loops and distortion of the result. A loop vertex is off its circle if the map says so or if it lies
 /// farther from it than circle_tolerance.
-/// @param vertices, triangles of the input: as a reader of the result has them @param map of the domain
+/// @param vertices, triangles of the input: as a reader of the result has them @param map of the surface
 /// @param result of a mesh of result.vertex_count vertices
-void report_map(const Vertices& vertices, const Triangles& triangles, const Domain& whole, const CircleMap& map,
+void report_map(const Vertices& vertices, const Triangles& triangles, const MapInput& whole, const CircleMap& map,
                 UniformizeResult& result);
 
 }  // namespace koebe

@@ -1,8 +1,9 @@
 #include "pipeline/map_warnings.h"
 
 #include "circles/off_circle.h"
-#include "core/connectivity.h"
 #include "core/counted.h"
+#include "mesh/connectivity.h"
+#include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::string figure(double value)
 }
 
 /// Some faces in the input's numbering, rising.
-std::vector<Index> input_faces(const Domain& whole, const std::vector<Index>& faces)
+std::vector<Index> input_faces(const MapInput& whole, const std::vector<Index>& faces)
 {
     std::vector<Index> result;
     for (const Index f : faces) result.push_back(whole.original_faces[f]);
@@ -32,7 +33,7 @@ std::vector<Index> input_faces(const Domain& whole, const std::vector<Index>& fa
     return result;
 }
 
-Warning flap_warning(const Domain& whole, const std::vector<Flap>& flaps)
+Warning flap_warning(const MapInput& whole, const std::vector<Flap>& flaps)
 {
     std::vector<Index> faces;
     std::size_t rim = 0, inner = 0;
@@ -63,7 +64,7 @@ struct LostRegion {
     double shortest = 0.0;  // longest edge of the smallest face, in UV units and 64 bits
 };
 
-std::vector<LostRegion> lost_regions(const Domain& whole, const PlanarPoints& uv)
+std::vector<LostRegion> lost_regions(const MapInput& whole, const PlanarPoints& uv)
 {
     const Triangles& triangles = whole.surface.triangles;
     std::vector<char> met(triangles.rows(), 0), flipped(triangles.rows(), 0);
@@ -133,19 +134,18 @@ std::vector<Warning> circle_warnings(const CircleMap& map)
     return warnings;
 }
 
-std::vector<Warning> input_warnings(const Domain& whole)
+std::vector<Warning> input_warnings(const MapInput& whole)
 {
     std::vector<Warning> warnings;
     if (const auto& unused = whole.surface.unused; !unused.empty())
         warnings.push_back({WarningKind::unused_vertices,
                             "vertices of no face, put at the centre: " + std::to_string(unused.size()), unused});
-    if (const auto& turned = whole.surface.reoriented; !turned.empty())
-        warnings.push_back(
-            {WarningKind::reoriented_faces, counted(turned.size(), "face") + " turned to the orientation of the others",
-             turned,
-             2 * turned.size() == static_cast<std::size_t>(whole.surface.triangles.rows())
-                 ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
-                 : ""});
+    const auto& turned = whole.surface.reoriented;
+    warn_reoriented(
+        turned, warnings,
+        2 * turned.size() == static_cast<std::size_t>(whole.surface.triangles.rows())
+            ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
+            : "");
     if (whole.thinnest < delicate)
         warnings.push_back(
             {WarningKind::thin_faces,
@@ -170,7 +170,7 @@ std::vector<Warning> iteration_warnings(const KoebeOutcome& outcome, bool no_cir
     return warnings;
 }
 
-std::vector<Warning> flip_warnings(const Domain& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
+std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
                                    const UntangleReport& untangled, const Distortion& distortion)
 {
     std::vector<Warning> warnings;

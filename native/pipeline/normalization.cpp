@@ -26,8 +26,8 @@ Circle image_of(const Circle& circle, const Moebius& moebius)
     return {moebius(circle).center, radius};
 }
 
-/// Where the centre lies in a map of the solver's domain, drawn with its flap if it lies in one.
-Complex center_of(const Domain& whole, const FlapCut& cut, const CircleMap& map, ExecutionContext& context)
+/// Where the centre lies in a map of the solver's surface, drawn with its flap if it lies in one.
+Complex center_of(const MapInput& whole, const FlapCut& cut, const CircleMap& map, ExecutionContext& context)
 {
     if (cut.flaps.empty()) return at(map.uv, whole.center);
     const auto kept = std::ranges::find(cut.vertices, whole.center);
@@ -37,7 +37,7 @@ Complex center_of(const Domain& whole, const FlapCut& cut, const CircleMap& map,
 
 }  // namespace
 
-CircleMap with_center_moved(const DomainSolver& solver, const Domain& whole, const FlapCut& cut, const CircleMap& map,
+CircleMap with_center_moved(const MapSolver& solver, const MapInput& whole, const FlapCut& cut, const CircleMap& map,
                             ExecutionContext& context)
 {
     CircleMap best = map;
@@ -61,7 +61,7 @@ CircleMap with_center_moved(const DomainSolver& solver, const Domain& whole, con
     return best;
 }
 
-void move_points(const Domain& whole, const Moebius& moebius, CircleMap& map)
+void move_points(const MapInput& whole, const Moebius& moebius, CircleMap& map)
 {
     for (std::size_t k = 1; k < map.circles.size(); ++k) map.circles[k] = image_of(map.circles[k], moebius);
     const VectorXcd before = map.uv.col(0) + Complex(0.0, 1.0) * map.uv.col(1);
@@ -71,7 +71,7 @@ void move_points(const Domain& whole, const Moebius& moebius, CircleMap& map)
     map.uv << points.real(), points.imag();
 }
 
-void put_in_place(const Domain& whole, CircleMap& map)
+void put_in_place(const MapInput& whole, CircleMap& map)
 {
     if (held_vertices(whole).empty()) return;
     Moebius moebius;
@@ -87,7 +87,7 @@ void put_in_place(const Domain& whole, CircleMap& map)
     if (whole.point >= 0) map.uv.row(whole.point) << 1.0, 0.0;
 }
 
-std::vector<Index> held_vertices(const Domain& whole)
+std::vector<Index> held_vertices(const MapInput& whole)
 {
     std::vector<Index> held;
     for (const Index v : {whole.center, whole.point})

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/types.h"
+#include "iteration/iteration_options.h"
 #include "iteration/koebe_mesh_options.h"
-#include "iteration/koebe_outcome.h"
 #include "quality/verdict.h"
 
 #include <vector>

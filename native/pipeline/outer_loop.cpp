@@ -20,21 +20,20 @@ void move_to_front(std::vector<T>& list, int place)
 
 }  // namespace
 
-int better_outer_loop(const Domain& domain, const CircleMap& map)
+int better_outer_loop(const MapInput& input, const CircleMap& map)
 {
     std::vector<int> longest(std::min(map.circles.size(), most_candidates));
     std::iota(longest.begin(), longest.end(), 0);
-    return balanced_outer_loop(
-        face_scales(domain.vertices, domain.surface.triangles, map.uv, sample, domain.importance), map.circles,
-        longest);
+    return balanced_outer_loop(face_scales(input.vertices, input.surface.triangles, map.uv, sample, input.importance),
+                               map.circles, longest);
 }
 
-void put_outside(int loop, Domain& whole, FlapCut& cut, std::optional<Domain>& core)
+void put_outside(int loop, MapInput& whole, FlapCut& cut, std::optional<MapInput>& core)
 {
-    for (Domain* domain : {&whole, core ? &*core : nullptr}) {
-        if (!domain) continue;
-        move_to_front(domain->loops, loop);
-        move_to_front(domain->edges, loop);
+    for (MapInput* input : {&whole, core ? &*core : nullptr}) {
+        if (!input) continue;
+        move_to_front(input->loops, loop);
+        move_to_front(input->edges, loop);
     }
     whole.outer_rank = rank_by_lowest_vertex(whole, whole.loops[0]);
     if (core) core->outer_rank = whole.outer_rank;

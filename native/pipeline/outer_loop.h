@@ -2,7 +2,7 @@
 #pragma once
 
 #include "circles/circle_map.h"
-#include "pipeline/domain.h"
+#include "pipeline/map_input.h"
 
 #include <optional>
 
@@ -10,10 +10,10 @@ namespace koebe {
 
 /// The loop that, on the unit circle and balanced, leaves the least area distortion (balanced_outer_loop): one of the
 /// eight longest, 0 unless another is better by a fifth.
-int better_outer_loop(const Domain& domain, const CircleMap& map);
+int better_outer_loop(const MapInput& input, const CircleMap& map);
 
 /// Puts a loop first in the lists of loops, and the others after it in the order they have.
-/// @param loop its place in them @param core the domain without flaps, if there are flaps
-void put_outside(int loop, Domain& whole, FlapCut& cut, std::optional<Domain>& core);
+/// @param loop its place in them @param core the surface without flaps, if there are flaps
+void put_outside(int loop, MapInput& whole, FlapCut& cut, std::optional<MapInput>& core);
 
 }  // namespace koebe

@@ -1,12 +1,12 @@
 // A surface on its way to a map, and what of it stays when its vertices move.
 #pragma once
 
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "flaps/flaps.h"
 #include "iteration/angle_forecast.h"
-#include "pipeline/domain.h"
 #include "pipeline/loop_images.h"
 #include "pipeline/map_from_loops.h"
+#include "pipeline/map_input.h"
 #include "pipeline/result.h"
 
 #include <functional>
@@ -14,26 +14,26 @@
 
 namespace koebe {
 
-/// The domain of a run, and what it is mapped with.
+/// The surface of a run, and what it is mapped with.
 struct Problem {
-    Domain whole;
+    MapInput whole;
     FlapCut cut;
-    std::optional<Domain> core;  ///< without the flaps, if there are flaps
-    AssembledDomain assembled;   ///< of domain()
-    KoebeOutcome outcome;        ///< of the last run on it: where the next one begins
-    AngleForecast forecast;      ///< of the runs on it: with which angles
-    Index vertex_count = 0;      ///< of the input
+    std::optional<MapInput> core;  ///< without the flaps, if there are flaps
+    AssembledInput assembled;      ///< of input()
+    KoebeOutcome outcome;          ///< of the last run on it: where the next one begins
+    AngleForecast forecast;        ///< of the runs on it: with which angles
+    Index vertex_count = 0;        ///< of the input
     VectorXcd first_places;  ///< of the input's vertices: where lay_over_first is to bring them, NaN inside, or none
 
-    const Domain& domain() const { return core ? *core : whole; }
-    DomainSolver solver() const { return {*assembled.condensed, assembled.laplacian, domain()}; }
+    const MapInput& input() const { return core ? *core : whole; }
+    MapSolver solver() const { return {*assembled.boundary, assembled.laplacian, input()}; }
 };
 
 /// @throws InputError, TopologyError, OutOfMemory
 Problem prepare_problem(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
 
 /// Whether the first map is to choose the outer loop: with Balance::area, unless something else does.
-bool chooses_outer_loop(const UniformizeOptions& options, const Domain& domain);
+bool chooses_outer_loop(const UniformizeOptions& options, const MapInput& input);
 
 /// The same surface with its vertices elsewhere. Topology, outer loop, triangulation and order of elimination stay, and
 /// the angles of the last maps.

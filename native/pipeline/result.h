@@ -1,10 +1,10 @@
-// What a uniformization gives: the map, and the report that every front end passes on.
+// What a uniformization gives: the map, and its report.
 #pragma once
 
 #include "core/types.h"
-#include "core/warning.h"
+#include "iteration/koebe_outcome.h"
 #include "pipeline/options.h"
-#include "quality/distortion.h"
+#include "quality/report.h"
 
 #include <optional>
 #include <vector>
@@ -19,34 +19,6 @@ struct LoopReport {
     std::vector<Index> off_circle;     ///< vertices that are not on the circle
     bool shrunk =
         false;  ///< whether the circle is not the surface's: another than the iteration's, or lost in rounding
-};
-
-struct StageSeconds {
-    double read = 0.0, topology = 0.0, metric = 0.0, factor = 0.0, iterate = 0.0, finish = 0.0, write = 0.0,
-           total = 0.0;
-
-    StageSeconds& operator+=(const StageSeconds& other)
-    {
-        read += other.read;
-        topology += other.topology;
-        metric += other.metric;
-        factor += other.factor;
-        iterate += other.iterate;
-        finish += other.finish;
-        write += other.write;
-        total += other.total;
-        return *this;
-    }
-};
-
-/// What every map reports, whatever its domain.
-struct MapReport {
-    Index vertex_count = 0, face_count = 0;
-    bool converged = false;  ///< false: the map is not done, and a warning says why
-    Distortion distortion;
-    StageSeconds seconds;
-    double peak_memory_mb = 0.0;
-    std::vector<Warning> warnings;
 };
 
 struct UniformizeResult : MapReport {

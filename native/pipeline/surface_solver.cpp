@@ -1,8 +1,8 @@
 #include "pipeline/surface_solver.h"
 
-#include "core/detachable_run.h"
 #include "core/errors.h"
-#include "core/topology.h"
+#include "execution/detachable_run.h"
+#include "mesh/topology.h"
 #include "pipeline/problem.h"
 
 #include <string>

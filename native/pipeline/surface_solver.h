@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 #include "pipeline/result.h"
 
 #include <memory>

@@ -3,13 +3,13 @@
 #include "circles/boundary_angles.h"
 #include "circles/circle_projection.h"
 #include "circles/crowded_circles.h"
-#include "core/detachable_run.h"
 #include "core/errors.h"
-#include "core/peak_memory.h"
-#include "core/stopwatch.h"
-#include "core/thread_share.h"
 #include "embedding/embedded_map.h"
 #include "embedding/fixed_places.h"
+#include "execution/detachable_run.h"
+#include "execution/peak_memory.h"
+#include "execution/stopwatch.h"
+#include "execution/thread_share.h"
 #include "foldover/angle_polish.h"
 #include "linear/dense_spd.h"
 #include "pipeline/final_check.h"
@@ -20,7 +20,7 @@
 #include "pipeline/normalization.h"
 #include "pipeline/outer_loop.h"
 #include "pipeline/problem.h"
-#include "pipeline/take_verdict.h"
+#include "quality/take_verdict.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
     if (!problem.assembled.factored) {
         context.begin_stage("factor", at(0.0), at(0.45));
         try {
-            problem.assembled.factorize(problem.domain(), options);
+            problem.assembled.factorize(problem.input(), options);
         } catch (const OutOfMemory&) {
             throw;
         } catch (const SolverError&) {  // the map is made without it, and says so
@@ -58,7 +58,7 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
     }
     seconds.factor += stage.lap();
     context.begin_stage("iterate", at(0.45), at(0.95));
-    problem.outcome = loop_images(problem.domain(), problem.assembled, options, context, &problem.outcome);
+    problem.outcome = loop_images(problem.input(), problem.assembled, options, context, &problem.outcome);
     seconds.iterate += stage.lap();
     context.begin_stage("finish", at(0.95), at(1.0));
     if (!problem.assembled.factored || problem.outcome.loops.empty()) return {};
@@ -69,7 +69,7 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
 
 /// The map that is one to one from the start (embedded_map), on the circles of the iteration if it has found any.
 /// @param failed the map that the iteration led to, if it led to one
-CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<CircleMap>& failed, FixedPlaces places,
+CircleMap embed(const MapInput& whole, const FlapCut& cut, const std::optional<CircleMap>& failed, FixedPlaces places,
                 ExecutionContext& context)
 {
     const VectorXcd even = unit_circle_points(arc_length_angles(whole.edges[0]));
@@ -94,7 +94,7 @@ CircleMap embed(const Domain& whole, const FlapCut& cut, const std::optional<Cir
 }
 
 /// The map polished, unless that brings a fault, though the polish looks after faces, circles and loops itself.
-void polish(const Domain& whole, CircleMap& map, MapFaults& faults, ExecutionContext& context)
+void polish(const MapInput& whole, CircleMap& map, MapFaults& faults, ExecutionContext& context)
 {
     PlanarPoints before = map.uv;
     polish_angles(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv, context,
@@ -107,14 +107,14 @@ void polish(const Domain& whole, CircleMap& map, MapFaults& faults, ExecutionCon
 }
 
 /// The image of each step on the input's vertices.
-std::vector<PlanarPoints> on_input(const std::vector<VectorXcd>& images, const Domain& domain, Index vertex_count)
+std::vector<PlanarPoints> on_input(const std::vector<VectorXcd>& images, const MapInput& input, Index vertex_count)
 {
     std::vector<PlanarPoints> result;
     for (const VectorXcd& image : images) {
         result.push_back(PlanarPoints::Constant(vertex_count, 2, std::numeric_limits<double>::quiet_NaN()));
         for (Eigen::Index v = 0; v < image.size(); ++v)
             if (std::isfinite(std::norm(image[v])))
-                result.back().row(domain.original[v]) << image[v].real(), image[v].imag();
+                result.back().row(input.original[v]) << image[v].real(), image[v].imag();
     }
     return result;
 }
@@ -147,13 +147,13 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
 
     context.begin_stage("topology", 0.0, 0.05);
     Problem& problem = prepare();
-    const Domain& whole = problem.whole;
+    const MapInput& whole = problem.whole;
     result.vertex_count = problem.vertex_count;
     result.face_count = static_cast<Index>(whole.surface.triangles.rows());
     result.seconds.topology = stage.lap();
 
     context.begin_stage("metric", 0.05, 0.15);
-    problem.assembled.take_metric(problem.domain());
+    problem.assembled.take_metric(problem.input());
     result.seconds.metric = stage.lap();
 
     // With the outer loop to be chosen the map is perhaps made twice, first on the longest loop.
@@ -164,9 +164,9 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
             measure_distortion(whole.vertices, whole.surface.triangles, hang_back(whole, problem.cut, *map, context).uv)
                 .area;
     if (map && choose)
-        if (const int outer = better_outer_loop(problem.domain(), *map); outer != 0) {
+        if (const int outer = better_outer_loop(problem.input(), *map); outer != 0) {
             put_outside(outer, problem.whole, problem.cut, problem.core);
-            problem.assembled.reorder(problem.domain());
+            problem.assembled.reorder(problem.input());
             result.seconds.finish += stage.lap();
             map = iterate(problem, options, 0.5, 0.9, context, stage, result.seconds);
         }
@@ -177,7 +177,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     result.sweeps = problem.outcome.sweeps;
     result.steps = problem.outcome.steps;
     result.history = problem.outcome.history;
-    result.step_images = on_input(problem.outcome.step_images, problem.domain(), result.vertex_count);
+    result.step_images = on_input(problem.outcome.step_images, problem.input(), result.vertex_count);
 
     context.begin_stage("finish", 0.9, 1.0);
     UntangleReport untangled;

@@ -1,7 +1,7 @@
 #include "planar/planar_mesh.h"
 
-#include "core/connectivity.h"
 #include "core/errors.h"
+#include "mesh/connectivity.h"
 #include "planar/planar_predicates.h"
 #include "planar/planar_region.h"
 #include "planar/size_field.h"

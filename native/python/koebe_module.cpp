@@ -7,15 +7,15 @@
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
 #include "core/tolerances.h"
-#include "core/topology.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 #include "linear/dense_spd.h"
+#include "mesh/topology.h"
+#include "opened/cut_uniformize.h"
+#include "opened/cut_warnings.h"
 #include "parts/parts.h"
-#include "pipeline/cut_uniformize.h"
-#include "pipeline/cut_warnings.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
 #include "report/cut_json.h"
@@ -292,7 +292,7 @@ PYBIND11_MODULE(_koebe, m)
     py::class_<SphereResult, MapReport>(m, "SphereResult")
         .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
         .def_property_readonly("uv", [](const SphereResult& r) { return r.uv; })
-        .def("report", [](const SphereResult& r, SphereLayout layout) { return to_object(to_json(r, layout)); });
+        .def("report", [](const SphereResult& r, SphereLayout) { return to_object(to_json(r)); });
     m.def("sphere_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const SphereOptions& options, const py::object& progress, const CancelToken& cancel) {
         return without_gil(progress, cancel, [&](ExecutionContext& context) {

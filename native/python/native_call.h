@@ -1,7 +1,7 @@
 // How Python calls the library: without the GIL, stopped by Ctrl-C, and over before the interpreter is.
 #pragma once
 
-#include "core/detachable_run.h"
+#include "execution/detachable_run.h"
 
 #include <pybind11/pybind11.h>
 

@@ -1,10 +1,11 @@
 #include "quality/distortion.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace koebe {
 namespace {
@@ -120,6 +121,16 @@ ComputedDistortion measure_distortion(const Vertices& vertices, const Triangles&
     }
     result.conformal_energy = sums.dirichlet - sums.image_area;
     return result;
+}
+
+ComputedDistortion measure_corner_distortion(const Vertices& vertices, const Triangles& triangles,
+                                             const PlanarPoints& corners)
+{
+    Triangles apart(triangles.rows(), 3);
+    std::iota(apart.data(), apart.data() + apart.size(), 0);
+    Vertices corner_vertices(triangles.size(), 3);
+    for (Eigen::Index c = 0; c < triangles.size(); ++c) corner_vertices.row(c) = vertices.row(triangles.data()[c]);
+    return measure_distortion(corner_vertices, apart, corners);
 }
 
 }  // namespace koebe

@@ -37,4 +37,8 @@ struct Distortion : ComputedDistortion, Verdict {};
 KOEBE_API ComputedDistortion measure_distortion(const Vertices& vertices, const Triangles& triangles,
                                                 const PlanarPoints& uv);
 
+/// The same of a map that gives each corner a point of its own. @param corners (3F, 2) of corner 3 f + k of face f
+ComputedDistortion measure_corner_distortion(const Vertices& vertices, const Triangles& triangles,
+                                             const PlanarPoints& corners);
+
 }  // namespace koebe

@@ -1,6 +1,6 @@
 #include "quality/verdict.h"
 
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "quality/stored_uv.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "report/cut_json.h"
 
-#include "pipeline/cut_warnings.h"
+#include "opened/cut_warnings.h"
 #include "report/json.h"
 
 namespace koebe {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/api.h"
-#include "pipeline/cut_uniformize.h"
+#include "opened/cut_uniformize.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // The JSON report of a map to a fundamental domain of a Schottky group.
 #pragma once
 
-#include "domains/schottky_map.h"
+#include "schottky/schottky_map.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #include "report/schottky_svg.h"
 
-#include "domains/group_word.h"
+#include "schottky/group_word.h"
 
 #include <algorithm>
 #include <cmath>

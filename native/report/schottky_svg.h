@@ -1,7 +1,7 @@
 // A picture of a fundamental domain of a Schottky group, and of the circles of its copies.
 #pragma once
 
-#include "domains/schottky_map.h"
+#include "schottky/schottky_map.h"
 
 #include <string>
 

@@ -19,7 +19,7 @@ Json cap_json(const SphereLoop& loop)
 
 }  // namespace
 
-Json to_json(const SphereResult& result, SphereLayout layout)
+Json to_json(const SphereResult& result)
 {
     Json loops = Json::array();
     for (const SphereLoop& loop : result.loops) loops.push_back(cap_json(loop));
@@ -33,7 +33,7 @@ Json to_json(const SphereResult& result, SphereLayout layout)
                                  {{"flipped", result.flipped_on_sphere.size()},
                                   {"below_resolution", result.below_sphere_resolution.size()}}},
                                 {"layout",
-                                 {{"kind", to_string(layout)},
+                                 {{"kind", to_string(result.layout.kind)},
                                   {"crossing", result.layout.crossing},
                                   {"torn", result.layout.torn},
                                   {"flipped", result.layout.flipped},

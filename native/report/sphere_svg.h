@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "domains/sphere_map.h"
+#include "sphere/sphere_map.h"
 
 #include <string>
 

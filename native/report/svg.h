@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/polygon_mesh.h"
-#include "pipeline/cut_uniformize.h"
+#include "opened/cut_uniformize.h"
 #include "pipeline/result.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/api.h"
-#include "domains/tile_map.h"
+#include "tiles/tile_map.h"
 
 #include <nlohmann/json.hpp>
 

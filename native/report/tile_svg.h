@@ -1,7 +1,7 @@
 // A picture of a tile and its copies.
 #pragma once
 
-#include "domains/tile_map.h"
+#include "tiles/tile_map.h"
 
 #include <string>
 

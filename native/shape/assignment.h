@@ -1,8 +1,8 @@
 // Who goes with whom at the least cost.
 #pragma once
 
-#include "core/execution.h"
 #include "core/types.h"
+#include "execution/execution.h"
 
 #include <vector>
 

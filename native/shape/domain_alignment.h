@@ -3,7 +3,7 @@
 
 #include "circles/moebius.h"
 #include "core/api.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 
 #include <vector>
 

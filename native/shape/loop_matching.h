@@ -3,7 +3,7 @@
 
 #include "circles/circle.h"
 #include "core/api.h"
-#include "core/execution.h"
+#include "execution/execution.h"
 
 #include <vector>
 

@@ -9,7 +9,7 @@
 namespace koebe {
 
 /// @param surface condensed to its boundary @param areas (V) area around each vertex
-Index deepest_vertex(const CondensedLaplacian& surface, const VectorXd& areas);
+Index deepest_vertex(BoundarySolver& surface, const VectorXd& areas);
 
 /// The same for a surface whose Laplacian is not at hand. @param outer (V) 1 for boundary vertices and those of no face
 /// @return -1 without inner vertices

@@ -1,6 +1,6 @@
 #include "surface/edge_flip.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 namespace koebe {
 

@@ -1,7 +1,7 @@
 #include "surface/intrinsic_metric.h"
 
-#include "core/connectivity.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
+#include "mesh/connectivity.h"
 #include "surface/edge_flip.h"
 
 #include <algorithm>

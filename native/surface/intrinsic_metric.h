@@ -1,7 +1,7 @@
 // Edge lengths without a surface in space: mollified, and flipped to intrinsic Delaunay.
 #pragma once
 
-#include "core/topology.h"
+#include "mesh/topology.h"
 #include "surface/laplacian.h"
 
 #include <optional>

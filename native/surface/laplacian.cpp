@@ -1,7 +1,7 @@
 #include "surface/laplacian.h"
 
 #include "core/length.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 
 #include <algorithm>
 #include <cmath>

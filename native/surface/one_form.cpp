@@ -1,6 +1,6 @@
 #include "surface/one_form.h"
 
-#include "core/connectivity.h"
+#include "mesh/connectivity.h"
 
 namespace koebe {
 

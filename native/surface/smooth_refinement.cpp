@@ -1,6 +1,6 @@
 #include "surface/smooth_refinement.h"
 
-#include "core/topology.h"
+#include "mesh/topology.h"
 
 #include <Eigen/Geometry>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/execution.h"
 #include "core/warning.h"
+#include "execution/execution.h"
 #include "pipeline/result.h"
 #include "shape/domain_alignment.h"
 #include "transfer/landmark_map.h"

@@ -13,6 +13,12 @@
 #include <numbers>
 #include <string>
 
+// What the library maps to, each declared by koebe.h.
+static_assert(sizeof(koebe::CutUniformizeResult) > 0 && sizeof(koebe::PartsResult) > 0);
+static_assert(sizeof(koebe::TileResult) > 0 && sizeof(koebe::SphereResult) > 0 && sizeof(koebe::SchottkyResult) > 0);
+static_assert(sizeof(koebe::OpenedSurface) > 0 && sizeof(koebe::SurfaceSolver) > 0);
+static_assert(sizeof(koebe::Correspondence) > 0 && sizeof(koebe::SurfacePoint) > 0);
+
 int main()
 {
     constexpr int sectors = 60, rings = 24;

@@ -2,14 +2,14 @@
 #include "promise_check.h"
 #include "surface_facts.h"
 
-#include "core/connectivity.h"
+#include "canonical/canonical_form.h"
 #include "core/errors.h"
-#include "core/halfedge_mesh.h"
-#include "core/topology.h"
 #include "flaps/flaps.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
-#include "pipeline/canonical_form.h"
+#include "mesh/connectivity.h"
+#include "mesh/halfedge_mesh.h"
+#include "mesh/topology.h"
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>

@@ -1,14 +1,14 @@
 #include "promise_check.h"
 #include "targets.h"
 
-#include "domains/schottky_map.h"
-#include "domains/sphere_map.h"
-#include "domains/tile_map.h"
 #include "parts/parts.h"
 #include "report/parts_json.h"
 #include "report/schottky_json.h"
 #include "report/sphere_json.h"
 #include "report/tile_json.h"
+#include "schottky/schottky_map.h"
+#include "sphere/sphere_map.h"
+#include "tiles/tile_map.h"
 
 #include <algorithm>
 #include <cmath>

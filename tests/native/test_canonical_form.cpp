@@ -1,6 +1,6 @@
+#include "canonical/canonical_form.h"
+#include "canonical/canonical_mesh.h"
 #include "circle_domain.h"
-#include "pipeline/canonical_form.h"
-#include "pipeline/canonical_mesh.h"
 #include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #include "circle_domain.h"
 #include "core/errors.h"
 #include "damaged_meshes.h"
-#include "pipeline/cut_uniformize.h"
-#include "pipeline/disk_packing.h"
+#include "opened/cut_uniformize.h"
+#include "opened/disk_packing.h"
 #include "pipeline/uniformize.h"
 #include "quality/stored_uv.h"
 

@@ -1,4 +1,4 @@
-#include "core/detachable_run.h"
+#include "execution/detachable_run.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "circles/moebius.h"
 #include "conformal/disk_map.h"
 #include "core/errors.h"
-#include "core/topology.h"
+#include "mesh/topology.h"
 #include "random_disks.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "circle_domain.h"
 #include "core/errors.h"
-#include "core/topology.h"
 #include "holes/fan_filling.h"
+#include "mesh/topology.h"
 #include "surface/laplacian.h"
 
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 #include "circle_domain.h"
 #include "core/errors.h"
-#include "core/memory_limit.h"
+#include "execution/memory_limit.h"
 #include "pipeline/final_check.h"
 #include "pipeline/refinement.h"
 #include "pipeline/uniformize.h"
@@ -120,11 +120,11 @@ TEST(BoundaryCrossings, a_hole_that_runs_as_its_rim_does_is_turned)
     EXPECT_TRUE(turned_loops({rim, turned}, points, 1.0).empty());  // too narrow to be told from a line
 }
 
-TEST(RefinedDomain, has_the_same_metric_and_every_second_loop_vertex)
+TEST(RefinedInput, has_the_same_metric_and_every_second_loop_vertex)
 {
     const CircleDomain domain = make_circle_domain(five_circles(), 300);
-    const Domain coarse = prepare_domain(lift(domain.points, Lift::enneper), domain.triangles, {});
-    const Domain fine = refined_domain(coarse);
+    const MapInput coarse = prepare_input(lift(domain.points, Lift::enneper), domain.triangles, {});
+    const MapInput fine = refined_input(coarse);
     EXPECT_EQ(fine.surface.triangles.rows(), 4 * coarse.surface.triangles.rows());
     const Surface checked = analyze_surface(fine.surface.triangles, fine.surface.vertex_count);
     EXPECT_EQ(checked.loops.size(), coarse.loops.size());

@@ -1,6 +1,7 @@
 #include "balance/flux_balance.h"
 #include "circle_domain.h"
 #include "circles/moebius.h"
+#include "linear/condensed_laplacian.h"
 #include "quality/distortion.h"
 #include "surface/laplacian.h"
 

@@ -1,6 +1,6 @@
 #include "circle_domain.h"
 #include "core/errors.h"
-#include "core/halfedge_mesh.h"
+#include "mesh/halfedge_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "transfer/correspondence.h"
 
 #include "circle_domain.h"
-#include "core/connectivity.h"
 #include "core/errors.h"
+#include "mesh/connectivity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "core/errors.h"
-#include "domains/finer_faces.h"
-#include "domains/group_word.h"
-#include "domains/linear_fractional.h"
+#include "schottky/finer_faces.h"
+#include "schottky/group_word.h"
+#include "schottky/linear_fractional.h"
 
 #include <gtest/gtest.h>
 

@@ -184,7 +184,7 @@ TEST(Normalization, the_center_alone_turns_nothing_and_the_point_alone_only_turn
 TEST(Normalization, put_in_place_is_exact_and_changes_nothing_the_second_time)
 {
     const CircleDomain domain = make_circle_domain(five_circles(), 1000);
-    Domain whole;
+    MapInput whole;
     whole.loops = domain.loops;
     whole.center = inside_near(domain, {-0.4, -0.55});
     whole.point = domain.loops[0][7];

@@ -2,7 +2,7 @@
 #include "io/obj_writer.h"
 
 #include "core/errors.h"
-#include "core/thread_share.h"
+#include "execution/thread_share.h"
 #include "io/mesh_reader.h"
 #include "io/text_writer.h"
 #include "random_polygons.h"

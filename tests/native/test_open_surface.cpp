@@ -1,8 +1,8 @@
 // Laws of open_surface: whatever comes in, what comes out can be mapped, and every face is accounted for.
 #include "core/errors.h"
-#include "core/topology.h"
 #include "cut/open_surface.h"
 #include "damaged_meshes.h"
+#include "mesh/topology.h"
 
 #include <gtest/gtest.h>
 

@@ -2,17 +2,17 @@
 #include "circle_domain.h"
 #include "temporary_folder.h"
 
-#include "core/connectivity.h"
+#include "canonical/canonical_form.h"
 #include "core/errors.h"
-#include "core/thread_share.h"
-#include "core/topology.h"
+#include "execution/thread_share.h"
 #include "io/file_error.h"
 #include "io/mesh_reader.h"
 #include "io/mesh_writer.h"
 #include "io/polygon_triangulation.h"
 #include "linear/condensed_laplacian.h"
 #include "linear/dense_spd.h"
-#include "pipeline/canonical_form.h"
+#include "mesh/connectivity.h"
+#include "mesh/topology.h"
 #include "surface/intrinsic_metric.h"
 #include "surface/laplacian.h"
 
@@ -230,7 +230,7 @@ TEST(Passes, extensions_and_fluxes)
     for (Eigen::Index b = 0; b < values.rows(); ++b) values.row(b) << std::sin(0.1 * b), std::cos(0.3 * b);
     for (const Index grounded : {Index{0}, outer})
         expect_same_bits([&] {
-            const CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, grounded);
+            CondensedLaplacian condensed(laplacian, boundary, Ordering::amd, grounded);
             MatrixXd extension = condensed.extend(values);
             const VectorXd load = extension.col(0);
             InteriorSolution inner = condensed.solve_interior(load);

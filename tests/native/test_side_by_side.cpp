@@ -1,5 +1,5 @@
 #include "core/errors.h"
-#include "core/side_by_side.h"
+#include "execution/side_by_side.h"
 
 #include <gtest/gtest.h>
 

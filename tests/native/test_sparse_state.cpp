@@ -1,6 +1,7 @@
 #include "circle_domain.h"
 #include "circles/circle_fit.h"
 #include "iteration/koebe_condensed.h"
+#include "linear/condensed_laplacian.h"
 #include "surface/laplacian.h"
 
 #include <gtest/gtest.h>
@@ -33,11 +34,12 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
     options.method = method;
     options.tolerance = 1e-9;
     options.in_turn = in_turn;
-    const CondensedLaplacian condensed = condense(laplacian, domain.loops, options, most_condensed);
-    EXPECT_EQ(condensed.has_sigma(), domain.loops.size() == 1 || most_condensed > 0);
+    const std::unique_ptr<BoundarySolver> condensed = condense(laplacian, domain.loops, options, most_condensed);
+    EXPECT_EQ(dynamic_cast<const CondensedLaplacian*>(condensed.get()) != nullptr,
+              domain.loops.size() == 1 || most_condensed > 0);
     ExecutionContext context;
     KoebeRun result;
-    result.outcome = koebe_condensed(laplacian, condensed, domain.loops, edges,
+    result.outcome = koebe_condensed(laplacian, *condensed, domain.loops, edges,
                                      vertex_areas(domain.triangles, lengths, count), options, context);
     for (const VectorXcd& loop : result.outcome.loops) result.circles.push_back(fit_circle_least_squares(loop));
     return result;

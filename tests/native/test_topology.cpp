@@ -1,6 +1,6 @@
-#include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/topology.h"
+#include "mesh/connectivity.h"
+#include "mesh/topology.h"
 
 #include <gtest/gtest.h>
 

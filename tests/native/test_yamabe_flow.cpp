@@ -2,9 +2,9 @@
 #include "circles/circle_fit.h"
 #include "conformal/annulus_map.h"
 #include "core/errors.h"
-#include "core/topology.h"
 #include "flow/curvature.h"
 #include "flow/yamabe_flow.h"
+#include "mesh/topology.h"
 
 #include <gtest/gtest.h>
 

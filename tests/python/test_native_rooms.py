@@ -16,8 +16,8 @@ WITH_THE_COMMAND = {"batch"}  # built with it, by a list of its own
 
 
 def included(source):
-    """What a file includes of native/: room/file."""
-    return re.findall(r'^#include "(\w+)/[\w.]+"', source, re.MULTILINE)
+    """The room of each file of native/ that a source includes."""
+    return re.findall(r'^#include "(\w+)/[\w./]+"', source, re.MULTILINE)
 
 
 def arrows():
@@ -46,6 +46,19 @@ def test_nothing_includes_a_front():
     assert [room for room, others in arrows().items() if others & WITH_THE_COMMAND] == ["cli"]
 
 
+def test_nothing_but_linear_includes_the_factor():
+    sources = [path for path in NATIVE.rglob("*.[ch]*") if '"linear/factor/' in path.read_text(encoding="utf-8")]
+    assert {path.relative_to(NATIVE).parts[0] for path in sources} == {"linear"}
+
+
+def test_the_folders_of_the_command_are_one_upon_the_other():
+    folders = ["process", "files", "options", "commands"]
+    for k, folder in enumerate(folders):
+        text = "".join(path.read_text(encoding="utf-8") for path in (NATIVE / "cli" / folder).glob("*.[ch]*"))
+        included_folders = set(re.findall(r'^#include "cli/(\w+)/', text, re.MULTILINE))
+        assert folder in included_folders and included_folders <= set(folders[: k + 1])
+
+
 def test_circles_know_no_mesh():
     assert arrows()["circles"] == {"core"}
 
@@ -57,16 +70,19 @@ def test_every_room_is_on_the_map():
 
 def test_every_source_is_built():
     built = (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8")
-    listed = set(re.findall(r"^ +(\w+/\w+\.cpp)$", built, re.MULTILINE))
-    others = FRONTS | WITH_THE_COMMAND | {OTHERS}
-    there = {path.relative_to(NATIVE).as_posix() for path in NATIVE.glob("*/*.cpp") if path.parent.name not in others}
+    listed = set(re.findall(r"^ +(\w+/[\w/]+\.cpp)$", built, re.MULTILINE))
+    sources = {path.relative_to(NATIVE) for path in NATIVE.rglob("*.cpp")}
+    there = {path.as_posix() for path in sources if path.parts[0] not in FRONTS | WITH_THE_COMMAND | {OTHERS}}
     assert listed == there
 
 
 @pytest.mark.parametrize("room", sorted(FRONTS | WITH_THE_COMMAND))
 def test_every_source_of_a_room_with_a_list_of_its_own_is_built(room):
     built = (NATIVE / room / "CMakeLists.txt").read_text(encoding="utf-8")
-    assert {path.name for path in (NATIVE / room).glob("*.cpp")} == set(re.findall(r"\b\w+\.cpp\b", built))
+    folder = NATIVE / room
+    others = {path.parent for path in folder.glob("*/CMakeLists.txt")}
+    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*.cpp") if path.parent not in others}
+    assert there == set(re.findall(r"\b[\w/]+\.cpp\b", built))
 
 
 NAMED = re.compile(

@@ -60,7 +60,7 @@ def native_messages():
     for folder in sorted(path for path in (ROOT / "native").iterdir() if path.is_dir()):
         if folder.name in NOT_CALLED_FROM_BLENDER:
             continue
-        for path in sorted(folder.glob("*.*")):
+        for path in sorted(folder.rglob("*.*")):
             for match in thrown.finditer(path.read_text(encoding="utf-8")):
                 if "TopologyKind::" in match[1]:  # the add-on says these in words of its own
                     continue

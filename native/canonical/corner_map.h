@@ -1,0 +1,29 @@
+// How a map with UVs of its own for each corner is made: on a thread that can be left, in canonical form.
+#pragma once
+
+#include "canonical/canonical_mesh.h"
+#include "execution/detachable_run.h"
+#include "execution/execution.h"
+
+namespace koebe {
+
+/// The map of a surface by the input's numbers, so that it follows from the shape alone.
+/// @param compute (const CanonicalMesh&, ExecutionContext&) -> Result; holds what it needs, as it may outlive the call
+/// @param name (const CanonicalMesh&, Result&): what the result has beyond a CornerMapReport, to the input's numbers
+template <class Result, class Compute, class Name>
+Result corner_map(const Vertices& vertices, const Triangles& triangles, ExecutionContext& context,
+                  const Compute& compute, const Name& name)
+{
+    return run_detachable<Result>(context, [vertices, triangles, compute, name](ExecutionContext& own) {
+        const auto compute_here = [&](const CanonicalMesh& mesh) { return compute(mesh, own); };
+        const auto name_all = [&](const CanonicalMesh& mesh, Result& result) {
+            mesh.name_corners(result.uv);
+            mesh.name_faces(result.turned);
+            mesh.name_report(result);
+            name(mesh, result);
+        };
+        return in_canonical_form(vertices, triangles, compute_here, name_all);
+    });
+}
+
+}  // namespace koebe

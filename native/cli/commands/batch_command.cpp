@@ -1,0 +1,308 @@
+// koebe batch INPUTS... --output FOLDER
+#include "cli/commands/subcommand.h"
+#include "cli/options/uniformize_options.h"
+#include "cli/options/validators.h"
+#include "cli/options/wrong_usage.h"
+#include "cli/process/end_with_input.h"
+#include "cli/process/exit_code.h"
+#include "cli/process/result_line.h"
+#include "cli/process/standard_streams.h"
+
+#include "batch/batch_run.h"
+#include "batch/file_list.h"
+#include "batch/path_text.h"
+#include "batch/program.h"
+#include "batch/summary.h"
+#include "core/counted.h"
+#include "schottky/schottky_map.h"
+#include "sphere/sphere_map.h"
+#include "tiles/tile_map.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace koebe::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* disk_domain = "disk";
+constexpr const char* ring_domain = "ring";
+constexpr const char* sphere_domain = "sphere";
+constexpr const char* schottky_domain = "schottky";
+
+struct Request : MapRequest {
+    UniformizeWords words;
+    std::vector<CLI::Option*> forwarded;  ///< the options of a map
+    std::string domain = disk_domain, holes = to_string(RingHoles::circles),
+                layout = to_string(SphereLayout::equirectangular),
+                normalization = to_string(SchottkyNormalization::area);
+    std::vector<std::string> inputs, blender_arguments;
+    std::string folder, base, format = "obj", blender, blender_script;
+    int workers = 0;
+    double time_limit = 0.0, stale = 120.0;
+    bool retry = false, list = false, no_summary = false, summary_only = false, exit_zero = false,
+         ends_with_input = false;
+};
+
+void add_batch_options(CLI::App& app, Request& request)
+{
+    app.add_option("INPUTS", request.inputs, "mesh files, and folders to search with all their folders")->required();
+    app.add_option("--output", request.folder,
+                   "folder for the results: each file's name below its input folder, one .json beside each")
+        ->required()
+        ->type_name("FOLDER");
+    app.add_option("--base", request.base, "names are relative to this folder, for runs on single files of it")
+        ->type_name("FOLDER");
+    app.add_option("--workers", request.workers, "files at a time; 0: one for each core")
+        ->check(whole_number(0))
+        ->capture_default_str();
+    app.add_option("--time-limit", request.time_limit, "seconds for a file; none if it is not given")
+        ->check(positive_number())
+        ->type_name("SECONDS");
+    app.add_option("--format", request.format, "of the meshes that are written")
+        ->check(CLI::IsMember({"obj", "ply"}))
+        ->capture_default_str();
+    app.add_flag("--retry", request.retry, "try meshes again that could not be mapped");
+    app.add_option("--stale", request.stale, "seconds without a sign of life until another host's claim is taken over")
+        ->check(positive_number())
+        ->capture_default_str()
+        ->type_name("SECONDS");
+    CLI::Option* const list =
+        app.add_flag("--list", request.list, "map nothing, print a line for each file: its folder, a tab, its name");
+    CLI::Option* const none = app.add_flag("--no-summary", request.no_summary, "leave the table to another run");
+    app.add_flag("--summary-only", request.summary_only, "map nothing, write the table of what is there")
+        ->excludes(list)
+        ->excludes(none);
+    app.add_flag("--exit-zero", request.exit_zero,
+                 "0 also where a mesh was not mapped, for farms: 3 only where the machine failed");
+    app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
+    app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
+    app.add_option("--domain", request.domain,
+                   "disk: koebe uniformize; torus, ring: those commands, UVs that are a tile; sphere, schottky: those")
+        ->check(CLI::IsMember({disk_domain, "torus", ring_domain, sphere_domain, schottky_domain}))
+        ->capture_default_str();
+    app.add_option("--holes", request.holes, "of --domain ring: what becomes of the loops that are no rims")
+        ->check(CLI::IsMember(
+            {to_string(RingHoles::circles), to_string(RingHoles::concentric), to_string(RingHoles::radial)}))
+        ->capture_default_str();
+    app.add_option("--layout", request.layout, "of --domain sphere: the sphere as texture coordinates")
+        ->check(CLI::IsMember({to_string(SphereLayout::equirectangular), to_string(SphereLayout::octahedral)}))
+        ->capture_default_str();
+    app.add_option("--normalization", request.normalization, "of --domain schottky: even texels, or equal circles")
+        ->check(CLI::IsMember({to_string(SchottkyNormalization::area), to_string(SchottkyNormalization::circles)}))
+        ->capture_default_str();
+    const std::string group = "Files of Blender";
+    app.add_option("--blender", request.blender, "map .blend files too, by this program and the add-on")
+        ->type_name("PROGRAM")
+        ->group(group);
+    app.add_option("--blender-script", request.blender_script, "the add-on's batch.py, if it is not found")
+        ->type_name("FILE")
+        ->group(group);
+    app.add_option("--blender-argument", request.blender_arguments,
+                   "passed on to the add-on's batch.py; may be repeated: --blender-argument=--tube=unroll")
+        ->type_name("WORD")
+        ->group(group);
+}
+
+/// @throws CLI::ValidationError options of another domain
+void check_domain(const CLI::App& app, const Request& request)
+{
+    if (app.count("--holes") > 0 && request.domain != ring_domain)
+        throw CLI::ValidationError("--holes", "is of --domain ring");
+    if (app.count("--layout") > 0 && request.domain != sphere_domain)
+        throw CLI::ValidationError("--layout", "is of --domain sphere");
+    if (app.count("--normalization") > 0 && request.domain != schottky_domain)
+        throw CLI::ValidationError("--normalization", "is of --domain schottky");
+    if (request.domain == disk_domain) return;
+    for (const CLI::Option* option : request.forwarded)
+        if (option->count() > 0 && !option->check_name("--tolerance") && !option->check_name("--max-sweeps") &&
+            !option->check_name("--most-lost"))
+            throw CLI::ValidationError(option->get_name(), "is of --domain disk");
+}
+
+/// What a map depends on beside the mesh.
+nlohmann::ordered_json recipe_options(const Request& request)
+{
+    if (request.domain == disk_domain) return options_report(request, request.words);
+    nlohmann::ordered_json report{{"domain", request.domain}};
+    if (request.domain == ring_domain) report["holes"] = request.holes;
+    if (request.domain == sphere_domain) report["layout"] = request.layout;
+    if (request.domain == schottky_domain) report["normalization"] = request.normalization;
+    report.update({{"tolerance", request.options.tolerance},
+                   {"max_sweeps", request.options.max_sweeps},
+                   {"most_lost", request.options.most_lost}});
+    return report;
+}
+
+/// The options of a map as they were given, for the processes that do it.
+std::vector<std::string> given_words(const Request& request, bool with_threads)
+{
+    std::vector<std::string> words;
+    if (request.domain == ring_domain) words.push_back("--holes=" + request.holes);
+    if (request.domain == sphere_domain) words.push_back("--layout=" + request.layout);
+    if (request.domain == schottky_domain) words.push_back("--normalization=" + request.normalization);
+    for (const CLI::Option* option : request.forwarded) {
+        if (option->count() == 0 || (!with_threads && option->check_name("--threads"))) continue;
+        if (option->get_expected_max() == 0) {  // a flag
+            if (option->as<bool>()) words.push_back(option->get_name());
+            continue;
+        }
+        std::string value;
+        for (const std::string& part : option->results()) value += (value.empty() ? "" : ",") + part;
+        words.push_back(option->get_name() + "=" + value);
+    }
+    return words;
+}
+
+std::vector<std::string> map_command(const Request& request, const std::string& own_program,
+                                     const batch::BatchFile& file, const batch::Scratch& scratch)
+{
+    std::vector<std::string> words{own_program, request.domain == disk_domain ? "uniformize" : request.domain,
+                                   "--quiet", end_with_input_flag, "--json=" + batch::utf8(scratch.report)};
+    for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
+    // A worker has a core; a map alone would take all of them.
+    const bool says_threads = std::ranges::any_of(request.forwarded, [](const CLI::Option* option) {
+        return option->count() > 0 && option->check_name("--threads");
+    });
+    if (request.domain == disk_domain && request.workers != 1 && !says_threads) words.emplace_back("--threads=1");
+    words.insert(words.end(), {batch::utf8(file.source), batch::utf8(scratch.output)});
+    return words;
+}
+
+std::vector<std::string> blend_command(const Request& request, const std::string& script, const batch::BatchFile& file,
+                                       const batch::Scratch& scratch)
+{
+    std::vector<std::string> words{request.blender,
+                                   "-b",
+                                   batch::utf8(file.source),
+                                   "--python-exit-code",
+                                   "1",
+                                   "-P",
+                                   script,
+                                   "--",
+                                   end_with_input_flag,
+                                   "--output",
+                                   batch::utf8(scratch.output),
+                                   "--report",
+                                   batch::utf8(scratch.report)};
+    if (request.domain != disk_domain) words.push_back("--domain=" + request.domain);
+    for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
+    words.insert(words.end(), request.blender_arguments.begin(), request.blender_arguments.end());
+    return words;
+}
+
+batch::FileList files_of(const Request& request)
+{
+    batch::ListOptions options;
+    options.base = batch::path_of(request.base);
+    options.output = batch::path_of(request.folder);
+    options.extension = "." + request.format;
+    options.with_blends = !request.blender.empty();
+    for (const std::string& input : request.inputs) options.inputs.push_back(batch::path_of(input));
+    try {
+        return batch::list_files(options);
+    } catch (const batch::UsageError& error) {
+        throw WrongUsage(error.what());
+    }
+}
+
+/// What runs on single files are called with.
+void print_list(const batch::FileList& list)
+{
+    std::string text;
+    for (const batch::BatchFile& file : list.files) {
+        const std::string source = batch::generic_utf8(file.source);
+        if (source.find_first_of("\t\r\n") != std::string::npos)
+            throw WrongUsage("no line can hold the name of " + source);
+        text += source.substr(0, source.size() - file.name.size() - 1) + "\t" + file.name + "\n";
+    }
+    print(text);
+}
+
+batch::BatchOptions batch_options(const Request& request, const fs::path& output)
+{
+    batch::BatchOptions options;
+    options.output = output;
+    options.writes_summary = !request.no_summary;
+    options.workers = request.workers > 0 ? static_cast<unsigned>(request.workers) : batch::core_count();
+    options.stale = request.stale;
+    options.mesh = {recipe_options(request), request.time_limit, request.retry};
+    auto blend_words = given_words(request, false);
+    if (request.domain != disk_domain) blend_words.insert(blend_words.begin(), "--domain=" + request.domain);
+    blend_words.insert(blend_words.end(), request.blender_arguments.begin(), request.blender_arguments.end());
+    options.blend = {{{"arguments", std::move(blend_words)}}, request.time_limit, request.retry};
+    const std::string script = request.blender.empty() ? "" : batch::blender_script(request.blender_script);
+    options.command = [&request, own = batch::own_program(), script](const auto& file, const auto& scratch) {
+        return file.is_blend ? blend_command(request, script, file, scratch) : map_command(request, own, file, scratch);
+    };
+    options.tell = [&request](const std::string& line) {
+        if (!request.quiet) std::fprintf(stderr, "%s\n", one_line(line).c_str());
+    };
+    return options;
+}
+
+std::string result_line(const batch::BatchCount& count, std::size_t total, const batch::BatchOptions& options)
+{
+    std::string line = counted(total, "file") + ": " + std::to_string(count.done) + " done";
+    if (count.not_converged > 0) line += ", " + std::to_string(count.not_converged) + " not converged";
+    if (count.failed > 0) line += ", " + std::to_string(count.failed) + " failed";
+    if (count.unchanged > 0) line += " (" + std::to_string(count.unchanged) + " unchanged)";
+    if (options.writes_summary) line += "; the table is " + batch::utf8(options.output / batch::summary_json);
+    return one_line(line) + "\n";
+}
+
+int run(const Request& request)
+{
+    if (request.ends_with_input) end_with_input();
+    if (!request.quiet) require_standard_output();
+    const batch::FileList list = files_of(request);
+    if (list.blends_passed_over > 0 && !request.quiet)
+        std::fprintf(stderr, "%s of Blender's passed over: name the program with --blender\n",
+                     counted(list.blends_passed_over, "file").c_str());
+    if (list.files.empty()) throw WrongUsage("there is no mesh file in " + request.inputs.front());
+    const fs::path output = fs::weakly_canonical(batch::path_of(request.folder));
+    if (request.list) {
+        print_list(list);
+        return done;
+    }
+    if (request.summary_only) {
+        batch::write_summary(output, request.stale);
+        if (!request.quiet) print(one_line("the table is " + batch::utf8(output / batch::summary_json)) + "\n");
+        return done;
+    }
+    const batch::BatchOptions options = batch_options(request, output);
+    const batch::BatchCount count = run_batch(list.files, options);
+    if (count.interrupted) {
+        std::fputs("interrupted: what is done stays, and the same call goes on from there\n", stderr);
+        return interrupted;
+    }
+    if (!request.quiet) print(result_line(count, list.files.size(), options), "; the files are written");
+    if (request.exit_zero) return count.lost > 0 ? cannot_be_mapped : done;
+    return count.failed > 0 ? cannot_be_mapped : count.not_converged > 0 ? not_converged : done;
+}
+
+}  // namespace
+
+Subcommand add_batch(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options = app.add_subcommand("batch", "map many files, each by a process of its own; go on after a stop");
+    add_batch_options(*options, *request);
+    const std::size_t before = options->get_options().size();
+    add_uniformize_options(*options, *request, request->words);
+    const std::vector<CLI::Option*> all = options->get_options({});
+    request->forwarded.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
+    options->callback([options, request] {
+        set_uniformize_options(*options, request->words, *request);
+        check_domain(*options, *request);
+    });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

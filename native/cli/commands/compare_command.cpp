@@ -1,0 +1,160 @@
+// koebe compare A B, koebe compare FOLDER --csv FILE
+#include "cli/commands/shape_family.h"
+#include "cli/commands/shape_input.h"
+#include "cli/commands/subcommand.h"
+#include "cli/files/output_files.h"
+#include "cli/options/mapping_options.h"
+#include "cli/process/exit_code.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/standard_streams.h"
+
+#include "core/errors.h"
+#include "execution/detachable_run.h"
+#include "io/atomic_file.h"
+#include "report/json.h"
+#include "shape/conformal_module.h"
+#include "shape/loop_matching.h"
+
+#include <cstdio>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace koebe::cli {
+namespace {
+
+constexpr const char* to_standard_output = "-";
+
+struct Request {
+    std::string first, second, json, csv, reference;
+    std::string loops = "match";
+    bool any_outer = false, with_json = false, with_error = false;
+    UniformizeOptions options;
+
+    bool to_file() const { return with_json && json != to_standard_output; }
+    std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}, {"--csv", csv}}; }
+};
+
+/// The loops as they are: the longest one outside, the others by length.
+LoopMatch by_length(const ShapeInput& a, const ShapeInput& b)
+{
+    if (a.circles.size() != b.circles.size())
+        throw InputError("the surfaces have " + std::to_string(a.circles.size()) + " and " +
+                         std::to_string(b.circles.size()) + " loops: their modules cannot be compared");
+    LoopMatch match;
+    match.order_a.resize(a.circles.size());
+    std::iota(match.order_a.begin(), match.order_a.end(), 0);
+    match.order_b = match.order_a;
+    match.distance = (conformal_module(a.circles) - conformal_module(b.circles)).norm();
+    return match;
+}
+
+int run_family(const Request& request, const CancelToken& token)
+{
+    require_writable_files(request.files(), false);
+    std::vector<std::string> paths{request.first};
+    if (!request.second.empty()) paths.push_back(request.second);
+    const ShapeFamily family = read_family(
+        {mesh_files(paths), request.reference, request.with_error, request.options},
+        [](const ShapeInput& shape) {
+            std::vector<int> order(shape.circles.size());
+            std::iota(order.begin(), order.end(), 0);
+            return order;
+        },
+        token);
+    return write_table(family, distance_table(family), request.csv, token);
+}
+
+int run(const Request& request)
+{
+    const CancelToken token = cancel_on_signal();
+    if (!request.csv.empty()) return run_family(request, token);
+    const bool to_file = request.to_file();
+    require_writable_files(request.files(), true);
+    const ShapeInput a = read_shape(request.first, request.options, token);
+    const ShapeInput b = read_shape(request.second, request.options, token);
+    ExecutionContext context({}, token);
+    const LoopMatch match = run_detachable<LoopMatch>(context, [request, a, b](ExecutionContext& own) {
+        return request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer, own) : by_length(a, b);
+    });
+    if (request.with_json) {
+        const nlohmann::ordered_json report{
+            {"distance", match.distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};
+        if (to_file) {
+            AtomicFile file(request.json);
+            file.write(json_text(report));
+            context.checkpoint();
+            file.commit();
+        } else {
+            print(json_text(report));
+        }
+    }
+    if (!request.with_json || to_file) {
+        char line[64];
+        std::snprintf(line, sizeof line, "distance %.9g\n", match.distance);
+        print(line, to_file ? "; the file is written" : "");
+    }
+    return a.converged && b.converged ? done : not_converged;
+}
+
+/// In `--json A B` the first word is a mesh.
+void settle_words(Request& request, const CLI::Option& json)
+{
+    request.with_json = json.count() > 0;
+    if (request.second.empty() && !request.json.empty()) {
+        request.second = std::move(request.first);
+        request.first = std::exchange(request.json, to_standard_output);
+    }
+    if (request.json.empty()) request.json = to_standard_output;
+    if (!request.csv.empty()) {
+        if (request.with_json || request.any_outer || request.loops != "match")
+            throw CLI::ValidationError("--csv", "goes with none of --json, --loops and --any-outer");
+        if (request.first.empty()) throw CLI::RequiredError("FOLDER");
+        require_different_files(request.files(), {request.first, request.second}, false);
+        return;
+    }
+    if (request.with_error || !request.reference.empty())
+        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "goes with --csv");
+    if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
+    if (request.any_outer && request.loops != "match")
+        throw CLI::ValidationError("--any-outer", "goes with --loops match");
+    require_different_files(request.files(), {request.first, request.second}, true);
+}
+
+}  // namespace
+
+Subcommand add_compare(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options = app.add_subcommand("compare", "how far apart the conformal modules of two surfaces are");
+    options->add_option("A", request->first,
+                        "surface with holes: OBJ, OFF, PLY or STL; or a folder of them, with --csv");
+    options->add_option("B", request->second, "surface with as many holes");
+    options
+        ->add_option("--loops", request->loops,
+                     "match: the loops that correspond are looked for; length: they correspond by their length")
+        ->check(CLI::IsMember({"match", "length"}))
+        ->capture_default_str();
+    options->add_flag("--any-outer", request->any_outer,
+                      "with match: the outer loop of one may correspond to a hole of the other");
+    options
+        ->add_option(
+            "--csv", request->csv,
+            "a row each pair of the folder's shapes, in one order of the loops: so the triangle inequality holds")
+        ->type_name("FILE");
+    options
+        ->add_option("--reference", request->reference,
+                     "with --csv: the file in the folder whose loops the others' correspond to, by default the first")
+        ->type_name("NAME");
+    options->add_flag("--error", request->with_error,
+                      "with --csv: also bars of the error that the meshes make, from maps of finer meshes");
+    const CLI::Option* json =
+        options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")
+            ->expected(0, 1)
+            ->type_name("[FILE]");
+    add_mapping_options(*options, request->options);
+    options->callback([request, json] { settle_words(*request, *json); });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,33 @@
+// The kinds of map that give each corner of a face UVs of its own.
+#pragma once
+
+#include "cli/commands/map_run.h"
+#include "io/corner_uvs.h"
+
+#include <utility>
+
+namespace koebe::cli {
+
+/// The kind of a map whose result is a CornerMapReport; what it draws and its first words are left out.
+/// @param compute (const Vertices&, const Triangles&, polygon of each triangle, ExecutionContext&) -> Result
+template <typename Result, typename Compute>
+MapKind<Result> corner_map_kind(const MapRequest& request, Compute compute)
+{
+    MapKind<Result> kind;
+    kind.compute = [compute = std::move(compute)](const MeshInput& input, ExecutionContext& context) {
+        Result result = with_filed_faces(input, [&] {
+            return compute(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, context);
+        });
+        result.turned = filed_faces(input.triangulation, result.turned);
+        add_input_warnings(input, result.warnings);
+        return result;
+    };
+    kind.write_mesh = [format = request.format](AtomicFile& file, const MeshInput& input, const Result& result) {
+        return write_with_corner_uvs(file, format, input.polygons,
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
+    };
+    kind.report = [](const Result& result) { return to_json(result); };
+    return kind;
+}
+
+}  // namespace koebe::cli

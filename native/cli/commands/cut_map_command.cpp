@@ -1,0 +1,70 @@
+#include "cli/commands/cut_map_command.h"
+
+#include "cli/commands/map_run.h"
+#include "cli/options/loop_options.h"
+#include "core/counted.h"
+#include "io/corner_uvs.h"
+#include "opened/cut_uniformize.h"
+#include "report/cut_json.h"
+#include "report/svg.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace koebe::cli {
+namespace {
+
+/// Makes all faces that the report names those of the file.
+void name_filed_faces(const MeshInput& input, CutUniformizeResult& result)
+{
+    const auto filed = [&](std::vector<Index>& faces) { faces = filed_faces(input.triangulation, faces); };
+    for (MappedPiece& piece : result.pieces) {
+        filed(piece.faces);
+        for (Warning& warning : piece.map.warnings)
+            if (elements_of(warning.kind) == ElementKind::faces) filed(warning.elements);
+    }
+    filed(result.turned);
+    std::vector<LeftOutFace> left_out;
+    for (LeftOutFace out : result.left_out) {
+        out.face = input.triangulation.face[out.face];
+        if (out.like >= 0) out.like = input.triangulation.face[out.like];
+        if (left_out.empty() || left_out.back().face != out.face) left_out.push_back(out);
+    }
+    result.left_out = std::move(left_out);
+    add_input_warnings(input, result.warnings);
+}
+
+PlanarPoints corners_of(const MeshInput& input, const CutUniformizeResult& result)
+{
+    return polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
+}
+
+}  // namespace
+
+int run_cut_map(const MapRequest& request)
+{
+    MapKind<CutUniformizeResult> kind;
+    kind.any_polygon = true;
+    kind.many_pieces = true;
+    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        require_fitting_vertices(input, request.options);
+        CutUniformizeResult result = uniformize_with_cuts(input.polygons.vertices, input.triangulation.triangles,
+                                                          input.triangulation.face, request.options, context);
+        name_filed_faces(input, result);
+        return result;
+    };
+    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const CutUniformizeResult& result) {
+        return write_with_corner_uvs(file, request.format, input.polygons, corners_of(input, result), {input.file});
+    };
+    kind.draw = [](const MeshInput& input, const CutUniformizeResult& result) {
+        return to_svg(result, input.polygons, corners_of(input, result));
+    };
+    kind.report = [](const CutUniformizeResult& result) { return to_json(result); };
+    kind.first_words = [](const CutUniformizeResult& result) {
+        return counted(result.pieces.size(), "piece") + ", " + counted(result.cuts.size(), "cut");
+    };
+    return run_map_of(request, kind);
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,168 @@
+// koebe fill IN OUT
+#include "cli/commands/subcommand.h"
+#include "cli/files/mesh_input.h"
+#include "cli/files/output_files.h"
+#include "cli/options/loop_options.h"
+#include "cli/options/validators.h"
+#include "cli/process/exit_code.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/result_line.h"
+#include "cli/process/standard_streams.h"
+
+#include "core/counted.h"
+#include "execution/detachable_run.h"
+#include "holes/fan_filling.h"
+#include "io/atomic_file.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <set>
+#include <span>
+
+namespace koebe::cli {
+namespace {
+
+struct Request {
+    std::string input, output, outer = "longest";
+    WrittenFormat format = WrittenFormat::obj;
+    std::vector<Index> loops;
+    bool all = false, quiet = false;
+
+    std::vector<OutputFile> files() const { return {{"OUT", output}}; }
+};
+
+/// Polygons with a patch for each: -1 the surface, k the patch of loop k.
+struct PatchedPolygons {
+    PolygonMesh mesh;
+    std::vector<Index> patch;
+    std::vector<char> turned;  ///< (F) of the filed faces
+};
+
+void add_polygon(PatchedPolygons& result, std::span<const Index> polygon, bool turned, Index patch)
+{
+    auto& corners = result.mesh.corners;
+    if (turned)
+        corners.insert(corners.end(), polygon.rbegin(), polygon.rend());
+    else
+        corners.insert(corners.end(), polygon.begin(), polygon.end());
+    result.mesh.face_begin.push_back(static_cast<Index>(corners.size()));
+    result.patch.push_back(patch);
+}
+
+/// The polygons as filed, turned where their triangles were, and then the patches.
+PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
+{
+    const Triangles& triangles = input.triangulation.triangles;
+    PatchedPolygons result;
+    std::vector<char>& turned = result.turned;
+    turned.resize(static_cast<std::size_t>(input.polygons.face_count()), 0);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        turned[input.triangulation.face[t]] = !(triangles.row(t).array() == filled.triangles.row(t).array()).all();
+    result.mesh.vertices = filled.vertices;
+    for (Index f = 0; f < input.polygons.face_count(); ++f) add_polygon(result, input.polygons.face(f), turned[f], -1);
+    for (Eigen::Index t = triangles.rows(); t < filled.triangles.rows(); ++t)
+        add_polygon(result, {filled.triangles.row(t).data(), 3}, false, filled.label[t]);
+    return result;
+}
+
+/// The loops to fill, by rank.
+std::vector<Index> chosen_loops(const Request& request, const Vertices& vertices, const Surface& surface)
+{
+    require_ranks(request.loops, surface.loops.size());
+    if (!request.loops.empty()) return request.loops;
+    std::vector<Index> ranks = chosen_ranks(surface, std::nullopt);
+    if (request.all || ranks.empty()) return ranks;
+    const Index outer =
+        request.outer == "longest" ? longest_loop(vertices, surface) : loop_of(surface, std::stoi(request.outer));
+    ranks.erase(ranks.begin() + outer);
+    return ranks;
+}
+
+PatchedPolygons fill(const Request& request, const MeshInput& input)
+{
+    return with_filed_faces(input, [&] {
+        const Vertices& vertices = input.polygons.vertices;
+        const Triangles& triangles = input.triangulation.triangles;
+        const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
+        return join(input, fill_holes(vertices, triangles, chosen_loops(request, vertices, surface)));
+    });
+}
+
+std::string result_line(const Request& request, const MeshInput& input, const PatchedPolygons& filled, double seconds,
+                        const std::vector<Warning>& warnings)
+{
+    const std::set<Index> patches(filled.patch.begin(), filled.patch.end());
+    const std::size_t loops = patches.size() - patches.count(-1);
+    const Index added = filled.mesh.face_count() - input.polygons.face_count();
+    char time[32];
+    std::snprintf(time, sizeof time, "%.2f s", seconds);
+    return one_line(request.output) + ": " + counted(loops, "loop") + " filled, " +
+           counted(static_cast<std::size_t>(added), "face") + " added, " + time + warning_count(warnings) + "\n";
+}
+
+int run(const Request& request)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const CancelToken token = cancel_on_signal();
+    require_writable_files(request.files(), !request.quiet);
+    const auto input = std::make_shared<const MeshInput>(read_mesh_input(request.input, token));
+    ExecutionContext context({}, token);
+    const PatchedPolygons filled =
+        run_detachable<PatchedPolygons>(context, [request, input](ExecutionContext&) { return fill(request, *input); });
+    AtomicFile file(request.output);
+    std::vector<Warning> warnings = input->warnings;
+    if (filled.mesh.face_count() == input->polygons.face_count())
+        warnings.push_back({WarningKind::no_hole, "there is no hole: no boundary but the outer one"});
+    const std::vector<Warning> losses =
+        write_with_patches(file, request.format, filled.mesh, filled.patch, filled.turned, {input->file});
+    warnings.insert(warnings.end(), losses.begin(), losses.end());
+    context.checkpoint();
+    file.commit();
+
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (!request.quiet) {
+        print(result_line(request, *input, filled, seconds, warnings), "; the file is written");
+        show_warnings(warnings);
+    }
+    return done;
+}
+
+void check(Request& request)
+{
+    request.format = required_format(request.output);
+    require_different_files(request.files(), {}, !request.quiet);
+}
+
+}  // namespace
+
+Subcommand add_fill(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options = app.add_subcommand("fill", "fill the holes of a surface: all loops but the outer one");
+    options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL")->required();
+    options
+        ->add_option("OUT", request->output,
+                     "OBJ to write, with the groups surface, patch_0, patch_1, …, or PLY, with the property patch")
+        ->required();
+    CLI::Option* outer =
+        options
+            ->add_option("--outer", request->outer, "loop that stays open: the longest, or that of a vertex (from 0)")
+            ->check(outer_loop_choice({"longest"}))
+            ->type_name("longest|VERTEX")
+            ->capture_default_str();
+    CLI::Option* all = options->add_flag("--all", request->all, "fill the outer loop too: the surface is closed");
+    options
+        ->add_option("--loops", request->loops,
+                     "boundary loops to fill, as 0,2: by rank of their lowest vertices, and no others")
+        ->delimiter(',')
+        ->check(whole_number(0))
+        ->excludes(outer)
+        ->excludes(all);
+    outer->excludes(all);
+    options->add_flag("--quiet", request->quiet, "no result line");
+    options->callback([request] { check(*request); });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

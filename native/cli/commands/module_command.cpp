@@ -1,0 +1,125 @@
+// koebe module IN, koebe module FOLDER --csv FILE
+#include "cli/commands/shape_family.h"
+#include "cli/commands/shape_input.h"
+#include "cli/commands/subcommand.h"
+#include "cli/files/output_files.h"
+#include "cli/options/mapping_options.h"
+#include "cli/options/validators.h"
+#include "cli/options/wrong_usage.h"
+#include "cli/process/exit_code.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/standard_streams.h"
+
+#include "report/json.h"
+#include "shape/conformal_module.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <numeric>
+
+namespace koebe::cli {
+namespace {
+
+struct Request {
+    std::string input, csv, reference;
+    bool with_error = false;
+    std::vector<std::string> loops{"length"};
+    bool any_outer = false;
+    UniformizeOptions options;
+
+    std::vector<OutputFile> files() const { return {{"--csv", csv}}; }
+};
+
+/// Ranks among the mesh's loops to numbers of circles.
+std::vector<int> order_of_ranks(const ShapeInput& shape, const std::vector<std::string>& words)
+{
+    std::vector<int> order;
+    for (const std::string& word : words) {
+        const auto found = std::ranges::find(shape.ranks, std::stoi(word));
+        if (found == shape.ranks.end())
+            throw WrongUsage("--loops: there is no boundary loop " + word + " among " +
+                             std::to_string(shape.ranks.size()) + ", counted from 0");
+        order.push_back(static_cast<int>(found - shape.ranks.begin()));
+    }
+    return order;
+}
+
+std::vector<int> chosen_order(const ShapeInput& shape, const Request& request)
+{
+    if (request.loops == std::vector<std::string>{"canonical"})
+        return canonical_order(shape.circles, request.any_outer);
+    if (request.loops != std::vector<std::string>{"length"}) return order_of_ranks(shape, request.loops);
+    std::vector<int> order(shape.circles.size());
+    std::iota(order.begin(), order.end(), 0);
+    return order;
+}
+
+int run_family(const Request& request, const CancelToken& token)
+{
+    require_writable_files(request.files(), false);
+    const ShapeFamily family = read_family(
+        {mesh_files({request.input}), request.reference, request.with_error, request.options},
+        [&](const ShapeInput& shape) { return chosen_order(shape, request); }, token);
+    return write_table(family, module_table(family), request.csv, token);
+}
+
+int run(const Request& request)
+{
+    const CancelToken token = cancel_on_signal();
+    if (!request.csv.empty()) return run_family(request, token);
+    require_standard_output();
+    const ShapeInput shape = read_shape(request.input, request.options, token);
+    print(json_text(module_json(shape, chosen_order(shape, request))));
+    return shape.converged ? done : not_converged;
+}
+
+/// @throws CLI::ValidationError a word that is neither of the two, alone, nor a rank
+void require_loop_words(const Request& request)
+{
+    const bool word = request.loops.size() == 1 && (request.loops[0] == "length" || request.loops[0] == "canonical");
+    for (const std::string& rank : word ? std::vector<std::string>{} : request.loops)
+        if (std::string complaint = whole_number(0)(rank); !complaint.empty())
+            throw CLI::ValidationError("--loops", complaint);
+    if (request.any_outer && request.loops[0] != "canonical")
+        throw CLI::ValidationError("--any-outer", "goes with --loops canonical");
+    if (request.csv.empty() && std::filesystem::is_directory(request.input))
+        throw CLI::ValidationError("IN", "is a folder, which needs --csv FILE");
+    if (request.csv.empty() && (request.with_error || !request.reference.empty()))
+        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "goes with --csv");
+    require_different_files(request.files(), {request.input}, false);
+}
+
+}  // namespace
+
+Subcommand add_module(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options = app.add_subcommand("module", "the conformal module of a surface with holes, as JSON");
+    options
+        ->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL; or a folder of them, with --csv")
+        ->required();
+    options
+        ->add_option("--loops", request->loops,
+                     "order of the boundary loops, the outer one first: length (longest first), canonical (by their "
+                     "circles alone), or all of them as 0,2,1, by rank of their lowest vertices")
+        ->delimiter(',')
+        ->type_name("length|canonical|RANKS")
+        ->capture_default_str();
+    options
+        ->add_option("--csv", request->csv,
+                     "a table instead of JSON: a row a shape, the loops of all in the order of the reference's")
+        ->type_name("FILE");
+    options
+        ->add_option("--reference", request->reference,
+                     "with --csv: the file in the folder whose loops the others' correspond to, by default the first")
+        ->type_name("NAME");
+    options->add_flag("--error", request->with_error,
+                      "with --csv: also bars of the error that the mesh makes, each from a map of a finer mesh");
+    options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
+    add_mapping_options(*options, request->options);
+    options->callback([request] { require_loop_words(*request); });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

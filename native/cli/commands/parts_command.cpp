@@ -1,0 +1,77 @@
+// koebe parts IN OUT
+#include "cli/commands/corner_map.h"
+#include "cli/commands/subcommand.h"
+#include "cli/options/mapping_options.h"
+#include "cli/options/validators.h"
+
+#include "core/counted.h"
+#include "parts/parts.h"
+#include "report/parts_json.h"
+#include "report/parts_svg.h"
+
+#include <memory>
+#include <utility>
+
+namespace koebe::cli {
+namespace {
+
+struct Request : MapRequest {
+    PartsOptions parts;
+};
+
+int run(const Request& request)
+{
+    auto kind = corner_map_kind<PartsResult>(
+        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
+            PartsOptions options = request.parts;
+            options.polygon = polygon;
+            return parts_of(vertices, triangles, options, context);
+        });
+    kind.many_pieces = true;
+    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
+        PartsResult result = compute(input, context);
+        for (PartReport& part : result.parts) part.faces = filed_faces(input.triangulation, part.faces);
+        return result;
+    };
+    kind.draw = [](const MeshInput&, const PartsResult& result) { return parts_svg(result.uv, result.part); };
+    kind.first_words = [](const PartsResult& result) {
+        return counted(result.parts.size(), "part") + ", cuts " + rounded("%.2f", result.cut_length) +
+               " of the root of the area, texel density within " + rounded("%.3g", result.density_ratio_5_95);
+    };
+    return run_map_of(request, kind);
+}
+
+}  // namespace
+
+Subcommand add_parts(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options = app.add_subcommand("parts", "cut any surface in its UVs into even disks and tubes");
+    options->add_option("IN", request->input, "any mesh: OBJ, OFF, PLY or STL")->required();
+    options
+        ->add_option(
+            "OUT", request->output,
+            "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
+        ->required();
+    options
+        ->add_option("--price", request->parts.price,
+                     "of a part, in area times log density outside a factor 3: a higher one makes fewer parts")
+        ->check(positive_number())
+        ->type_name("PRICE")
+        ->capture_default_str();
+    options->add_flag("--round-cuts", request->parts.round_cuts,
+                      "loops at cuts on circles and straight lines, for more angle error");
+    add_most_lost(*options, request->parts.most_lost);
+    options->add_option("--json", request->json, "write the report there")->type_name("FILE");
+    options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
+    options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    options->callback([request] {
+        check_map_files(*request);
+        request->entries["options"] = {{"price", request->parts.price},
+                                       {"round_cuts", request->parts.round_cuts},
+                                       {"most_lost", request->parts.most_lost}};
+    });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

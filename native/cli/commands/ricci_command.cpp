@@ -1,0 +1,68 @@
+// koebe ricci IN OUT
+#include "cli/commands/map_command.h"
+#include "cli/commands/subcommand.h"
+
+#include "baselines/ricci_uniformize.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace koebe::cli {
+namespace {
+
+struct Request : MapRequest {
+    std::string packing = "inversive", target = "inscribed", triangulation = "delaunay";
+};
+
+RicciOptions ricci_options(const Request& request)
+{
+    return {.common = request.options,
+            .packing = request.packing == "acute" ? Packing::acute : Packing::inversive,
+            .target = request.target == "inscribed" ? BoundaryTarget::inscribed : BoundaryTarget::proportional,
+            .delaunay = request.triangulation == "delaunay"};
+}
+
+}  // namespace
+
+Subcommand add_ricci(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    request->entries = {{"method", "ricci"}, {"engine", "circle_packing"}};
+    CLI::App* options = app.add_subcommand("ricci", "the same by the discrete Ricci flow, to compare with");
+    add_mesh_arguments(*options, *request);
+    options
+        ->add_option("--packing", request->packing,
+                     "inversive: circles may be apart, acute: they intersect, and the metric is approximated")
+        ->check(CLI::IsMember({"inversive", "acute"}))
+        ->capture_default_str();
+    options
+        ->add_option("--target", request->target,
+                     "curvature of a loop's edges, inscribed: as chords of a circle, proportional: by length")
+        ->check(CLI::IsMember({"inscribed", "proportional"}))
+        ->capture_default_str();
+    options
+        ->add_option("--triangulation", request->triangulation,
+                     "delaunay: edges are flipped on the surface before, given: those of the file")
+        ->check(CLI::IsMember({"delaunay", "given"}))
+        ->capture_default_str();
+    add_domain_options(*options, *request);
+    add_report_options(*options, *request);
+    options->get_option("--tolerance")->description("on the circles' change in an update, a length in the unit disk");
+    options->get_option("--max-sweeps")->description("updates of the boundary's curvature before giving up");
+    options->callback([request] {
+        check_map_files(*request);
+        set_outer_loop(*request);
+        nlohmann::ordered_json words = domain_options_report(*request);
+        words.update(
+            {{"packing", request->packing}, {"target", request->target}, {"triangulation", request->triangulation}});
+        request->entries["options"] = std::move(words);
+    });
+    return {options, [request] {
+                return run_map(*request, [&](const auto& vertices, const auto& triangles, ExecutionContext& context) {
+                    return ricci_uniformize(vertices, triangles, ricci_options(*request), context);
+                });
+            }};
+}
+
+}  // namespace koebe::cli

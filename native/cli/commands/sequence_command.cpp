@@ -1,0 +1,186 @@
+// koebe sequence FILES... --output FOLDER
+#include "cli/commands/map_run.h"
+#include "cli/commands/subcommand.h"
+#include "cli/options/loop_options.h"
+#include "cli/options/mapping_options.h"
+#include "cli/options/wrong_usage.h"
+#include "cli/process/error_line.h"
+
+#include "core/errors.h"
+#include "io/file_error.h"
+#include "pipeline/surface_solver.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace koebe::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request : MapRequest {
+    std::string method = "gk", balance = "none", folder, extension = "obj";
+    std::vector<std::string> inputs;
+};
+
+/// The request of one file.
+MapRequest request_of(const Request& all, const std::string& file)
+{
+    MapRequest one = all;
+    const fs::path target = fs::path(all.folder) / fs::path(file).stem();
+    one.input = file;
+    one.output = target.string() + "." + all.extension;
+    one.json = target.string() + ".json";
+    one.format = required_format(one.output);
+    return one;
+}
+
+void check_files(const Request& all)
+{
+    std::map<std::string, std::string> file_of;
+    for (const std::string& file : all.inputs) {
+        const MapRequest one = request_of(all, file);
+        const auto [other, is_new] = file_of.emplace(one.output, file);
+        if (!is_new)
+            throw CLI::ValidationError("FILES", other->second + " and " + file + " would both become " + one.output);
+        for (const OutputFile& output : map_files(one))
+            require_different_files({{"--output", output.path}}, all.inputs, !all.quiet);
+    }
+}
+
+void make_folder(const std::string& folder)
+{
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed || !fs::is_directory(folder))
+        throw FileError("cannot make the folder " + folder + " (" + failed.message() + ")");
+}
+
+/// The files one after the other, on the surface of the first that can be mapped.
+class Sequence {
+public:
+    explicit Sequence(const Request& all) : all_(all), token_(cancel_on_signal()) {}
+
+    int run()
+    {
+        int code = done;
+        for (const std::string& file : all_.inputs) {
+            try {
+                if (const int own = map(file); code == done) code = own;
+            } catch (const Cancelled&) {
+                throw;
+            } catch (const OutOfMemory&) {
+                throw;
+            } catch (const KoebeError& error) {
+                std::fprintf(stderr, "%s: %s\n", one_line(file).c_str(), error_line(error).c_str());
+                code = cannot_be_mapped;
+            }
+        }
+        return code;
+    }
+
+private:
+    int map(const std::string& file)
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        const MapRequest request = request_of(all_, file);
+        MeshInput input = read_mesh_input(file, token_);
+        UniformizeResult result;
+        {
+            ProgressLine progress(all_.quiet);
+            ExecutionContext context(progress.callback(), token_);
+            result = with_filed_faces(input, [&] { return mapped(file, input, context); });
+            add_input_warnings(input, result.warnings);
+            result.seconds.read = input.seconds;
+            write_map(request, disk_map(request), input, result, begin, context);
+        }
+        if (!all_.quiet) {
+            print(map_line(request, disk_map(request).first_words(result), result.distortion, result.seconds.total,
+                           result.converged, result.warnings),
+                  "; the files are written");
+            show_warnings(result.warnings);
+        }
+        return result.converged ? done : not_converged;
+    }
+
+    UniformizeResult mapped(const std::string& file, MeshInput& input, ExecutionContext& context)
+    {
+        if (!surface_) {
+            require_fitting_vertices(input, all_.options);
+            surface_.emplace(input.polygons.vertices, input.triangulation.triangles, all_.options);
+            first_ = {file, input.polygons.corners, input.polygons.face_begin, input.triangulation};
+        } else if (input.polygons.corners != first_.corners || input.polygons.face_begin != first_.face_begin ||
+                   input.polygons.vertices.rows() != surface_->vertex_count()) {
+            throw InputError("it has other faces than " + first_.file + ": a sequence is of one surface");
+        }
+        input.triangulation = first_.triangulation;  // that the surface is made of
+        return surface_->uniformize(input.polygons.vertices, context);
+    }
+
+    struct First {
+        std::string file;
+        std::vector<Index> corners, face_begin;
+        Triangulation triangulation;
+    };
+
+    const Request& all_;
+    CancelToken token_;
+    std::optional<SurfaceSolver> surface_;
+    First first_;
+};
+
+}  // namespace
+
+Subcommand add_sequence(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options =
+        app.add_subcommand("sequence", "map many files of one surface whose vertices move, each laid over the first");
+    options->add_option("FILES", request->inputs, "meshes with the same faces, in the order of the sequence")
+        ->required();
+    options->add_option("--output", request->folder, "folder for the results, a mesh and a .json of each file's name")
+        ->required()
+        ->type_name("FOLDER");
+    options->add_option("--format", request->extension, "of the meshes that are written")
+        ->check(CLI::IsMember({"obj", "ply"}))
+        ->capture_default_str();
+    options
+        ->add_option("--method", request->method,
+                     "gk: generalized Koebe iteration, ck: conventional, against-outer: a hole at a time")
+        ->check(CLI::IsMember({"gk", "ck", "against-outer"}))
+        ->capture_default_str();
+    options->add_option("--balance", request->balance, "area: the Moebius map of least area distortion")
+        ->check(CLI::IsMember({"none", "area"}))
+        ->capture_default_str();
+    options->add_flag("--polish", request->options.polish, "lower the angle error, circles unchanged; slower");
+    add_domain_options(*options, *request);
+    options->add_flag("--quiet", request->quiet, "no progress and no result lines");
+    options->callback([request] {
+        UniformizeOptions& chosen = request->options;
+        chosen.method = request->method == "gk"   ? Method::gk
+                        : request->method == "ck" ? Method::ck
+                                                  : Method::against_outer;
+        chosen.balance = request->balance == "none" ? Balance::none : Balance::area;
+        if (chosen.center >= 0 && chosen.balance != Balance::none)
+            throw CLI::ValidationError("--center", "excludes --balance: both choose the automorphism of the disk");
+        set_outer_loop(*request);
+        check_files(*request);
+        nlohmann::ordered_json report{{"method", request->method}};
+        report.update(domain_options_report(*request));
+        report.update({{"balance", request->balance}, {"polish", chosen.polish}});
+        request->entries["options"] = report;
+    });
+    return {options, [request] {
+                make_folder(request->folder);
+                return Sequence(*request).run();
+            }};
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,190 @@
+#include "cli/commands/shape_family.h"
+
+#include "cli/process/error_line.h"
+#include "cli/process/exit_code.h"
+#include "execution/detachable_run.h"
+#include "io/atomic_file.h"
+#include "io/file_error.h"
+#include "shape/conformal_module.h"
+#include "shape/loop_matching.h"
+#include "shape/module_error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+namespace koebe::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_mesh_file(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return std::set<std::string>{".obj", ".off", ".ply", ".stl"}.contains(extension);
+}
+
+/// The shape's loops that correspond to the reference's in the order wanted.
+std::vector<int> like(const ShapeInput& reference, const ShapeInput& shape, const std::vector<int>& wanted,
+                      const CancelToken& token)
+{
+    ExecutionContext context({}, token);
+    const LoopMatch match =
+        run_detachable<LoopMatch>(context, [a = reference.circles, b = shape.circles](ExecutionContext& own) {
+            return match_loops(a, b, false, own);
+        });
+    std::vector<int> partner(wanted.size()), order;
+    for (std::size_t i = 0; i < wanted.size(); ++i) partner[match.order_a[i]] = match.order_b[i];
+    for (const int loop : wanted) order.push_back(partner[loop]);
+    return order;
+}
+
+std::string number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+}
+
+std::string field(const std::string& text)
+{
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+void append(std::string& line, const VectorXd& values, std::size_t count)
+{
+    for (std::size_t i = 0; i < count; ++i)
+        line += ',' + (values.size() > 0 ? number(values[static_cast<Eigen::Index>(i)]) : std::string("NA"));
+}
+
+bool has_errors(const ShapeFamily& family)
+{
+    return std::ranges::any_of(family.rows, [](const FamilyRow& row) { return row.error.size() > 0; });
+}
+
+}  // namespace
+
+std::vector<std::string> mesh_files(const std::vector<std::string>& paths)
+{
+    std::vector<std::string> files;
+    for (const std::string& path : paths) {
+        std::error_code failed;
+        if (!fs::is_directory(path, failed)) {
+            files.push_back(path);
+            continue;
+        }
+        std::vector<std::string> found;
+        for (fs::directory_iterator entry(path, failed), end; !failed && entry != end; entry.increment(failed))
+            if (is_mesh_file(entry->path()) && !entry->is_directory()) found.push_back(entry->path().string());
+        if (failed) throw FileError("cannot read " + path + " (" + failed.message() + ")");
+        if (found.empty()) throw InputError("the folder " + path + " holds no OBJ, OFF, PLY or STL file");
+        std::ranges::sort(found);
+        files.insert(files.end(), found.begin(), found.end());
+    }
+    return files;
+}
+
+ShapeFamily read_family(const FamilyRequest& request, const std::function<std::vector<int>(const ShapeInput&)>& order,
+                        const CancelToken& token)
+{
+    const auto name = [](const std::string& path) { return fs::path(path).filename().string(); };
+    const auto read = [&](const std::string& file) {
+        return read_shape(file, request.options, token, request.with_error);
+    };
+    std::size_t first = 0;
+    ShapeInput reference;
+    if (!request.reference.empty()) {
+        const auto found =
+            std::ranges::find_if(request.files, [&](const auto& file) { return name(file) == request.reference; });
+        if (found == request.files.end())
+            throw InputError("the reference " + request.reference + " is none of the files");
+        first = static_cast<std::size_t>(found - request.files.begin());
+        reference = read(request.files[first]);
+    } else {
+        for (;; ++first) try {
+                reference = read(request.files[first]);
+                break;
+            } catch (const Cancelled&) {
+                throw;
+            } catch (const KoebeError&) {
+                if (first + 1 == request.files.size()) throw;
+            }
+    }
+    const std::vector<int> wanted = order(reference);
+
+    ShapeFamily family{module_names(wanted.size()), {}, true};
+    for (std::size_t i = 0; i < request.files.size(); ++i) {
+        FamilyRow row{name(request.files[i]), false, {}, {}, {}};
+        try {
+            const ShapeInput shape = i == first ? reference : read(request.files[i]);
+            const std::vector<int> own = i == first ? wanted : like(reference, shape, wanted, token);
+            row.module = conformal_module(shape.circles, own);
+            if (request.with_error) row.error = module_error(row.module, conformal_module(shape.refined, own));
+            row.known = true;
+            if (!shape.converged) row.note = "not converged";
+            family.converged = family.converged && shape.converged;
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const OutOfMemory&) {
+            throw;
+        } catch (const KoebeError& error) {
+            row = {name(request.files[i]), false, {}, {}, error_line(error)};
+        }
+        family.rows.push_back(std::move(row));
+    }
+    return family;
+}
+
+int write_table(const ShapeFamily& family, const std::string& table, const std::string& path, const CancelToken& token)
+{
+    AtomicFile file(path);
+    file.write(table);
+    ExecutionContext({}, token).checkpoint();
+    file.commit();
+    const auto missing = std::ranges::count_if(family.rows, [](const FamilyRow& row) { return !row.known; });
+    if (missing > 0)
+        std::fprintf(stderr, "InputError: %d of %d shapes have no module, as their notes say; the table is written\n",
+                     static_cast<int>(missing), static_cast<int>(family.rows.size()));
+    return missing > 0 ? cannot_be_mapped : family.converged ? done : not_converged;
+}
+
+std::string module_table(const ShapeFamily& family)
+{
+    const bool errors = has_errors(family);
+    std::string text = "label";
+    for (const std::string& column : family.columns) text += ',' + column;
+    if (errors)
+        for (const std::string& column : family.columns) text += ',' + column + "_error";
+    text += ",note\n";
+    for (const FamilyRow& row : family.rows) {
+        text += field(row.label);
+        append(text, row.module, family.columns.size());
+        if (errors) append(text, row.error, family.columns.size());
+        text += ',' + field(row.note) + '\n';
+    }
+    return text;
+}
+
+std::string distance_table(const ShapeFamily& family)
+{
+    const bool errors = has_errors(family);
+    std::string text = errors ? "a,b,distance,distance_error\n" : "a,b,distance\n";
+    for (std::size_t i = 0; i < family.rows.size(); ++i)
+        for (std::size_t j = i + 1; j < family.rows.size(); ++j) {
+            const FamilyRow &a = family.rows[i], &b = family.rows[j];
+            const bool known = a.known && b.known;
+            text += field(a.label) + ',' + field(b.label) + ',' + (known ? number((a.module - b.module).norm()) : "NA");
+            if (errors) text += ',' + (known ? number(std::hypot(a.error.norm(), b.error.norm())) : "NA");
+            text += '\n';
+        }
+    return text;
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,172 @@
+// koebe transfer A B OUT
+#include "cli/commands/subcommand.h"
+#include "cli/files/landmark_file.h"
+#include "cli/files/mesh_input.h"
+#include "cli/files/output_files.h"
+#include "cli/options/mapping_options.h"
+#include "cli/process/exit_code.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/progress_line.h"
+#include "cli/process/result_line.h"
+#include "cli/process/standard_streams.h"
+
+#include "execution/detachable_run.h"
+#include "io/atomic_file.h"
+#include "io/mesh_writer.h"
+#include "pipeline/uniformize.h"
+#include "report/json.h"
+#include "transfer/correspondence.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <vector>
+
+namespace koebe::cli {
+namespace {
+
+struct Request {
+    std::string first, second, output, json, landmarks;
+    WrittenFormat format = WrittenFormat::obj;
+    bool aligned_only = false, quiet = false;
+    UniformizeOptions options;
+
+    std::vector<OutputFile> files() const { return {{"OUT", output}, {"--json", json}}; }
+};
+
+struct MappedInput {
+    MeshInput mesh;
+    MappedSurface surface;
+    bool converged = false;
+};
+
+MappedInput read_and_map(const std::string& path, const Request& request, const CancelToken& token)
+{
+    MappedInput input{read_mesh_input(path, token), {}, false};
+    ProgressLine progress(request.quiet);
+    ExecutionContext context(progress.callback(), token);
+    const Vertices& vertices = input.mesh.polygons.vertices;
+    const Triangles& triangles = input.mesh.triangulation.triangles;
+    UniformizeResult result =
+        with_filed_faces(input.mesh, [&] { return uniformize(vertices, triangles, request.options, context); });
+    input.surface = {vertices, triangles, std::move(result.uv), std::move(result.loops)};
+    input.converged = result.converged;
+    return input;
+}
+
+nlohmann::ordered_json report(const Request& request, const MappedInput& a, const MappedInput& b,
+                              const Correspondence& found, std::size_t landmark_count,
+                              const std::vector<Warning>& warnings)
+{
+    const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+    std::vector<double> in_radii = found.alignment.misses;
+    for (std::size_t k = 0; k < in_radii.size(); ++k) in_radii[k] /= a.surface.loops[k].circle.radius;
+    nlohmann::ordered_json places = nlohmann::ordered_json::array();
+    for (Eigen::Index v = 0; v < found.places.face.size(); ++v) {
+        const auto corners = b.surface.triangles.row(found.places.face[v]);
+        const auto weights = found.places.weights.row(v);
+        places.push_back(
+            {{"triangle", {corners[0], corners[1], corners[2]}}, {"weights", {weights[0], weights[1], weights[2]}}});
+    }
+    return {{"version", KOEBE_VERSION},
+            {"a", name(request.first)},
+            {"b", name(request.second)},
+            {"converged", a.converged && b.converged},
+            {"match", found.alignment.match},
+            {"residual", found.alignment.residual},
+            {"misses", found.alignment.misses},
+            {"misses_in_radii", in_radii},
+            {"fitted", found.fitted},
+            {"landmarks", landmark_count},
+            {"beltrami", {{"mean", found.beltrami.mean}, {"max", found.beltrami.max}}},
+            {"flipped", found.folded},
+            {"largest_distance", found.places.distance.maxCoeff()},
+            {"warnings", to_json(warnings)},
+            {"places", std::move(places)}};
+}
+
+std::string result_line(const Request& request, const MappedInput& a, const MappedInput& b, const Correspondence& found,
+                        const std::vector<Warning>& warnings)
+{
+    double worst = 0.0;
+    for (std::size_t k = 1; k < found.alignment.misses.size(); ++k)
+        worst = std::max(worst, found.alignment.misses[k] / a.surface.loops[k].circle.radius);
+    char text[128];
+    std::snprintf(text, sizeof text, ": %lld points, holes miss by up to %.2g radii%s, |mu| %.2g, at most %.2g",
+                  static_cast<long long>(found.points.rows()), worst, found.fitted ? ", fitted" : ", not fitted",
+                  found.beltrami.mean, found.beltrami.max);
+    return one_line(request.output) + text + (a.converged && b.converged ? "" : ", not converged") +
+           warning_count(warnings) + "\n";
+}
+
+int run(const Request& request)
+{
+    const CancelToken token = cancel_on_signal();
+    require_writable_files(request.files(), !request.quiet);
+    const NamedLandmarks named = request.landmarks.empty() ? NamedLandmarks{} : read_landmarks(request.landmarks);
+    const auto a = std::make_shared<const MappedInput>(read_and_map(request.first, request, token));
+    const auto b = std::make_shared<const MappedInput>(read_and_map(request.second, request, token));
+    ExecutionContext context({}, token);
+    CorrespondenceOptions options{.match = {}, .fit_holes = !request.aligned_only, .landmarks = {}};
+    if (!request.landmarks.empty()) {
+        const auto on_a = surface_points(a->surface.vertices, a->surface.triangles, named.on_a);
+        const auto on_b = surface_points(b->surface.vertices, b->surface.triangles, named.on_b);
+        for (std::size_t i = 0; i < on_a.size(); ++i) options.landmarks.push_back({on_b[i], on_a[i]});
+    }
+    const Correspondence found = run_detachable<Correspondence>(
+        context, [options, a, b](ExecutionContext& own) { return correspond(a->surface, b->surface, options, own); });
+    std::vector<AtomicFile> files;
+    PolygonMesh moved = a->mesh.polygons;
+    moved.vertices = found.points;
+    std::vector<Warning> warnings = found.warnings;
+    std::ranges::move(
+        write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv, {a->mesh.file, true}),
+        std::back_inserter(warnings));
+    if (!request.json.empty())
+        files.emplace_back(request.json)
+            .write(json_text(report(request, *a, *b, found, options.landmarks.size(), warnings)));
+    context.checkpoint();
+    for (AtomicFile& file : files) file.commit();
+    if (!request.quiet) {
+        print(result_line(request, *a, *b, found, warnings), "; the files are written");
+        show_warnings(warnings);
+    }
+    return a->converged && b->converged ? done : not_converged;
+}
+
+}  // namespace
+
+Subcommand add_transfer(CLI::App& app)
+{
+    auto request = std::make_shared<Request>();
+    CLI::App* options =
+        app.add_subcommand("transfer", "the points of surface A on surface B, through the two circle domains");
+    options->add_option("A", request->first, "surface with holes: OBJ, OFF, PLY or STL")->required();
+    options->add_option("B", request->second, "surface with as many holes")->required();
+    options->add_option("OUT", request->output, "OBJ or PLY to write: A's faces, its vertices where they lie on B")
+        ->required();
+    options->add_flag("--no-fit", request->aligned_only,
+                      "lay the domains over each other, but bend no hole onto the other's");
+    options
+        ->add_option(
+            "--landmarks", request->landmarks,
+            "points that correspond exactly, a line each: two vertices, counted from 0, or x y z on A and x y z "
+            "on B")
+        ->type_name("FILE");
+    add_mapping_options(*options, request->options);
+    options
+        ->add_option("--json", request->json,
+                     "write there in which triangle of B each point lies, and how far the holes miss")
+        ->type_name("FILE");
+    options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    options->callback([request] {
+        request->format = required_format(request->output);
+        require_different_files(request->files(), {request->first, request->second, request->landmarks},
+                                !request->quiet);
+    });
+    return {options, [request] { return run(*request); }};
+}
+
+}  // namespace koebe::cli

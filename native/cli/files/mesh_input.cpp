@@ -1,0 +1,76 @@
+#include "cli/files/mesh_input.h"
+
+#include "batch/content_hash.h"
+#include "core/counted.h"
+#include "core/errors.h"
+#include "execution/detachable_run.h"
+#include "execution/thread_share.h"
+#include "quality/take_verdict.h"
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+
+namespace koebe::cli {
+
+namespace {
+
+MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions options)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const ThreadShare threads(options.threads);
+    MeshInput input;
+    // Before it is read: if it changes in between, the hash is that of no mesh, and nobody takes the map for this
+    // one's.
+    std::error_code error;
+    if (options.hash && std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
+    input.file = read_mesh_file(path);
+    input.polygons = parse_mesh(input.file.bytes, input.file.extension);
+    if (!options.keep_file) input.file = {};
+    input.triangulation = triangulate(input.polygons, !options.any_polygon);
+    const std::vector<Index>& collapsed = input.triangulation.collapsed;
+    if (!collapsed.empty())
+        input.warnings.push_back(
+            {WarningKind::collapsed_faces,
+             "faces of fewer than three different vertices, passed over: " + std::to_string(collapsed.size()),
+             collapsed});
+    if (const std::vector<Index>& uncut = input.triangulation.uncut; !uncut.empty())
+        input.warnings.push_back({WarningKind::left_out,
+                                  counted(uncut.size(), "polygon") +
+                                      " left out of the map, which cannot be cut into triangles, each on one point",
+                                  uncut});
+    if (input.triangulation.triangles.rows() == 0)
+        throw InputError("no face has three different vertices", ElementKind::faces, collapsed);
+    input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return input;
+}
+
+}  // namespace
+
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
+{
+    ExecutionContext context({}, token);
+    return run_detachable<MeshInput>(
+        context, [path, options](ExecutionContext&) { return read_and_triangulate(path, options); });
+}
+
+void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)
+{
+    for (Warning& warning : warnings)
+        if (elements_of(warning.kind) == ElementKind::faces)
+            warning.elements = filed_faces(input.triangulation, warning.elements);
+    warnings.insert(warnings.begin(), input.warnings.begin(), input.warnings.end());
+    put_loss_first(warnings);
+}
+
+std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles)
+{
+    std::vector<Index> faces;
+    faces.reserve(triangles.size());
+    for (const Index t : triangles) faces.push_back(triangulation.face[static_cast<std::size_t>(t)]);
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+}
+
+}  // namespace koebe::cli

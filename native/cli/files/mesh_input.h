@@ -1,0 +1,53 @@
+// The input file of every sub-command: as filed, and as triangles.
+#pragma once
+
+#include "core/errors.h"
+#include "core/warning.h"
+#include "execution/execution.h"
+#include "io/mesh_reader.h"
+#include "io/polygon_triangulation.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace koebe::cli {
+
+struct MeshInput {
+    MeshFile file;  ///< if it is to be written again
+    PolygonMesh polygons;
+    Triangulation triangulation;
+    std::vector<Warning> warnings;
+    std::string sha256;    ///< of the file, if asked for; empty where it is a pipe or a device
+    double seconds = 0.0;  ///< to read and triangulate
+};
+
+struct ReadOptions {
+    bool keep_file = true;     ///< for what is written with its other contents
+    bool any_polygon = false;  ///< those that cannot be cut into triangles are a warning, no error
+    bool hash = false;         ///< which takes as long as the reading
+    int threads = 1;           ///< at most; 0: all cores
+};
+
+/// @throws FileError, InputError, Cancelled
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options = {});
+
+/// Faces of the triangulation to faces of the file, each once.
+std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
+
+/// Makes the warnings' faces those of the file, and puts what was noticed on reading it before them.
+void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings);
+
+/// Calls compute(), and makes an error's faces those of the file.
+template <typename Compute>
+auto with_filed_faces(const MeshInput& input, Compute&& compute)
+{
+    try {
+        return compute();
+    } catch (const TopologyError& error) {
+        if (error.kind() != TopologyKind::disconnected) throw;
+        throw TopologyError(error.kind(), error.what(), filed_faces(input.triangulation, error.elements()));
+    }
+}
+
+}  // namespace koebe::cli

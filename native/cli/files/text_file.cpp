@@ -1,0 +1,23 @@
+#include "cli/files/text_file.h"
+
+#include "io/file_error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace koebe::cli {
+
+std::string read_words(const std::string& path)
+{
+    std::ifstream file(std::filesystem::path(path), std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (!file.good() && !file.eof()) throw FileError("cannot read " + path + " (" + std::strerror(errno) + ")");
+    std::ranges::replace(text, ',', ' ');
+    return text;
+}
+
+}  // namespace koebe::cli

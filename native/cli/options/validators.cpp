@@ -1,0 +1,64 @@
+#include "cli/options/validators.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace koebe::cli {
+namespace {
+
+/// Whether the whole word is a number of this type.
+template <typename Number>
+bool parse(const std::string& word, Number& number)
+{
+    const char* end = word.data() + word.size();
+    const auto [last, error] = std::from_chars(word.data(), end, number);
+    return error == std::errc{} && last == end;
+}
+
+}  // namespace
+
+CLI::Validator whole_number(int least)
+{
+    const auto check = [least](const std::string& word) -> std::string {
+        int number = 0;
+        if (parse(word, number) && number >= least) return {};
+        return "must be a whole number from " + std::to_string(least) + " on; got '" + word + "'";
+    };
+    return {check, "", "whole_number"};
+}
+
+CLI::Validator positive_number()
+{
+    const auto check = [](const std::string& word) -> std::string {
+        double number = 0.0;
+        if (parse(word, number) && number > 0.0 && std::isfinite(number)) return {};
+        return "must be a finite number above 0; got '" + word + "'";
+    };
+    return {check, "", "positive_number"};
+}
+
+CLI::Validator share()
+{
+    const auto check = [](const std::string& word) -> std::string {
+        double number = 0.0;
+        if (parse(word, number) && number >= 0.0 && number <= 1.0) return {};
+        return "must be a number from 0 to 1; got '" + word + "'";
+    };
+    return {check, "", "share"};
+}
+
+CLI::Validator outer_loop_choice(std::vector<std::string> words)
+{
+    const auto check = [words = std::move(words)](const std::string& word) -> std::string {
+        int vertex = 0;
+        if (std::ranges::find(words, word) != words.end() || (parse(word, vertex) && vertex >= 0)) return {};
+        std::string choice;
+        for (const std::string& known : words) choice += known + ", ";
+        return "must be " + choice + "or the number of a vertex, counted from 0; got '" + word + "'";
+    };
+    return {check, "", "outer_loop_choice"};
+}
+
+}  // namespace koebe::cli

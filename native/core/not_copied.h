@@ -1,0 +1,13 @@
+// A base for what is neither copied nor moved.
+#pragma once
+
+namespace koebe {
+
+struct NotCopied {
+    NotCopied() = default;
+    ~NotCopied() = default;
+    NotCopied(const NotCopied&) = delete;
+    NotCopied& operator=(const NotCopied&) = delete;
+};
+
+}  // namespace koebe

@@ -1,0 +1,96 @@
+// Computations that can be left at once, even inside a kernel that does not ask whether it should go on.
+#pragma once
+
+#include "core/api.h"
+#include "core/not_copied.h"
+#include "execution/execution.h"
+#include "execution/thread_memory.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace koebe {
+
+namespace detail {
+
+/// Counts a computation from its making to the end of its thread. The libraries a thread works in are taken down when
+/// the process exits, so an exit waits for those that are counted; where one does not end soon, having been left in a
+/// kernel without checkpoints, the process ends without taking anything down.
+class KOEBE_API CountedRun : NotCopied {
+public:
+    CountedRun();
+    ~CountedRun();
+};
+
+}  // namespace detail
+
+/// Runs a computation on a thread of its own, reports its progress on the calling thread, and answers a raised token
+/// within 20 ms by Cancelled; the computation then ends at its next checkpoint, unseen. So it must own all it reads.
+/// Its exceptions come out of here, and an exception of the progress or the poll callback leaves it in the same way.
+template <class Result>
+Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionContext&)> compute)
+{
+    struct Shared {
+        detail::CountedRun counted;
+        std::mutex mutex;
+        std::condition_variable changed;
+        std::deque<std::pair<double, std::string>> reports;
+        bool done = false;
+        std::optional<Result> result;
+        std::exception_ptr error;
+        CancelToken token;
+    };
+    auto shared = std::make_shared<Shared>();
+    std::thread thread([shared, compute = std::move(compute)]() mutable {
+        ExecutionContext inner(
+            [&shared](double fraction, const std::string& stage) {
+                const std::scoped_lock lock(shared->mutex);
+                shared->reports.emplace_back(fraction, stage);
+                shared->changed.notify_one();
+            },
+            shared->token);
+        std::optional<Result> result;
+        std::exception_ptr error;
+        try {
+            detail::take_thread_memory();
+            result = compute(inner);
+        } catch (...) {
+            error = std::current_exception();
+        }
+        compute = nullptr;
+        const std::scoped_lock lock(shared->mutex);
+        shared->result = std::move(result);
+        shared->error = error;
+        shared->done = true;
+        shared->changed.notify_one();
+    });
+    try {
+        std::unique_lock lock(shared->mutex);
+        while (!shared->done || !shared->reports.empty()) {
+            if (shared->reports.empty()) shared->changed.wait_for(lock, std::chrono::milliseconds(20));
+            const auto reports = std::exchange(shared->reports, {});
+            lock.unlock();
+            for (const auto& [fraction, stage] : reports) context.report(fraction, stage);
+            context.checkpoint();
+            lock.lock();
+        }
+    } catch (...) {
+        shared->token.cancel();
+        thread.detach();
+        throw;
+    }
+    thread.join();
+    if (shared->error) std::rethrow_exception(shared->error);
+    return *std::move(shared->result);
+}
+
+}  // namespace koebe

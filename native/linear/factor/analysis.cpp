@@ -1,0 +1,238 @@
+#include "linear/factor/analysis.h"
+
+#include "core/errors.h"
+#include "execution/memory_limit.h"
+#include "execution/thread_share.h"
+#include "linear/cholmod_support.h"
+#include "linear/factor/dissection.h"
+#include "linear/factor/elimination_order.h"
+#include "linear/factor/piece_analysis.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace koebe::detail {
+namespace {
+
+/// Fills what follows from the order and the first columns.
+void number(Supernodes& l)
+{
+    l.rank.resize(l.order.size());
+    for (Index j = 0; j < l.size(); ++j) l.rank[l.order[j]] = j;
+    l.supernode.resize(l.order.size());
+    for (Index s = 0; s < l.count(); ++s)
+        std::fill(l.supernode.begin() + l.first[s], l.supernode.begin() + l.first[s + 1], s);
+}
+
+Supernodes supernodes_of(const cholmod_factor& symbolic)
+{
+    const auto* const order = static_cast<const Index*>(symbolic.Perm);
+    const auto* const first = static_cast<const Index*>(symbolic.super);
+    const auto* const rows = static_cast<const Index*>(symbolic.s);
+    const auto* const row_begin = static_cast<const Index*>(symbolic.pi);
+    const auto* const value_begin = static_cast<const Index*>(symbolic.px);
+    const std::size_t count = symbolic.nsuper;
+    Supernodes result;
+    result.order.assign(order, order + symbolic.n);
+    result.first.assign(first, first + count + 1);
+    result.rows.assign(rows, rows + row_begin[count]);
+    result.row_begin.assign(row_begin, row_begin + count + 1);
+    result.value_begin.assign(value_begin, value_begin + count + 1);
+    number(result);
+    return result;
+}
+
+/// Appends the rows at or above `end` that a row of the matrix has an entry in.
+void append_ranks(const SparseMatrix& matrix, Index row, const std::vector<Index>& rank, Index end,
+                  std::vector<Index>& ranks)
+{
+    for (SparseMatrix::InnerIterator it(matrix, row); it; ++it)
+        if (rank[it.row()] >= end) ranks.push_back(rank[it.row()]);
+}
+
+void sort_unique(std::vector<Index>& numbers)
+{
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+class AnalysisInPieces {
+public:
+    AnalysisInPieces(const SparseMatrix& matrix, const std::vector<Index>& last) : matrix_(matrix), last_(last) {}
+
+    Analysis run(const Dissection& dissection)
+    {
+        plant(dissection);
+        number_tops();
+        analyze_pieces();
+        for (std::size_t p = result_.piece_count; p < parts_.size(); ++p) analyze_separator(parts_[p]);
+        lay_out();
+        number(l_);
+        return std::move(result_);
+    }
+
+private:
+    /// The tree of the parts.
+    void plant(const Dissection& dissection)
+    {
+        const std::vector<Dissection::Node>& nodes = dissection.nodes;
+        std::vector<std::size_t> part_of(nodes.size()), depth(nodes.size(), 0);
+        for (std::size_t i = nodes.size() - 1; i-- > 0;)
+            depth[i] = depth[static_cast<std::size_t>(nodes[i].parent)] + 1;
+        result_.rounds.resize(*std::max_element(depth.begin(), depth.end()));
+        for (const bool piece : {true, false})
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                if (nodes[i].is_piece == piece) {
+                    part_of[i] = rows_.size();
+                    rows_.push_back(&nodes[i].rows);
+                    if (piece)
+                        ++result_.piece_count;
+                    else
+                        result_.rounds[result_.rounds.size() - 1 - depth[i]].push_back(part_of[i]);
+                }
+        parts_.resize(rows_.size());
+        for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+            parts_[part_of[static_cast<std::size_t>(nodes[i].parent)]].children.push_back(part_of[i]);
+        if (last_.empty()) return;
+        result_.rounds.push_back({rows_.size()});
+        parts_.emplace_back().children = {rows_.size() - 1};
+        rows_.push_back(&last_);
+    }
+
+    /// The order of all rows that belong to no piece.
+    void number_tops()
+    {
+        l_.order.resize(matrix_.rows());
+        l_.rank.assign(matrix_.rows(), -1);
+        Index row = 0;
+        for (std::size_t p = 0; p < rows_.size(); ++p) {
+            FactorPart& part = parts_[p];
+            if (p == result_.piece_count) result_.tops = row;
+            part.begin = row;
+            row += static_cast<Index>(rows_[p]->size());
+            part.end = row;
+            if (p < result_.piece_count) continue;
+            for (Index i = part.begin; i < part.end; ++i) {
+                l_.order[i] = (*rows_[p])[i - part.begin];
+                l_.rank[l_.order[i]] = i;
+            }
+        }
+    }
+
+    void analyze_pieces()
+    {
+        std::vector<Index> number(matrix_.rows());
+        pieces_.resize(result_.piece_count);
+        each_beside(pieces_.size(), [&](std::size_t p) {
+            FactorPart& part = parts_[p];
+            for (std::size_t i = 0; i < rows_[p]->size(); ++i) {
+                const Index v = (*rows_[p])[i];
+                number[v] = static_cast<Index>(i);
+                append_ranks(matrix_, v, l_.rank, 0, part.interface);
+            }
+            sort_unique(part.interface);
+            pieces_[p] = analyze_piece(matrix_, *rows_[p], part.interface, l_.rank, number);
+            for (std::size_t i = 0; i < rows_[p]->size(); ++i) {
+                const Index r = part.begin + static_cast<Index>(i);
+                l_.order[r] = pieces_[p].order[i];
+                l_.rank[l_.order[r]] = r;
+            }
+        });
+    }
+
+    void analyze_separator(FactorPart& part)
+    {
+        for (const std::size_t child : part.children)
+            for (const Index r : parts_[child].interface)
+                if (r >= part.end) part.interface.push_back(r);
+        for (Index r = part.begin; r < part.end; ++r)
+            append_ranks(matrix_, l_.order[r], l_.rank, part.end, part.interface);
+        sort_unique(part.interface);
+    }
+
+    void lay_out()
+    {
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            FactorPart& part = parts_[p];
+            const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(l_.rows.size());
+            part.first_supernode = static_cast<Index>(l_.first.size());
+            if (p < pieces_.size()) {
+                const PieceSupernodes& piece = pieces_[p];
+                const Index size = part.end - part.begin;
+                for (std::size_t s = 0; s + 1 < piece.first.size(); ++s) {
+                    l_.first.push_back(part.begin + piece.first[s]);
+                    l_.row_begin.push_back(begin + piece.row_begin[s]);
+                }
+                for (const Index r : piece.rows)
+                    l_.rows.push_back(r < size ? part.begin + r : part.interface[r - size]);
+            } else if (part.end > part.begin) {
+                l_.first.push_back(part.begin);
+                l_.row_begin.push_back(begin);
+                for (Index r = part.begin; r < part.end; ++r) l_.rows.push_back(r);
+                l_.rows.insert(l_.rows.end(), part.interface.begin(), part.interface.end());
+            }
+            part.last_supernode = static_cast<Index>(l_.first.size());
+        }
+        l_.first.push_back(l_.size());
+        l_.row_begin.push_back(static_cast<std::ptrdiff_t>(l_.rows.size()));
+        l_.value_begin.assign(1, 0);
+        for (Index s = 0; s < l_.count(); ++s)
+            l_.value_begin.push_back(l_.value_begin.back() + static_cast<std::ptrdiff_t>(l_.width(s)) * l_.height(s));
+    }
+
+    const SparseMatrix& matrix_;
+    const std::vector<Index>& last_;
+    Analysis result_;
+    Supernodes& l_ = result_.supernodes;
+    std::vector<FactorPart>& parts_ = result_.parts;
+    std::vector<const std::vector<Index>*> rows_;  // of each part
+    std::vector<PieceSupernodes> pieces_;
+};
+
+}  // namespace
+
+double Analysis::memory() const
+{
+    double numbers = static_cast<double>(supernodes.value_begin.back());
+    for (std::size_t p = 0; p < piece_count; ++p)
+        numbers += static_cast<double>(parts[p].interface.size()) * static_cast<double>(parts[p].interface.size());
+    return sizeof(double) * numbers;
+}
+
+Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, Ordering ordering)
+{
+    Analysis result;
+    Supernodes& l = result.supernodes;
+    const Index inner_count = static_cast<Index>(matrix.rows()) - static_cast<Index>(last.size());
+    cholmod_sparse lower = view(matrix, -1);
+    // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
+    // postorder A_II by itself and forbid any further change.
+    for (const bool forced : {false, true}) {
+        CholmodCommon common;
+        std::vector<Index> order;
+        if (!last.empty()) order = elimination_order(matrix, last, ordering, forced, common);
+        common->nmethods = 1;
+        common->method[0].ordering = !last.empty()               ? CHOLMOD_GIVEN
+                                     : ordering == Ordering::amd ? CHOLMOD_AMD
+                                                                 : CHOLMOD_METIS;
+        common->postorder = forced ? 0 : 1;
+        const Factor symbolic =
+            own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, common.get()), common);
+        common.require(symbolic != nullptr, "symbolic analysis");
+        l = supernodes_of(*symbolic);
+        if (std::all_of(last.begin(), last.end(), [&](Index v) { return l.rank[v] >= inner_count; })) break;
+    }
+    result.tops = l.size();
+    result.piece_count = 1;
+    result.parts.push_back({0, l.size(), 0, l.count(), {}, {}});
+    return result;
+}
+
+std::optional<Analysis> analyze_in_pieces(const SparseMatrix& matrix, const std::vector<Index>& last, Index piece_rows)
+{
+    const Dissection dissection = dissect(matrix, last, piece_rows);
+    if (dissection.nodes.size() < 2) return std::nullopt;
+    return AnalysisInPieces(matrix, last).run(dissection);
+}
+
+}  // namespace koebe::detail

@@ -1,0 +1,55 @@
+#include "linear/factor/elimination_order.h"
+
+namespace koebe::detail {
+
+std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vector<Index>& last, Ordering ordering,
+                                     bool postordered, CholmodCommon& common)
+{
+    const Index vertex_count = static_cast<Index>(matrix.rows());
+    std::vector<Index> rank(vertex_count, 0);
+    for (const Index v : last) rank[v] = -1;
+    std::vector<Index> inner;
+    for (Index v = 0; v < vertex_count; ++v)
+        if (rank[v] == 0) {
+            rank[v] = static_cast<Index>(inner.size());
+            inner.push_back(v);
+        }
+
+    SparseMatrix block(inner.size(), inner.size());
+    block.reserve(matrix.nonZeros());
+    for (std::size_t c = 0; c < inner.size(); ++c) {
+        block.startVec(c);
+        for (SparseMatrix::InnerIterator it(matrix, inner[c]); it; ++it)
+            if (rank[it.row()] >= static_cast<Index>(c)) block.insertBack(rank[it.row()], c) = it.value();
+    }
+    block.finalize();
+
+    std::vector<Index> order(inner.size());
+    if (!inner.empty()) {
+        cholmod_sparse lower = view(block, -1);
+        if (postordered) {
+            common->nmethods = 1;
+            common->method[0].ordering = ordering == Ordering::amd ? CHOLMOD_AMD : CHOLMOD_METIS;
+            common->postorder = 1;
+            const Factor symbolic = own(cholmod_analyze(&lower, common.get()), common);
+            common.require(symbolic != nullptr, "ordering");
+            const Index* perm = static_cast<const Index*>(symbolic->Perm);
+            order.assign(perm, perm + inner.size());
+        } else {
+#if defined(KOEBE_WITHOUT_METIS)
+            const bool metis = false;
+#else
+            const bool metis =
+                ordering == Ordering::metis && cholmod_metis(&lower, nullptr, 0, 0, order.data(), common.get()) != 0;
+#endif
+            const bool done =
+                ordering == Ordering::amd ? cholmod_amd(&lower, nullptr, 0, order.data(), common.get()) != 0 : metis;
+            common.require(done, "ordering");
+        }
+    }
+    for (Index& v : order) v = inner[v];
+    order.insert(order.end(), last.begin(), last.end());
+    return order;
+}
+
+}  // namespace koebe::detail

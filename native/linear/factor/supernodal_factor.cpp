@@ -1,0 +1,151 @@
+#include "linear/factor/supernodal_factor.h"
+
+#include "execution/thread_share.h"
+#include "linear/factor/front.h"
+#include "linear/factor/piece_factor.h"
+#include "linear/kernel_buffer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace koebe::detail {
+
+SupernodalFactor::SupernodalFactor(Analysis analysis)
+    : Supernodes(std::move(analysis.supernodes)),
+      parts_(std::move(analysis.parts)),
+      piece_count_(analysis.piece_count),
+      rounds_(std::move(analysis.rounds)),
+      tops_(analysis.tops),
+      numbers_(static_cast<std::size_t>(value_begin.back()))
+{
+}
+
+void SupernodalFactor::factorize(const SparseMatrix& matrix)
+{
+    const MatrixPlaces* const places = is_in_pieces() ? nullptr : pattern_.places(matrix, *this);
+    RestPool pool;
+    std::vector<LowerMatrix> rests(parts_.size());
+    each_beside(piece_count_, [&](std::size_t p) {
+        const KernelBuffer buffer;
+        rests[p] = pool.take(static_cast<Index>(parts_[p].interface.size()));
+        factorize_piece(matrix, *this, parts_[p], tops_, numbers_.data(), rests[p], places);
+    });
+    constexpr std::size_t few = 2;  // are taken one after the other, on all threads each
+    for (const std::vector<std::size_t>& round : rounds_)
+        if (round.size() > few)
+            each_beside(round.size(), [&](std::size_t i) {
+                const KernelBuffer buffer;
+                factorize_separator(matrix, parts_[round[i]], rests, pool);
+            });
+        else
+            for (const std::size_t p : round) factorize_separator(matrix, parts_[p], rests, pool);
+}
+
+void SupernodalFactor::factorize_separator(const SparseMatrix& matrix, const FactorPart& part,
+                                           std::vector<LowerMatrix>& rests, RestPool& pool)
+{
+    const Index columns = part.end - part.begin, others = static_cast<Index>(part.interface.size());
+    const Index rows = columns + others;
+    std::vector<Index> place(order.size() - tops_);
+    for (Index r = 0; r < columns; ++r) place[part.begin + r - tops_] = r;
+    for (Index r = 0; r < others; ++r) place[part.interface[r] - tops_] = columns + r;
+    double* block = columns > 0 ? values(part.first_supernode) : nullptr;
+    LowerMatrix rest = pool.take(others);
+    std::fill(block, block + static_cast<std::ptrdiff_t>(columns) * rows, 0.0);
+    for (Index c = 0; c < columns; ++c)
+        for (SparseMatrix::InnerIterator it(matrix, order[part.begin + c]); it; ++it)
+            if (const Index r = rank[it.row()]; r >= part.begin + c)
+                block[place[r - tops_] + static_cast<std::ptrdiff_t>(c) * rows] = it.value();
+    for (const std::size_t child : part.children) {
+        LowerMatrix from = std::exchange(rests[child], {});
+        const std::vector<Index>& from_rows = parts_[child].interface;
+        in_pieces(from_rows.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) {
+                const Index column = place[from_rows[c] - tops_];
+                double* to = column < columns ? block + static_cast<std::ptrdiff_t>(column) * rows
+                                              : rest.column(column - columns) - columns;
+                const double* numbers = from.column(static_cast<Index>(c));
+                for (std::size_t r = c; r < from_rows.size(); ++r) to[place[from_rows[r] - tops_]] += numbers[r];
+            }
+        });
+        pool.give_back(std::move(from));
+    }
+    eliminate(block, rows, columns, rest.numbers.data());
+    rests[&part - parts_.data()] = std::move(rest);
+}
+
+MatrixXd SupernodalFactor::trailing_block(Index last) const
+{
+    MatrixXd trailing = MatrixXd::Zero(last, last);
+    const Index begin = size() - last;
+    for (Index s = last > 0 ? supernode[begin] : count(); s < count(); ++s)
+        for (Index column = std::max(first[s], begin); column < first[s + 1]; ++column) {
+            const Index at = column - first[s];
+            const double* values_of_column = values(s) + static_cast<std::ptrdiff_t>(at) * height(s);
+            for (Index r = at; r < height(s); ++r)
+                trailing(rows_of(s)[r] - begin, column - begin) = values_of_column[r];
+        }
+    return trailing;
+}
+
+MatrixXd SupernodalFactor::solve(const MatrixXd& right_hand_side) const
+{
+    MatrixXd result(right_hand_side.rows(), right_hand_side.cols());
+    if (result.size() == 0) return result;
+    MatrixXd x(right_hand_side.rows(), right_hand_side.cols());
+    for (Index j = 0; j < size(); ++j) x.row(j) = right_hand_side.row(order[j]);
+    solve_lower(x);
+    solve_upper(x);
+    for (Index j = 0; j < size(); ++j) result.row(order[j]) = x.row(j);
+    return result;
+}
+
+void SupernodalFactor::solve_lower(MatrixXd& x) const
+{
+    const Index columns = static_cast<Index>(x.cols()), top_count = size() - tops_;
+    std::vector<MatrixXd> arrived(piece_count_);
+    each_beside(piece_count_, [&](std::size_t p) {
+        const KernelBuffer buffer;
+        arrived[p] = MatrixXd::Zero(top_count, columns);
+        solve_lower(parts_[p], x, arrived[p]);
+    });
+    for (std::size_t p = 0; p < piece_count_; ++p)
+        for (const Index r : parts_[p].interface) x.row(r) += arrived[p].row(r - tops_);
+    MatrixXd top = MatrixXd::Zero(top_count, columns);
+    for (std::size_t p = piece_count_; p < parts_.size(); ++p) {
+        x.middleRows(parts_[p].begin, parts_[p].end - parts_[p].begin) +=
+            top.middleRows(parts_[p].begin - tops_, parts_[p].end - parts_[p].begin);
+        solve_lower(parts_[p], x, top);
+    }
+}
+
+void SupernodalFactor::solve_lower(const FactorPart& part, MatrixXd& x, MatrixXd& interface) const
+{
+    MatrixXd update;
+    for (Index s = part.first_supernode; s < part.last_supernode; ++s) {
+        substitute_forward(values(s), height(s), width(s), first[s], x, update);
+        const Index* rows = rows_of(s) + width(s);
+        for (Index r = 0; r < static_cast<Index>(update.rows()); ++r)
+            if (rows[r] < part.end)
+                x.row(rows[r]) += update.row(r);
+            else
+                interface.row(rows[r] - tops_) += update.row(r);
+    }
+}
+
+void SupernodalFactor::solve_upper(MatrixXd& x) const
+{
+    for (std::size_t p = parts_.size(); p-- > piece_count_;) solve_upper(parts_[p], x);
+    each_beside(piece_count_, [&](std::size_t p) {
+        const KernelBuffer buffer;
+        solve_upper(parts_[p], x);
+    });
+}
+
+void SupernodalFactor::solve_upper(const FactorPart& part, MatrixXd& x) const
+{
+    for (Index s = part.last_supernode; s-- > part.first_supernode;)
+        substitute_backward(values(s), height(s), width(s), first[s], rows_of(s) + width(s), x);
+}
+
+}  // namespace koebe::detail

@@ -1,0 +1,42 @@
+// All pieces of a cut surface as one mesh, to judge them where they lie.
+#pragma once
+
+#include "circles/circle.h"
+#include "opened/cut_uniformize.h"
+#include "quality/distortion.h"
+
+#include <vector>
+
+namespace koebe {
+
+class Sheet {
+public:
+    explicit Sheet(const std::vector<SurfacePiece>& pieces);
+
+    /// Puts each piece's unit disk onto its circle in [-1, 1]^2.
+    void place(const std::vector<MappedPiece>& mapped, const std::vector<Circle>& places);
+
+    /// Pieces with flips above resolution, rising: rounding is another where a disk is small.
+    std::vector<std::size_t> flipped_pieces() const;
+
+    /// Turns flipped faces of a piece back where it lies (untangle), and the UVs of its own disk with them.
+    /// @param mapped still in the piece's own numbers
+    void turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context);
+
+    /// Of all pieces as one.
+    ComputedDistortion distortion() const { return measure_distortion(vertices_, triangles_, points_); }
+
+    /// (3F, 2) u and v of the corners of the input's faces; NaN where a face is in no piece.
+    PlanarPoints corners(Index face_count) const;
+
+private:
+    const std::vector<SurfacePiece>& pieces_;
+    std::vector<Eigen::Index> first_vertex_;
+    Vertices vertices_;
+    Triangles triangles_;
+    PlanarPoints points_;
+    std::vector<Index> faces_;
+    std::vector<std::size_t> piece_;
+};
+
+}  // namespace koebe

@@ -1,0 +1,30 @@
+#include "quality/shared_warnings.h"
+
+#include "core/counted.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace koebe {
+
+void warn_reoriented(const std::vector<Index>& faces, std::vector<Warning>& warnings, const std::string& advice)
+{
+    if (!faces.empty())
+        warnings.push_back({WarningKind::reoriented_faces,
+                            counted(faces.size(), "face") + " turned to the orientation of the others", faces, advice});
+}
+
+void warn_not_one_to_one(const std::vector<Index>& flipped, const std::vector<Index>& below_resolution,
+                         const std::vector<std::string>& others, std::vector<Warning>& warnings)
+{
+    Warning warning{WarningKind::not_one_to_one, "no one-to-one map was found: "};
+    std::ranges::set_difference(flipped, below_resolution, std::back_inserter(warning.elements));
+    std::string wrong = warning.elements.empty() ? "" : counted(warning.elements.size(), "face") + " flipped";
+    for (const std::string& other : others)
+        if (!other.empty()) wrong += (wrong.empty() ? "" : "; ") + other;
+    warning.sentence += wrong;
+    warnings.push_back(std::move(warning));
+}
+
+}  // namespace koebe

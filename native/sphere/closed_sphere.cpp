@@ -1,0 +1,325 @@
+#include "sphere/closed_sphere.h"
+
+#include "core/errors.h"
+#include "linear/sparse_cholesky.h"
+#include "mesh/connectivity.h"
+#include "sphere/spherical_balance.h"
+#include "sphere/spherical_points.h"
+#include "surface/intrinsic_metric.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <queue>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double longest_side = 0.25;        // on the sphere: longer edges are split
+constexpr double longest_coarse_side = 0.1;  // of a mesh of few faces
+constexpr Eigen::Index few_faces = 500;
+constexpr int most_splits = 10;
+constexpr Index most_added_faces = 30000;
+constexpr double overlap = 0.5;  // each cap reaches so far beyond the equator, as a height: 30 degrees
+constexpr std::size_t tried_faces = 8;
+
+/// Vertices, those of the surface first, and faces.
+struct Polyhedron {
+    Vertices vertices;
+    Triangles triangles;
+};
+
+/// Splits edges in two and their faces in two to four, so that all stay flat.
+/// @param too_long of an edge's ends @return whether there was one
+template <typename TooLong>
+bool split_edges(Polyhedron& mesh, const TooLong& too_long)
+{
+    std::map<std::pair<Index, Index>, Index> middle;
+    std::vector<Eigen::RowVector3d> added;
+    std::vector<std::array<Index, 3>> faces;
+    const Index first = static_cast<Index>(mesh.vertices.rows());
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        std::array<Index, 3> v{}, half{};
+        for (int k = 0; k < 3; ++k) {
+            const Index a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
+            v[static_cast<std::size_t>(k)] = a;
+            half[static_cast<std::size_t>(k)] = -1;
+            if (!too_long(a, b)) continue;
+            const auto [at, is_new] = middle.try_emplace(std::minmax(a, b), first + static_cast<Index>(added.size()));
+            if (is_new) added.emplace_back(0.5 * (mesh.vertices.row(a) + mesh.vertices.row(b)));
+            half[static_cast<std::size_t>(k)] = at->second;
+        }
+        const auto count = std::ranges::count_if(half, [](Index h) { return h >= 0; });
+        // Turned so that the first edge is split, and of two the first and the second.
+        std::size_t turn = 0;
+        while (count > 0 && !(half[turn] >= 0 && (count == 1 || half[(turn + 1) % 3] >= 0))) ++turn;
+        std::rotate(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(turn), v.end());
+        std::rotate(half.begin(), half.begin() + static_cast<std::ptrdiff_t>(turn), half.end());
+        if (count == 0) {
+            faces.push_back(v);
+        } else if (count == 1) {
+            faces.push_back({v[0], half[0], v[2]});
+            faces.push_back({half[0], v[1], v[2]});
+        } else if (count == 2) {
+            faces.push_back({half[0], v[1], half[1]});
+            faces.push_back({v[0], half[0], half[1]});
+            faces.push_back({v[0], half[1], v[2]});
+        } else {
+            faces.push_back({v[0], half[0], half[2]});
+            faces.push_back({half[0], v[1], half[1]});
+            faces.push_back({half[2], half[1], v[2]});
+            faces.push_back({half[0], half[1], half[2]});
+        }
+    }
+    if (added.empty()) return false;
+    mesh.vertices.conservativeResize(first + static_cast<Eigen::Index>(added.size()), 3);
+    for (std::size_t i = 0; i < added.size(); ++i) mesh.vertices.row(first + static_cast<Index>(i)) = added[i];
+    mesh.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            mesh.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = faces[f][k];
+    return true;
+}
+
+/// Distances along edges from some vertices.
+VectorXd edge_distances(const IntrinsicMetric& metric, Index vertex_count, Index source)
+{
+    std::vector<std::vector<std::pair<Index, double>>> neighbours(static_cast<std::size_t>(vertex_count));
+    for (Eigen::Index f = 0; f < metric.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Index a = metric.triangles(f, k), b = metric.triangles(f, (k + 1) % 3);
+            neighbours[a].emplace_back(b, metric.lengths(f, k));
+            neighbours[b].emplace_back(a, metric.lengths(f, k));
+        }
+    VectorXd distance = VectorXd::Constant(vertex_count, std::numeric_limits<double>::infinity());
+    using Entry = std::pair<double, Index>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    distance[source] = 0.0;
+    queue.emplace(0.0, source);
+    while (!queue.empty()) {
+        const auto [far, v] = queue.top();
+        queue.pop();
+        if (far > distance[v]) continue;
+        for (const auto& [w, length] : neighbours[v])
+            if (far + length < distance[w]) {
+                distance[w] = far + length;
+                queue.emplace(distance[w], w);
+            }
+    }
+    return distance;
+}
+
+/// Area over the sum of the squared edges: the larger the rounder.
+double shape_of(const EdgeLengths& lengths, Eigen::Index f)
+{
+    const double squares = lengths.row(f).squaredNorm();
+    return squares > 0.0 ? triangle_area(lengths(f, 0), lengths(f, 1), lengths(f, 2)) / squares : 0.0;
+}
+
+/// Well shaped faces at vertices far from each other.
+std::vector<Index> faces_to_open(const IntrinsicMetric& metric, const Vertices& vertices)
+{
+    const Index count = static_cast<Index>(vertices.rows());
+    std::vector<Index> best(static_cast<std::size_t>(count), -1);
+    for (Index f = 0; f < static_cast<Index>(metric.triangles.rows()); ++f)
+        for (const Index v : metric.triangles.row(f))
+            if (best[v] < 0 || shape_of(metric.lengths, f) > shape_of(metric.lengths, best[v])) best[v] = f;
+    const Eigen::RowVector3d middle = vertices.colwise().mean();
+    Eigen::Index at = 0;
+    (vertices.rowwise() - middle).rowwise().squaredNorm().maxCoeff(&at);
+    VectorXd nearest = VectorXd::Constant(count, std::numeric_limits<double>::infinity());
+    std::vector<Index> faces;
+    while (faces.size() < std::min<std::size_t>(tried_faces, static_cast<std::size_t>(count))) {
+        if (best[at] >= 0 && std::ranges::find(faces, best[at]) == faces.end()) faces.push_back(best[at]);
+        nearest = nearest.cwiseMin(edge_distances(metric, count, static_cast<Index>(at)));
+        if (!(nearest.maxCoeff(&at) > 0.0)) break;
+    }
+    return faces;
+}
+
+/// Two columns: what makes u and v of the function with a dipole in a face.
+MatrixXd dipole_load(const IntrinsicMetric& metric, Index vertex_count, Index f)
+{
+    const double along = metric.lengths(f, 0), back = metric.lengths(f, 2), other = metric.lengths(f, 1);
+    const double x = (along * along + back * back - other * other) / (2.0 * along);
+    const double height = 2.0 * triangle_area(along, other, back) / along;
+    const Index a = metric.triangles(f, 0), b = metric.triangles(f, 1), c = metric.triangles(f, 2);
+    const double share = x / along;
+    MatrixXd load = MatrixXd::Zero(vertex_count, 2);
+    load(a, 0) -= 1.0 / along;
+    load(b, 0) += 1.0 / along;
+    load(a, 1) += (1.0 - share) / height;
+    load(b, 1) += share / height;
+    load(c, 1) -= 1.0 / height;
+    return load;
+}
+
+std::size_t turned_count(const Triangles& triangles, const VectorXcd& z)
+{
+    const Vertices points = on_sphere(z);
+    std::size_t turned = 0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const SpherePoint a = points.row(triangles(f, 0)), b = points.row(triangles(f, 1)),
+                          c = points.row(triangles(f, 2));
+        turned += a.dot((b - a).cross(c - a)) > 0.0 ? 0 : 1;
+    }
+    return turned;
+}
+
+/// One of two caps: harmonic inside, given on its rim.
+class CapChart {
+public:
+    CapChart(const SparseMatrix& laplacian, const std::vector<char>& fixed)
+    {
+        inside_ = static_cast<std::size_t>(std::ranges::count(fixed, char{0}));
+        if (inside_ > 0 && inside_ < fixed.size()) solver_ = std::make_unique<DirichletSolver>(laplacian, fixed);
+    }
+    explicit operator bool() const { return solver_ != nullptr; }
+    void solve(VectorXcd& z) const
+    {
+        MatrixXd values(z.size(), 2);
+        values << z.real(), z.imag();
+        values = solver_->solve(values);
+        z.real() = values.col(0);
+        z.imag() = values.col(1);
+    }
+
+private:
+    std::size_t inside_ = 0;
+    std::unique_ptr<DirichletSolver> solver_;
+};
+
+/// 1 / z, with a far point for 0.
+VectorXcd reciprocal(const VectorXcd& z)
+{
+    return z.unaryExpr([](Complex at) { return std::abs(at) > 1e-150 ? 1.0 / at : Complex(1e150, 0.0); });
+}
+
+/// Turned to lie as near to what it was as it can. @return the largest move that is left
+double turned_towards(const VectorXcd& from, VectorXcd& to, const VectorXd& weights)
+{
+    const Vertices old = on_sphere(from);
+    Vertices now = on_sphere(to);
+    now = (now * best_rotation(now, old, weights).transpose()).eval();
+    for (Eigen::Index v = 0; v < to.size(); ++v) to[v] = in_plane(now.row(v).transpose());
+    return (now - old).rowwise().norm().maxCoeff();
+}
+
+/// The metric of a polyhedron and the first map of it.
+struct OpenedSphere {
+    SparseMatrix laplacian;
+    VectorXd areas;
+    VectorXcd z;
+    std::size_t turned = std::numeric_limits<std::size_t>::max();  // faces
+};
+
+OpenedSphere open_sphere(const Polyhedron& mesh, const ExecutionContext& context)
+{
+    OpenedSphere sphere;
+    const Index count = static_cast<Index>(mesh.vertices.rows());
+    const IntrinsicMetric metric = intrinsic_metric(mesh.vertices, analyze_surface(mesh.triangles, count));
+    sphere.laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), count);
+    sphere.areas = vertex_areas(mesh.triangles, edge_lengths(mesh.vertices, mesh.triangles), count);
+    if (!(sphere.areas.sum() > 0.0)) sphere.areas.setOnes();
+    SparseMatrix tied =
+        sphere.laplacian;  // constants are in the kernel: a load without a sum draws nothing from the tie
+    tied.coeffRef(0, 0) += tied.diagonal().mean();
+    const SparseCholesky factor(tied);
+    double least = 0.0;
+    for (const Index f : faces_to_open(metric, mesh.vertices)) {
+        context.checkpoint();
+        const MatrixXd u = factor.solve(dipole_load(metric, count, f));
+        if (!u.allFinite()) continue;
+        VectorXcd opened(count);
+        opened.real() = u.col(0);
+        opened.imag() = u.col(1);
+        const double size = opened.cwiseAbs().maxCoeff();
+        if (!(size > 0.0) || !std::isfinite(size)) continue;
+        opened /= size;
+        opened = balance_on_sphere(opened, sphere.areas).move(opened);
+        const std::size_t turned = turned_count(mesh.triangles, opened);
+        const double unevenness = spherical_unevenness(opened, sphere.areas, {});
+        if (!opened.allFinite()) continue;
+        if (turned > sphere.turned || (turned == sphere.turned && unevenness >= least)) continue;
+        sphere.turned = turned;
+        least = unevenness;
+        sphere.z = std::move(opened);
+    }
+    if (sphere.z.size() == 0) throw SolverError("no finite map to the sphere: the metric is degenerate");
+    return sphere;
+}
+
+/// As open_sphere, with edges split until none is long on the sphere.
+OpenedSphere open_refined_sphere(Polyhedron& mesh, ExecutionContext& context)
+{
+    const Eigen::Index most = mesh.triangles.rows() + most_added_faces;
+    const double longest = mesh.triangles.rows() < few_faces ? longest_coarse_side : longest_side;
+    OpenedSphere sphere = open_sphere(mesh, context);
+    for (int round = 0; round < most_splits && mesh.triangles.rows() < most; ++round) {
+        context.advance(0.05 * (round + 1));
+        const Vertices points = on_sphere(sphere.z);
+        if (!split_edges(mesh, [&](Index a, Index b) { return (points.row(a) - points.row(b)).norm() > longest; }))
+            break;
+        sphere = open_sphere(mesh, context);
+    }
+    return sphere;
+}
+
+}  // namespace
+
+ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd& weights,
+                                  const IterationOptions& options, ExecutionContext& context)
+{
+    Polyhedron mesh{domain.vertices, domain.surface.triangles};
+    OpenedSphere sphere = open_refined_sphere(mesh, context);
+    const SparseMatrix& laplacian = sphere.laplacian;
+    const VectorXd& areas = sphere.areas;
+    std::size_t fewest = sphere.turned;
+    VectorXcd z = std::move(sphere.z);
+    const Index count = static_cast<Index>(mesh.vertices.rows());
+
+    ClosedSphereMap map;
+    const Vertices start = on_sphere(z);
+    std::vector<char> south(static_cast<std::size_t>(count)), north(static_cast<std::size_t>(count));
+    for (Index v = 0; v < count; ++v) {
+        south[v] = start(v, 2) <= -overlap ? 1 : 0;
+        north[v] = start(v, 2) >= overlap ? 1 : 0;
+    }
+    const CapChart upper(laplacian, south), lower(laplacian, north);
+    VectorXcd best = z;
+    double least_change = std::numeric_limits<double>::infinity();
+    for (int sweep = 0; sweep < options.max_sweeps && !map.converged; ++sweep) {
+        context.advance(0.5 + 0.5 * sweep / (sweep + 4.0));
+        VectorXcd next = z;
+        if (upper) upper.solve(next);
+        if (lower) {
+            next = reciprocal(next);
+            lower.solve(next);
+            next = reciprocal(next);
+        }
+        if (!next.allFinite()) break;
+        next = balance_on_sphere(next, areas).move(next);
+        if (!next.allFinite()) break;
+        const double change = turned_towards(z, next, areas);
+        map.changes.push_back(change);
+        map.converged = change < options.tolerance;
+        const std::size_t turned = turned_count(mesh.triangles, next);
+        z = std::move(next);
+        if (turned < fewest || (turned == fewest && change < least_change) || map.converged) {
+            fewest = std::min(fewest, turned);
+            best = z;
+        }
+        least_change = std::min(least_change, change);
+    }
+    map.z = best.head(domain.surface.vertex_count);
+    map.z = balance_on_sphere(map.z, weights).move(map.z);
+    return map;
+}
+
+}  // namespace koebe

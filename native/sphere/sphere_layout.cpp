@@ -1,0 +1,183 @@
+#include "sphere/sphere_layout.h"
+
+#include "core/tolerances.h"
+#include "sphere/sphere_polygons.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace koebe {
+namespace {
+
+constexpr double uv_steps = 8388608.0;  // 2^23 to 1: as fine as 32-bit floats are from 1 to 2
+
+using FaceCorners = std::array<SpherePoint, 3>;
+using CornerUvs = std::array<Eigen::RowVector2d, 3>;
+
+/// Whether the triangle, its sides the shorter arcs, has a point inside or on its sides.
+bool contains(const FaceCorners& p, const SpherePoint& point)
+{
+    int sides = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int side = orientation(p[k], p[(k + 1) % 3], point);
+        if (side == 0) return (p[0] + p[1] + p[2]).dot(point) > 0.0;
+        sides += side;
+    }
+    return std::abs(sides) == 3 && (p[0] + p[1] + p[2]).dot(point) > 0.0;
+}
+
+bool at_pole(const SpherePoint& p) { return p[0] == 0.0 && p[1] == 0.0; }
+
+struct Placed {
+    CornerUvs uv;
+    bool crossing = false, torn = false;
+};
+
+/// Longitudes of a face round a pole, in turns: each step the shorter way, the third one left out. Which step that is,
+/// the area tells: the face shall be upright.
+std::array<double, 3> once_round(const std::array<double, 3>& turns, const std::array<double, 3>& heights, bool turned)
+{
+    std::array<double, 3> best{};
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t first = 0; first < 3; ++first) {
+        std::array<double, 3> own = turns;
+        for (std::size_t k = 1; k < 3; ++k) {
+            double& next = own[(first + k) % 3];
+            next -= std::round(next - own[(first + k + 2) % 3]);
+        }
+        const double area =
+            (own[1] - own[0]) * (heights[2] - heights[0]) - (own[2] - own[0]) * (heights[1] - heights[0]);
+        if ((turned ? -area : area) <= most) continue;
+        most = turned ? -area : area;
+        best = own;
+    }
+    return best;
+}
+
+Placed equirectangular(const FaceCorners& p, bool turned)
+{
+    Placed placed;
+    std::array<double, 3> turns{};
+    std::size_t known = 3;  // a corner with a longitude
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (at_pole(p[k])) continue;
+        double own = on_uv_steps(std::atan2(p[k][1], p[k][0]) / (2.0 * std::numbers::pi) + 0.5);
+        if (own >= 1.0) own = 0.0;
+        turns[k] = own;
+        if (known == 3) known = k;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!at_pole(p[k])) turns[k] -= std::round(turns[k] - turns[known]);
+    int poles = 0;
+    for (std::size_t k = 0; k < 3; ++k) poles += at_pole(p[k]) ? 1 : 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!at_pole(p[k])) continue;
+        const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+        turns[k] = on_uv_steps(at_pole(p[a]) ? turns[b] : at_pole(p[b]) ? turns[a] : 0.5 * (turns[a] + turns[b]));
+    }
+    placed.torn = poles == 0 && (contains(p, {0.0, 0.0, 1.0}) || contains(p, {0.0, 0.0, -1.0}));
+    std::array<double, 3> heights{};
+    for (std::size_t k = 0; k < 3; ++k)
+        heights[k] = on_uv_steps(std::atan2(p[k][2], std::hypot(p[k][0], p[k][1])) / std::numbers::pi + 0.5);
+    if (placed.torn) turns = once_round(turns, heights, turned);
+    const double back = std::floor(*std::ranges::min_element(turns));
+    for (std::size_t k = 0; k < 3; ++k) {
+        placed.uv[k] << turns[k] - back, heights[k];
+        placed.crossing |= placed.uv[k][0] >= 1.0;
+    }
+    return placed;
+}
+
+/// In [-1, 1]^2. @param x, y signs to use where a coordinate is 0
+Eigen::RowVector2d folded_out(const SpherePoint& p, double x, double y)
+{
+    const double sum = std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]);
+    const double a = std::abs(p[0]) / sum, b = std::abs(p[1]) / sum;
+    return p[2] >= 0.0 ? Eigen::RowVector2d(x * a, y * b) : Eigen::RowVector2d(x * (1.0 - b), y * (1.0 - a));
+}
+
+/// u -> sign u + shift, of both coordinates: what the pattern's half turns lead to.
+struct FoldedSheet {
+    double sign = 1.0;
+    Eigen::RowVector2d shift = Eigen::RowVector2d::Zero();
+
+    /// Goes on over the side of the square whose middle is there.
+    void cross(const Eigen::RowVector2d& middle)
+    {
+        shift += sign * 2.0 * middle;
+        sign = -sign;
+    }
+    Eigen::RowVector2d operator()(const Eigen::RowVector2d& at) const { return sign * at + shift; }
+};
+
+Placed octahedral(const FaceCorners& p)
+{
+    Placed placed;
+    const SpherePoint middle = p[0] + p[1] + p[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+        // The straight way from the middle to the corner, over the planes x = 0 and y = 0.
+        std::array<double, 2> sign{}, when{};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Eigen::Index axis = static_cast<Eigen::Index>(i);
+            sign[i] = middle[axis] < 0.0 ? -1.0 : 1.0;
+            const bool over = p[k][axis] != 0.0 && (p[k][axis] < 0.0) != (middle[axis] < 0.0);
+            when[i] = over ? middle[axis] / (middle[axis] - p[k][axis]) : 2.0;
+        }
+        FoldedSheet sheet;
+        for (const std::size_t i :
+             when[0] <= when[1] ? std::array<std::size_t, 2>{0, 1} : std::array<std::size_t, 2>{1, 0}) {
+            if (when[i] > 1.0) continue;
+            const double height = middle[2] + when[i] * (p[k][2] - middle[2]);
+            if (height < 0.0) {  // the lower half: over the side that the other coordinate's sign tells
+                Eigen::RowVector2d side(0.0, 0.0);
+                side[i == 0 ? 1 : 0] = sign[i == 0 ? 1 : 0];
+                sheet.cross(side);
+                placed.crossing = true;
+            }
+            sign[i] = -sign[i];
+        }
+        const Eigen::RowVector2d at = folded_out(p[k], sign[0], sign[1]);
+        placed.uv[k] = sheet(Eigen::RowVector2d(on_uv_steps(0.5 * at[0]) * 2.0, on_uv_steps(0.5 * at[1]) * 2.0));
+        placed.uv[k] = (0.5 * (placed.uv[k].array() + 1.0)).matrix();
+    }
+    for (const SpherePoint& corner :
+         {SpherePoint(1, 0, 0), SpherePoint(-1, 0, 0), SpherePoint(0, 1, 0), SpherePoint(0, -1, 0)})
+        placed.torn |= std::ranges::find(p, corner) == p.end() && contains(p, corner);
+    return placed;
+}
+
+}  // namespace
+
+double on_uv_steps(double t) { return std::round(t * uv_steps) / uv_steps; }
+
+PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, const std::vector<char>& turned,
+                           const std::vector<Index>& polygon, SphereLayout layout, SphereLayoutReport& report)
+{
+    PlanarPoints uv(triangles.size(), 2);
+    const auto count = static_cast<std::size_t>(triangles.rows());
+    LayoutMarks marks{std::vector<char>(count, 0), std::vector<char>(count, 0)};
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+        FaceCorners p;
+        for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = points.row(triangles(f, k)).transpose();
+        const Placed placed = layout == SphereLayout::octahedral
+                                  ? octahedral(p)
+                                  : equirectangular(p, turned[static_cast<std::size_t>(f)] != 0);
+        for (int k = 0; k < 3; ++k) uv.row(3 * f + k) = placed.uv[static_cast<std::size_t>(k)];
+        marks.crossing[static_cast<std::size_t>(f)] = placed.crossing ? 1 : 0;
+        marks.torn[static_cast<std::size_t>(f)] = placed.torn ? 1 : 0;
+    }
+    join_polygons(triangles, points, polygon, layout, uv, marks);
+    report = {};
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+        if (marks.crossing[static_cast<std::size_t>(f)]) report.crossing.push_back(f);
+        if (marks.torn[static_cast<std::size_t>(f)]) report.torn.push_back(f);
+    }
+    return uv;
+}
+
+}  // namespace koebe

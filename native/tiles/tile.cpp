@@ -1,0 +1,510 @@
+#include "tiles/tile.h"
+
+#include "core/tolerances.h"
+#include "cut/seamed_mesh.h"
+#include "foldover/foldover_free.h"
+#include "foldover/patch_shapes.h"
+#include "foldover/untangle.h"
+#include "mesh/connectivity.h"
+#include "planar/boundary_crossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+using Lift = std::array<int, 2>;
+
+constexpr double grid_extent = 16777216.0 - 64.0;  // with room for what rounding adds
+constexpr int tried_origins = 12;                  // along each period
+constexpr int most_tile_passes = 8;
+constexpr int most_in_vain = 3;  // passes that turn no face back
+
+Lift operator+(Lift a, Lift b) { return {a[0] + b[0], a[1] + b[1]}; }
+Lift operator-(Lift a, Lift b) { return {a[0] - b[0], a[1] - b[1]}; }
+
+/// A point in periods; of a cylinder along its only one, the other coordinate 0.
+std::array<double, 2> in_periods(const FlatMap& map, Complex z)
+{
+    if (map.periods.size() < 2) return {(z / map.periods[0]).real(), 0.0};
+    const Complex a = map.periods[0], b = map.periods[1];
+    const double area = (std::conj(a) * b).imag();
+    return {(std::conj(z) * b).imag() / area, (std::conj(a) * z).imag() / area};
+}
+
+Complex lifted(const FlatMap& map, Complex z, Lift lift)
+{
+    for (std::size_t j = 0; j < map.periods.size(); ++j) z += static_cast<double>(lift[j]) * map.periods[j];
+    return z;
+}
+
+/// The origin among some that cuts the fewest holes.
+std::array<double, 2> clear_origin(const PeriodicSurface& domain, const FlatMap& map)
+{
+    std::array<std::vector<std::pair<double, double>>, 2> spans;  // of each hole along each period
+    for (std::size_t k = domain.first_hole; k < domain.loops.size(); ++k) {
+        std::array<double, 2> low{1e300, 1e300}, high{-1e300, -1e300};
+        for (const Index v : domain.loops[k]) {
+            const auto p = in_periods(map, map.z[v]);
+            for (int j = 0; j < 2; ++j) {
+                low[j] = std::min(low[j], p[j]);
+                high[j] = std::max(high[j], p[j]);
+            }
+        }
+        for (int j = 0; j < 2; ++j) spans[j].emplace_back(low[j], high[j]);
+    }
+    std::array<double, 2> best{0.0, 0.0};
+    for (std::size_t j = 0; j < map.periods.size(); ++j) {
+        int fewest = std::numeric_limits<int>::max();
+        for (int i = 0; i < tried_origins; ++i) {
+            const double at = static_cast<double>(i) / tried_origins;
+            int cut = 0;
+            for (const auto& [low, high] : spans[j]) cut += std::floor(low - at) != std::floor(high - at) ? 1 : 0;
+            if (cut >= fewest) continue;
+            fewest = cut;
+            best[j] = at;
+        }
+    }
+    return best;
+}
+
+/// The other face of a polygon over one of its inner edges, or no_twin.
+Index twin_in_polygon(const PeriodicSurface& domain, Index h)
+{
+    const Index twin = domain.surface.twin[h];
+    if (domain.polygon.empty() || twin == no_twin) return no_twin;
+    return domain.polygon[face_of(h)] == domain.polygon[face_of(twin)] ? twin : no_twin;
+}
+
+/// (3F) the lifts of the corners: each polygon where its middle lies in the cell.
+std::vector<Lift> lifts_in_cell(const PeriodicSurface& domain, const FlatMap& map, std::array<double, 2> origin)
+{
+    const Triangles& triangles = domain.surface.triangles;
+    std::vector<Lift> lift(static_cast<std::size_t>(triangles.size()));
+    std::vector<char> met(static_cast<std::size_t>(triangles.rows()), 0);
+    for (Index first = 0; first < static_cast<Index>(triangles.rows()); ++first) {
+        if (met[first]) continue;
+        met[first] = 1;
+        lift[3 * static_cast<std::size_t>(first)] = {0, 0};
+        std::vector<Index> starts{3 * first};  // half-edges whose origin has its lift
+        Complex sum = 0.0;
+        for (std::size_t head = 0; head < starts.size(); ++head) {
+            for (Index h = starts[head], k = 0; k < 3; ++k, h = next_halfedge(h)) {
+                if (k < 2) lift[next_halfedge(h)] = lift[h] + domain.shift(h);
+                sum += lifted(map, map.z[triangles.data()[h]], lift[h]) / 3.0;
+            }
+            for (Index h = 3 * face_of(starts[head]), k = 0; k < 3; ++k, ++h) {
+                const Index twin = twin_in_polygon(domain, h);
+                if (twin == no_twin || met[face_of(twin)]) continue;
+                met[face_of(twin)] = 1;
+                lift[twin] = lift[next_halfedge(h)];
+                starts.push_back(twin);
+            }
+        }
+        const auto p = in_periods(map, sum / static_cast<double>(starts.size()));
+        Lift back{0, 0};
+        for (std::size_t j = 0; j < map.periods.size(); ++j) back[j] = static_cast<int>(std::floor(p[j] - origin[j]));
+        for (const Index start : starts)
+            for (Index c = 3 * face_of(start), k = 0; k < 3; ++k, ++c) lift[c] = lift[c] - back;
+    }
+    return lift;
+}
+
+/// What a face has to be moved by to lie at its neighbour over a half-edge of that.
+Lift step_over(const PeriodicSurface& domain, const std::vector<Lift>& lift, Index h)
+{
+    return lift[next_halfedge(h)] - lift[domain.surface.twin[h]];
+}
+
+bool is_seam(const PeriodicSurface& domain, const std::vector<Lift>& lift, Index h)
+{
+    return domain.surface.twin[h] != no_twin && step_over(domain, lift, h) != Lift{0, 0};
+}
+
+/// Moves parts to their neighbours until all hang together, beginning with the largest.
+void join_parts(const PeriodicSurface& domain, std::vector<Lift>& lift)
+{
+    const Index face_count = static_cast<Index>(domain.surface.triangles.rows());
+    std::vector<Index> part(face_count, -1);
+    std::vector<std::vector<Index>> parts;
+    for (Index seed = 0; seed < face_count; ++seed) {
+        if (part[seed] >= 0) continue;
+        std::vector<Index> queue{seed};
+        part[seed] = static_cast<Index>(parts.size());
+        for (std::size_t head = 0; head < queue.size(); ++head)
+            for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
+                if (domain.surface.twin[h] == no_twin || is_seam(domain, lift, h)) continue;
+                const Index g = face_of(domain.surface.twin[h]);
+                if (part[g] >= 0) continue;
+                part[g] = part[seed];
+                queue.push_back(g);
+            }
+        parts.push_back(std::move(queue));
+    }
+    const auto largest = std::ranges::max_element(parts, {}, [](const auto& faces) { return faces.size(); });
+    std::vector<char> placed(parts.size(), 0);
+    placed[largest - parts.begin()] = 1;
+    std::vector<Index> queue = *largest;
+    for (std::size_t head = 0; head < queue.size(); ++head)
+        for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
+            if (domain.surface.twin[h] == no_twin) continue;
+            const Index other = part[face_of(domain.surface.twin[h])];
+            if (placed[other]) continue;
+            placed[other] = 1;
+            const Lift step = step_over(domain, lift, h);
+            for (const Index f : parts[other]) {
+                for (Index c = 3 * f; c < 3 * f + 3; ++c) lift[c] = lift[c] + step;
+                queue.push_back(f);
+            }
+        }
+}
+
+GridPoint on_grid(Complex z, double scale) { return {std::llround(scale * z.real()), std::llround(scale * z.imag())}; }
+
+std::int64_t twice_area(GridPoint a, GridPoint b) { return a[0] * b[1] - a[1] * b[0]; }
+GridPoint difference(GridPoint a, GridPoint b) { return {a[0] - b[0], a[1] - b[1]}; }
+
+/// The tile as a mesh of the plane with a vertex for each fan of corners that are joined in it.
+struct TileSheet {
+    Surface surface;
+    Vertices vertices;          // (n, 3) in space
+    PlanarPoints uv;            // (n, 2) in [-1, 1]
+    std::vector<Index> source;  // (n) vertex of the domain
+    std::vector<Lift> lift;     // (n)
+    double scale = 1.0;         // of the map's plane
+    Complex middle{0.0, 0.0};   // of the map's plane, at 0
+};
+
+TileSheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std::vector<Lift>& lift)
+{
+    SeamedMesh mesh;
+    mesh.corners = domain.surface.triangles;
+    mesh.twin = domain.surface.twin;
+    for (Index h = 0; h < mesh.halfedge_count(); ++h)
+        if (domain.surface.twin[h] > h && is_seam(domain, lift, h)) mesh.cut(h);
+    number_fans(mesh);
+    TileSheet sheet;
+    sheet.surface = analyze_surface(mesh.fans, mesh.fan_count);
+    sheet.source.resize(mesh.fan_count);
+    sheet.lift.resize(mesh.fan_count);
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+        sheet.source[origin(mesh.fans, h)] = origin(mesh.corners, h);
+        sheet.lift[origin(mesh.fans, h)] = lift[h];
+    }
+    sheet.vertices = domain.vertices(sheet.source, Eigen::all);
+    VectorXcd points(mesh.fan_count);
+    for (Index v = 0; v < mesh.fan_count; ++v) points[v] = lifted(map, map.z[sheet.source[v]], sheet.lift[v]);
+    const Complex low(points.real().minCoeff(), points.imag().minCoeff());
+    const Complex high(points.real().maxCoeff(), points.imag().maxCoeff());
+    sheet.middle = 0.5 * (low + high);
+    sheet.scale = 2.0 / std::max({(high - low).real(), (high - low).imag(), 1e-300});
+    sheet.uv.resize(mesh.fan_count, 2);
+    for (Index v = 0; v < mesh.fan_count; ++v) {
+        const Complex at = sheet.scale * (points[v] - sheet.middle);
+        sheet.uv.row(v) << at.real(), at.imag();
+    }
+    return sheet;
+}
+
+/// Untangles a tile that is cut so; what is on its border stays.
+void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, HoleShape shape, FlatMap& map,
+                  RepairEffort& effort, ExecutionContext& context)
+{
+    TileSheet sheet = sheet_of(domain, map, lift);
+    std::vector<Index> hole_of(domain.surface.vertex_count, -1);
+    for (std::size_t k = domain.first_hole; k < domain.loops.size(); ++k)
+        for (const Index v : domain.loops[k]) hole_of[v] = static_cast<Index>(k);
+    std::vector<VertexLoop> loops, holes;
+    std::vector<Circle> places, hole_places;
+    const bool circles = shape == HoleShape::open && domain.first_hole == 0 && map.apart && !map.circles.empty();
+    UntangleOptions options{.slide = circles, .effort = &effort};
+    std::vector<Index> off_circle;
+    for (const VertexLoop& loop : sheet.surface.loops) {
+        const Index k = hole_of[sheet.source[loop.front()]];
+        const bool whole = k >= 0 && loop.size() == domain.loops[k].size() &&
+                           std::ranges::all_of(loop, [&](Index v) { return hole_of[sheet.source[v]] == k; });
+        if (!whole || shape != HoleShape::open) {
+            loops.push_back(loop);
+            places.push_back(Circle{});
+            for (const Index v : loop) {
+                off_circle.push_back(v);
+                options.held.push_back(v);
+            }
+            continue;
+        }
+        holes.push_back(loop);
+        Circle place{0.0, 10.0};  // where it may not slide none is asked for
+        if (circles) {
+            place = map.circles[k - static_cast<Index>(domain.first_hole)];
+            place = {sheet.scale * (lifted(map, place.center, sheet.lift[loop.front()]) - sheet.middle),
+                     sheet.scale * place.radius};
+        }
+        hole_places.push_back(place);
+        for (const Index v : loop)
+            if (std::ranges::binary_search(map.off_circle, sheet.source[v])) off_circle.push_back(v);
+    }
+    if (loops.empty()) return;  // no border: nothing would hold it
+    loops.insert(loops.end(), holes.begin(), holes.end());
+    places.insert(places.end(), hole_places.begin(), hole_places.end());
+    std::ranges::sort(off_circle);
+    const PlanarPoints before = sheet.uv;
+    const UntangleReport report =
+        untangle(sheet.vertices, sheet.surface, loops, places, off_circle, sheet.uv, context, options);
+    for (Eigen::Index v = 0; v < sheet.uv.rows(); ++v) {
+        if (sheet.uv.row(v) == before.row(v)) continue;
+        const Complex at = Complex(sheet.uv(v, 0), sheet.uv(v, 1)) / sheet.scale + sheet.middle;
+        const Lift l = sheet.lift[v];
+        map.z[sheet.source[v]] = lifted(map, at, {-l[0], -l[1]});
+    }
+    for (const Index v : report.freed) map.off_circle.push_back(sheet.source[v]);
+    std::ranges::sort(map.off_circle);
+    map.off_circle.erase(std::unique(map.off_circle.begin(), map.off_circle.end()), map.off_circle.end());
+}
+
+/// Faces within so many rings of some.
+std::vector<Index> around(const Triangles& triangles, Index vertex_count, std::vector<Index> faces, int rings)
+{
+    std::vector<char> near(static_cast<std::size_t>(vertex_count), 0);
+    for (int ring = 0; ring <= rings; ++ring) {
+        for (const Index f : faces)
+            for (const Index v : triangles.row(f)) near[v] = 1;
+        faces.clear();
+        for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
+            if (near[triangles(f, 0)] || near[triangles(f, 1)] || near[triangles(f, 2)]) faces.push_back(f);
+    }
+    return faces;
+}
+
+/// Moves what lies around flipped faces of a ring by foldover-free minimization (Garanzha et al. 2021), rims and slits
+/// along their lines.
+void slide_along_lines(const PeriodicSurface& domain, const std::vector<Lift>& lift, int rings, HoleShape shape,
+                       FlatMap& map, ExecutionContext& context)
+{
+    constexpr double far = 1e4;        // radius of the circle that stands for a line, over the tile's
+    constexpr double rounding = 4e-7;  // what a face can lose, over its longest edge
+    TileSheet sheet = sheet_of(domain, map, lift);
+    const Triangles& triangles = sheet.surface.triangles;
+    const auto area = [&](const PlanarPoints& uv, Index f) {
+        const Eigen::RowVector2d a = uv.row(triangles(f, 1)) - uv.row(triangles(f, 0));
+        const Eigen::RowVector2d b = uv.row(triangles(f, 2)) - uv.row(triangles(f, 0));
+        return 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    };
+    const auto longest = [&](Index f) {
+        double result = 0.0;
+        for (int k = 0; k < 3; ++k)
+            result = std::max(result, (sheet.uv.row(triangles(f, (k + 1) % 3)) - sheet.uv.row(triangles(f, k))).norm());
+        return result;
+    };
+    const auto flat = [&](const PlanarPoints& uv, Index f) { return !(area(uv, f) > 0.25 * rounding * longest(f)); };
+    std::vector<Index> seeds;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
+        if (flat(sheet.uv, f)) seeds.push_back(f);
+    if (seeds.empty()) return;
+    std::vector<Index> faces = around(triangles, sheet.surface.vertex_count, seeds, rings);
+
+    using Mobility = FoldoverProblem::Mobility;
+    const Index count = sheet.surface.vertex_count;
+    FoldoverProblem problem;
+    problem.points = sheet.uv;
+    problem.mobility.assign(static_cast<std::size_t>(count), Mobility::held);
+    problem.circles.resize(static_cast<std::size_t>(count));
+    std::vector<char> inside(static_cast<std::size_t>(count), 0);
+    std::vector<int> fans(static_cast<std::size_t>(domain.surface.vertex_count), 0);
+    for (const Index v : sheet.source) ++fans[v];
+    for (const Index f : faces)
+        for (const Index v : triangles.row(f)) inside[v] = fans[sheet.source[v]] == 1;
+    std::vector<char> chosen(static_cast<std::size_t>(triangles.rows()), 0);
+    for (const Index f : faces) chosen[f] = 1;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
+        if (!chosen[f])
+            for (const Index v : triangles.row(f)) inside[v] = 0;
+    std::vector<int> line(static_cast<std::size_t>(domain.surface.vertex_count), 0);  // 1 along u, 2 along v, 3 none
+    for (std::size_t k = 0; k < domain.loops.size(); ++k)
+        for (const Index v : domain.loops[k])
+            line[v] = k < domain.first_hole ? 1 : shape == HoleShape::along_u ? 1 : shape == HoleShape::along_v ? 2 : 3;
+    for (Index v = 0; v < count; ++v) {
+        const int along = line[sheet.source[v]];
+        if (!inside[v] || along == 3) continue;
+        problem.mobility[v] = along == 0 ? Mobility::free : Mobility::sliding;
+        const Complex at(sheet.uv(v, 0), sheet.uv(v, 1));
+        problem.circles[v] = {at + (along == 1 ? Complex(0.0, far) : Complex(far, 0.0)), far};
+    }
+    std::erase_if(faces, [&](Index f) {
+        return std::ranges::all_of(triangles.row(f), [&](Index v) { return problem.mobility[v] == Mobility::held; });
+    });
+    if (faces.empty()) return;
+    const PatchShapes shapes = patch_shapes(sheet.vertices, triangles, sheet.uv, faces, PatchShape::equilateral);
+    problem.triangles = triangles(faces, Eigen::all);
+    problem.reference = shapes.references;
+    problem.floor.resize(static_cast<Eigen::Index>(faces.size()));
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Eigen::Index f = static_cast<Eigen::Index>(i);
+        const double full = shapes.areas[f];
+        problem.floor[f] = rounding * longest(faces[i]) / (2.0 * full);
+        if (!flat(sheet.uv, faces[i]))
+            problem.floor[f] = std::min(problem.floor[f], 0.5 * area(sheet.uv, faces[i]) / full);
+    }
+    minimize_foldover_free(problem, context);
+    for (Index v = 0; v < count; ++v) {  // from the circles back to the lines
+        const int along = line[sheet.source[v]];
+        if (along == 1) problem.points(v, 1) = sheet.uv(v, 1);
+        if (along == 2) problem.points(v, 0) = sheet.uv(v, 0);
+    }
+    std::size_t before = 0, after = 0;
+    for (const Index f : faces) {
+        before += flat(sheet.uv, f) ? 1 : 0;
+        after += flat(problem.points, f) ? 1 : 0;
+    }
+    if (!problem.points.allFinite() || after >= before) return;
+    for (Index v = 0; v < count; ++v) {
+        if (!inside[v] || problem.points.row(v) == sheet.uv.row(v)) continue;
+        const Complex old = map.z[sheet.source[v]];
+        const Complex by = Complex(problem.points(v, 0) - sheet.uv(v, 0), problem.points(v, 1) - sheet.uv(v, 1));
+        const int along = line[sheet.source[v]];
+        map.z[sheet.source[v]] = old + by / sheet.scale;
+        if (along == 1) map.z[sheet.source[v]].imag(old.imag());
+        if (along == 2) map.z[sheet.source[v]].real(old.real());
+    }
+}
+
+/// Faces of the tile that are flipped, those below resolution aside.
+std::vector<Index> tangled(const PeriodicSurface& domain, const Tile& tile)
+{
+    const TileFaults faults = find_faults(domain, tile, HoleShape::open);
+    std::vector<Index> result;
+    std::ranges::set_difference(faults.flipped, faults.below_resolution, std::back_inserter(result));
+    return result;
+}
+
+}  // namespace
+
+Tile tile_of(const PeriodicSurface& domain, const FlatMap& map)
+{
+    return tile_of(domain, map, clear_origin(domain, map));
+}
+
+Tile tile_of(const PeriodicSurface& domain, const FlatMap& map, std::array<double, 2> origin)
+{
+    Tile tile;
+    tile.lift = lifts_in_cell(domain, map, origin);
+    join_parts(domain, tile.lift);
+    const Triangles& triangles = domain.surface.triangles;
+    Complex low(1e300, 1e300), high(-1e300, -1e300);
+    for (Eigen::Index c = 0; c < triangles.size(); ++c) {
+        const Complex at = lifted(map, map.z[triangles.data()[c]], tile.lift[c]);
+        low = {std::min(low.real(), at.real()), std::min(low.imag(), at.imag())};
+        high = {std::max(high.real(), at.real()), std::max(high.imag(), at.imag())};
+    }
+    const double scale = grid_extent / std::max((high - low).real(), (high - low).imag());
+    for (const Complex period : map.periods) tile.periods.push_back(on_grid(period, scale));
+    GridPoint least{std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::max()};
+    for (Eigen::Index c = 0; c < triangles.size(); ++c) {
+        GridPoint at = on_grid(map.z[triangles.data()[c]] - low, scale);
+        for (std::size_t j = 0; j < tile.periods.size(); ++j)
+            for (std::size_t i = 0; i < 2; ++i) at[i] += tile.lift[c][j] * tile.periods[j][i];
+        tile.corners.push_back(at);
+        least = {std::min(least[0], at[0]), std::min(least[1], at[1])};
+    }
+    for (GridPoint& at : tile.corners) at = difference(at, least);
+    tile.scale = scale * uv_grid;
+    tile.origin = -tile.scale * low - uv_grid * Complex(static_cast<double>(least[0]), static_cast<double>(least[1]));
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+        if (is_seam(domain, tile.lift, h)) tile.seams.push_back(h);
+    return tile;
+}
+
+TileFaults find_faults(const PeriodicSurface& domain, const Tile& tile, HoleShape holes)
+{
+    TileFaults faults;
+    const Triangles& triangles = domain.surface.triangles;
+    const auto edge = [&](Index h) { return difference(tile.corners[next_halfedge(h)], tile.corners[h]); };
+    constexpr double resolution = uv_resolution / uv_grid;
+    std::int64_t covered = 0;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+        const std::int64_t area = twice_area(edge(3 * f), edge(3 * f + 1));
+        covered += area;
+        if (area > 0) continue;
+        faults.flipped.push_back(f);
+        double longest = 0.0;
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+            longest = std::max(longest, std::hypot(static_cast<double>(edge(h)[0]), static_cast<double>(edge(h)[1])));
+        if (longest < resolution) faults.below_resolution.push_back(f);
+    }
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+        if (const Index t = domain.surface.twin[h]; t > h) {
+            const GridPoint a = edge(h), b = edge(t);
+            faults.seams |= a[0] + b[0] != 0 || a[1] + b[1] != 0;
+        }
+    // Holes by the way along their edges, wherever the tile has cut them.
+    std::vector<Index> border(domain.surface.vertex_count, -1);
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+        if (domain.surface.twin[h] == no_twin) border[origin(triangles, h)] = h;
+    std::int64_t cell = domain.first_hole == 0 ? 2 * twice_area(tile.periods[0], tile.periods[1]) : 0;
+    std::array<std::int64_t, 2> lowest{0, 0}, highest{0, 0};  // of the rims
+    for (std::size_t k = 0; k < domain.loops.size(); ++k) {
+        const VertexLoop& loop = domain.loops[k];
+        const bool rim = k < domain.first_hole;
+        PlanarPoints points(static_cast<Eigen::Index>(loop.size()), 2);
+        GridPoint at{0, rim ? tile.corners[border[loop.front()]][1] : 0};
+        const GridPoint start = at;
+        if (rim) lowest[k] = highest[k] = at[1];
+        std::int64_t area = 0, under = 0;  // twice
+        bool bad = false;
+        for (std::size_t b = 0; b < loop.size(); ++b) {
+            points.row(static_cast<Eigen::Index>(b)) << static_cast<double>(at[0]), static_cast<double>(at[1]);
+            const GridPoint step = edge(border[loop[b]]), next{at[0] + step[0], at[1] + step[1]};
+            area += twice_area(at, next);
+            under += step[0] * (at[1] + next[1]);
+            bad |= rim && (k == 0 ? step[0] <= 0 : step[0] >= 0);  // each rim runs one way
+            at = next;
+            if (rim) lowest[k] = std::min(lowest[k], at[1]), highest[k] = std::max(highest[k], at[1]);
+        }
+        if (rim) {
+            bad |= at[0] != (k == 0 ? tile.periods[0][0] : -tile.periods[0][0]) || at[1] != start[1];
+            cell -= under;
+        } else {
+            bad |= at != start;
+            covered -= area;  // it runs clockwise
+            if (holes != HoleShape::open) {
+                bad |= points.col(holes == HoleShape::along_u ? 1 : 0).cwiseAbs().maxCoeff() > 0.0;
+            } else {
+                VertexLoop order(loop.size());
+                std::iota(order.begin(), order.end(), 0);
+                bad |= area > 0 || !crossing_boundary_edges({order}, points, 2.0 * resolution).empty();
+            }
+        }
+        if (bad) faults.holes.push_back(static_cast<int>(k));
+    }
+    if (domain.first_hole > 0 && lowest[1] <= highest[0]) faults.holes.push_back(1);
+    faults.covering = covered != cell;
+    return faults;
+}
+
+std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, FlatMap& map, ExecutionContext& context)
+{
+    RepairEffort effort(domain.surface.triangles.rows(), 3000000);  // the first pass does most
+    std::vector<Index> left = tangled(domain, tile_of(domain, map));
+    for (int pass = 0, in_vain = 0; pass < most_tile_passes && in_vain < most_in_vain && !left.empty(); ++pass) {
+        context.advance(static_cast<double>(pass) / most_tile_passes);
+        std::array<double, 2> origin = clear_origin(domain, map);
+        if (pass > 0) {  // around one of them
+            const Index f = left[(static_cast<std::size_t>(pass) * 7919) % left.size()];
+            origin = in_periods(map, map.z[domain.surface.triangles(f, 0)]);
+            for (double& o : origin) o -= 0.5;
+        }
+        std::vector<Lift> lift = lifts_in_cell(domain, map, origin);
+        join_parts(domain, lift);
+        if (domain.first_hole > 0) slide_along_lines(domain, lift, pass < 2 ? 2 : 5, shape, map, context);
+        if (shape == HoleShape::open || pass > 1) turn_back_in(domain, lift, shape, map, effort, context);
+        const std::size_t before = left.size();
+        left = tangled(domain, tile_of(domain, map));
+        in_vain = left.size() < before ? 0 : in_vain + 1;
+    }
+    return left.size();
+}
+
+}  // namespace koebe

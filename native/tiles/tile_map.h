@@ -1,0 +1,70 @@
+// Surfaces on other canonical domains than the disk: a flat torus, a cylinder.
+#pragma once
+
+#include "circles/circle_fit.h"
+#include "core/api.h"
+#include "core/warning.h"
+#include "execution/execution.h"
+#include "quality/report.h"
+
+#include <array>
+#include <vector>
+
+namespace koebe {
+
+/// What becomes of the holes of a ring.
+enum class RingHoles {
+    circles,     ///< of the round annulus; unrolled, their images
+    concentric,  ///< slits along circles round the annulus; unrolled, along u
+    radial,      ///< slits along radii; unrolled, along v
+};
+
+/// As in the JSON report: the enumerator's name.
+KOEBE_API const char* to_string(RingHoles holes) noexcept;
+
+struct TileOptions {
+    double tolerance = 1e-6;  ///< on the circles' change in a sweep; of a torus its shortest period is 1
+    int max_sweeps = 50;
+    RingHoles holes = RingHoles::circles;  ///< of a ring
+    Index outer = -1, inner = -1;          ///< of a ring, vertices of the two rims; -1: the longest loops
+    double most_lost = most_lost_area;     ///< where a larger share of the area is lost as stored, the map is not done
+    std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each is one by itself
+};
+
+/// A loop in the tile.
+struct TileLoop {
+    VertexLoop vertices;  ///< in order, the surface on the left
+    bool rim = false;     ///< of a ring: a straight line from one side of the tile to the other
+    bool has_circle = false;
+    Circle circle;                  ///< of a torus in UVs, of a ring in the unit disk
+    Roundness roundness;            ///< of the image before it was put on its circle
+    std::vector<Index> off_circle;  ///< vertices that are not where the circle or the slit is, rising
+    bool is_slit = false;
+    std::array<std::array<double, 2>, 2> slit{};  ///< its ends in UVs
+};
+
+/// Its distortion is that of the tile, in units of UVs, which are 32-bit floats in [0, 1]^2.
+struct TileResult : CornerMapReport {
+    std::vector<std::array<double, 2>> periods;  ///< in UVs: of a torus two, of a ring one, along u
+    /// Of a torus the ratio of its periods, reduced; of a ring i times its height over its period, log(R / r) / 2 pi.
+    Complex modulus;
+    std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim first
+    double cut_length = 0.0;      ///< of the cut in the UVs, over the root of the surface's area
+    int sweeps = 0;
+    std::vector<double> changes;  ///< of the circles in each sweep
+};
+
+/// Maps a surface of genus 1 with any number of holes conformally to a flat torus, its holes round (torus_circles.h).
+/// The UVs are a parallelogram of the torus, cut along edges in the UVs alone; the two sides of the cut differ by
+/// periods to the last bit of 32-bit floats, so its copies tile the plane.
+/// @throws InputError, TopologyError, SolverError, Cancelled; what is not one to one is reported as not converged
+KOEBE_API TileResult torus_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                               ExecutionContext& context);
+
+/// Maps a surface of genus 0 with two loops and more conformally to a cylinder, those two on its rims, unrolled: u runs
+/// round, v from the outer rim at 0 to the inner one. Other holes are images of circles, or slits.
+/// @throws as torus_map
+KOEBE_API TileResult ring_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                              ExecutionContext& context);
+
+}  // namespace koebe

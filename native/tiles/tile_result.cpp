@@ -1,0 +1,173 @@
+#include "tiles/tile_result.h"
+
+#include "canonical/corner_map.h"
+#include "circles/off_circle.h"
+#include "core/counted.h"
+#include "mesh/connectivity.h"
+#include "quality/shared_warnings.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+/// (3F, 2) by the input's faces: a turned one has its second and third corner the other way round.
+PlanarPoints corner_uvs(const Triangles& triangles, const PeriodicSurface& domain, const Tile& tile)
+{
+    PlanarPoints uv(triangles.size(), 2);
+    for (Eigen::Index c = 0; c < triangles.size(); ++c) {
+        Eigen::Index own = c - c % 3;
+        while (domain.original[domain.surface.triangles.data()[own]] != triangles.data()[c]) ++own;
+        uv.row(c) << uv_grid * static_cast<double>(tile.corners[own][0]),
+            uv_grid * static_cast<double>(tile.corners[own][1]);
+    }
+    return uv;
+}
+
+/// Every face with corners of its own.
+ComputedDistortion distortion_of(const PeriodicSurface& domain, const Tile& tile)
+{
+    PlanarPoints points(domain.surface.triangles.size(), 2);
+    for (Eigen::Index c = 0; c < points.rows(); ++c)
+        for (int i = 0; i < 2; ++i) points(c, i) = 2.0 * uv_grid * static_cast<double>(tile.corners[c][i]) - 1.0;
+    return measure_corner_distortion(domain.vertices, domain.surface.triangles, points);
+}
+
+TileLoop loop_report(const PeriodicSurface& domain, const FlatMap& map, std::size_t k)
+{
+    TileLoop loop;
+    loop.rim = k < domain.first_hole;
+    for (const Index v : domain.loops[k]) {
+        loop.vertices.push_back(domain.original[v]);
+        if (std::ranges::binary_search(map.off_circle, v)) loop.off_circle.push_back(domain.original[v]);
+    }
+    std::rotate(loop.vertices.begin(), std::ranges::min_element(loop.vertices), loop.vertices.end());
+    std::ranges::sort(loop.off_circle);
+    return loop;
+}
+
+/// A point of the map in the tile, by the copy at a corner.
+Complex in_tile(const FlatMap& map, const Tile& tile, Complex z, Eigen::Index corner)
+{
+    for (std::size_t j = 0; j < map.periods.size(); ++j)
+        z += static_cast<double>(tile.lift[corner][j]) * map.periods[j];
+    return tile.scale * z + tile.origin;
+}
+
+/// A corner of the loop's first vertex.
+Eigen::Index corner_at(const PeriodicSurface& domain, std::size_t k)
+{
+    const Triangles& triangles = domain.surface.triangles;
+    return std::find(triangles.data(), triangles.data() + triangles.size(), domain.loops[k].front()) - triangles.data();
+}
+
+/// The ends of a slit, which lie farthest from each other along it.
+void take_slit(const PeriodicSurface& domain, const FlatMap& map, const Tile& tile, std::size_t k, TileLoop& loop)
+{
+    const auto sum = [&](Index v) { return map.z[v].real() + map.z[v].imag(); };
+    const auto [first, last] = std::ranges::minmax_element(domain.loops[k], {}, sum);
+    const Eigen::Index corner = corner_at(domain, k);
+    const Complex a = in_tile(map, tile, map.z[*first], corner), b = in_tile(map, tile, map.z[*last], corner);
+    loop.is_slit = true;
+    loop.slit = {{{a.real(), a.imag()}, {b.real(), b.imag()}}};
+}
+
+double cut_length(const PeriodicSurface& domain, const Tile& tile)
+{
+    double length = 0.0, area = 0.0;
+    const Triangles& triangles = domain.surface.triangles;
+    for (const Index h : tile.seams)
+        length += 0.5 * (domain.vertices.row(target(triangles, h)) - domain.vertices.row(origin(triangles, h))).norm();
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const Eigen::RowVector3d a = domain.vertices.row(triangles(f, 1)) - domain.vertices.row(triangles(f, 0));
+        const Eigen::RowVector3d b = domain.vertices.row(triangles(f, 2)) - domain.vertices.row(triangles(f, 0));
+        area += 0.5 * Eigen::Vector3d(a.transpose()).cross(Eigen::Vector3d(b.transpose())).norm();
+    }
+    return area > 0.0 ? length / std::sqrt(area) : 0.0;
+}
+
+void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& faults, TileResult& result)
+{
+    warn_reoriented(domain.surface.reoriented, result.warnings);
+    if (!map.converged)
+        result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
+    if (!map.apart)
+        result.warnings.push_back(
+            {WarningKind::no_circles, "the circles of two holes meet: the mesh is too coarse between them"});
+    std::vector<Index> off_circle;
+    for (const Index v : map.off_circle) off_circle.push_back(domain.original[v]);
+    warn_off_circle(std::move(off_circle), result.warnings);
+    if (!faults.below_resolution.empty())
+        result.warnings.push_back({WarningKind::below_resolution,
+                                   counted(faults.below_resolution.size(), "face") + " too small for 32-bit UVs",
+                                   faults.below_resolution});
+    if (!faults.any()) return;
+    warn_not_one_to_one(faults.flipped, faults.below_resolution,
+                        {faults.holes.empty() ? "" : counted(faults.holes.size(), "loop") + " out of shape",
+                         faults.seams ? "the sides of the cut do not fit" : "",
+                         faults.covering ? "the tile does not cover its cell once" : ""},
+                        result.warnings);
+}
+
+void name_tile(const CanonicalMesh& mesh, TileResult& result)
+{
+    for (TileLoop& loop : result.loops) {
+        mesh.name_loop(loop.vertices);
+        mesh.name_vertices(loop.off_circle);
+    }
+}
+
+}  // namespace
+
+TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                          ExecutionContext& context, TileMap* map)
+{
+    const auto compute = [options, map](const CanonicalMesh& mesh, ExecutionContext& own) {
+        TileOptions here = options;
+        here.outer = mesh.vertex(options.outer);
+        here.inner = mesh.vertex(options.inner);
+        here.polygon = mesh.of_faces(options.polygon);
+        return map(mesh.vertices, mesh.triangles, here, own);
+    };
+    return corner_map<TileResult>(vertices, triangles, context, compute, name_tile);
+}
+
+TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
+                       HoleShape holes, FlatMap& map, ExecutionContext& context)
+{
+    TileResult result;
+    turn_faces_back(domain, holes, map, context);
+    const Tile tile = tile_of(domain, map);
+    const TileFaults faults = find_faults(domain, tile, holes);
+    result.vertex_count = static_cast<Index>(vertices.rows());
+    result.face_count = static_cast<Index>(triangles.rows());
+    result.uv = corner_uvs(triangles, domain, tile);
+    for (const GridPoint& period : tile.periods)
+        result.periods.push_back({uv_grid * static_cast<double>(period[0]), uv_grid * static_cast<double>(period[1])});
+    for (std::size_t k = 0; k < domain.loops.size(); ++k) {
+        TileLoop& loop = result.loops.emplace_back(loop_report(domain, map, k));
+        if (k < map.roundness.size()) loop.roundness = map.roundness[k];
+        if (holes != HoleShape::open && !loop.rim) take_slit(domain, map, tile, k, loop);
+    }
+    result.turned = domain.surface.reoriented;
+    result.cut_length = cut_length(domain, tile);
+    result.converged = map.converged && map.apart && !faults.any();
+    result.sweeps = static_cast<int>(map.changes.size());
+    result.changes = map.changes;
+    result.distortion = {distortion_of(domain, tile), judge_corners(vertices, triangles, result.uv, result.turned)};
+    warn(domain, map, faults, result);
+    if (domain.first_hole == 0)
+        for (std::size_t k = 0; k < map.circles.size(); ++k) {
+            result.loops[k].has_circle = map.apart;
+            result.loops[k].circle = {in_tile(map, tile, map.circles[k].center, corner_at(domain, k)),
+                                      tile.scale * map.circles[k].radius};
+        }
+    return result;
+}
+
+}  // namespace koebe
