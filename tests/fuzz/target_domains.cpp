@@ -208,7 +208,7 @@ void check_schottky(const SchottkyResult& result)
     }
 }
 
-void check_sphere(const SphereResult& result, SphereLayout layout)
+void check_sphere(const SphereResult& result)
 {
     require(result.points.allFinite() && result.uv.allFinite(), "points and UVs are finite");
     for (Eigen::Index v = 0; v < result.points.rows(); ++v)
@@ -218,7 +218,7 @@ void check_sphere(const SphereResult& result, SphereLayout layout)
             "what converged has no flips");
     for (const SphereLoop& loop : result.loops)
         require(std::isfinite(loop.cap.radius) && loop.cap.radius > 0.0, "caps have a positive radius");
-    require(!to_json(result, layout).dump().empty(), "the report is JSON");
+    require(!to_json(result).dump().empty(), "the report is JSON");
 }
 
 void check_parts(const PartsResult& result)
@@ -244,7 +244,7 @@ void check_domain(const Soup& soup, int kind, ExecutionContext& context)
     case 0:
     case 1: {
         const SphereOptions options{.layout = kind == 0 ? SphereLayout::equirectangular : SphereLayout::octahedral};
-        check_sphere(sphere_map(vertices, triangles, options, context), options.layout);
+        check_sphere(sphere_map(vertices, triangles, options, context));
         break;
     }
     case 2: check_tile(ring_map(vertices, triangles, {}, context)); break;
