@@ -1,7 +1,7 @@
 // koebe compare A B, koebe compare FOLDER --csv FILE
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
-#include "cli/mapping_options.h"
+#include "cli/option_table.h"
 #include "cli/output_files.h"
 #include "cli/shape_family.h"
 #include "cli/shape_input.h"
@@ -156,7 +156,7 @@ Subcommand add_compare(CLI::App& app)
         options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")
             ->expected(0, 1)
             ->type_name("[FILE]");
-    add_mapping_options(*options, request->options);
+    add_options(*options, "shapes", request->options);
     options->callback([request, json] { settle_words(*request, *json); });
     return {options, [request] { return run(*request); }};
 }

@@ -1,7 +1,7 @@
 // koebe module IN, koebe module FOLDER --csv FILE
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
-#include "cli/mapping_options.h"
+#include "cli/option_table.h"
 #include "cli/output_files.h"
 #include "cli/shape_family.h"
 #include "cli/shape_input.h"
@@ -122,7 +122,7 @@ Subcommand add_module(CLI::App& app)
     options->add_flag("--error", request->with_error,
                       "with --csv: also bars of the error that the mesh makes, each from a map of a finer mesh");
     options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
-    add_mapping_options(*options, request->options);
+    add_options(*options, "shapes", request->options);
     options->callback([request] { require_loop_words(*request); });
     return {options, [request] { return run(*request); }};
 }

@@ -1,14 +1,13 @@
 // koebe parts IN OUT
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
-#include "cli/mapping_options.h"
 #include "cli/mesh_input.h"
+#include "cli/option_table.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/result_line.h"
 #include "cli/standard_streams.h"
 #include "cli/subcommand.h"
-#include "cli/validators.h"
 
 #include "core/counted.h"
 #include "io/atomic_file.h"
@@ -56,9 +55,7 @@ void write_files(const Request& request, const MeshInput& input, PartsResult& re
     if (!request.json.empty()) {
         nlohmann::ordered_json report = to_json(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
-        report["options"] = {{"price", request.options.price},
-                             {"round_cuts", request.options.round_cuts},
-                             {"most_lost", request.options.most_lost}};
+        report["options"] = option_report("parts", request.options);
         files.emplace_back(request.json).write(json_text(report));
     }
     context.checkpoint();
@@ -119,15 +116,7 @@ Subcommand add_parts(CLI::App& app)
             "OUT", request->output,
             "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
         ->required();
-    options
-        ->add_option("--price", request->options.price,
-                     "of a part, in area times log density outside a factor 3: a higher one makes fewer parts")
-        ->check(positive_number())
-        ->type_name("PRICE")
-        ->capture_default_str();
-    options->add_flag("--round-cuts", request->options.round_cuts,
-                      "loops at cuts on circles and straight lines, for more angle error");
-    add_most_lost(*options, request->options.most_lost);
+    add_options(*options, "parts", request->options);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");

@@ -2,8 +2,8 @@
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/landmark_file.h"
-#include "cli/mapping_options.h"
 #include "cli/mesh_input.h"
+#include "cli/option_table.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/result_line.h"
@@ -155,7 +155,7 @@ Subcommand add_transfer(CLI::App& app)
             "points that correspond exactly, a line each: two vertices, counted from 0, or x y z on A and x y z "
             "on B")
         ->type_name("FILE");
-    add_mapping_options(*options, request->options);
+    add_options(*options, "shapes", request->options);
     options
         ->add_option("--json", request->json,
                      "write there in which triangle of B each point lies, and how far the holes miss")

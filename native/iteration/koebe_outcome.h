@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle_fit.h"
+#include "core/map_options.h"
 #include "core/types.h"
 
 #include <utility>
@@ -14,10 +15,8 @@ namespace koebe {
 /// loop never filled (section 4.4, first algorithm).
 enum class Method { gk, ck, against_outer };
 
-struct IterationOptions {
+struct IterationOptions : SweepOptions {
     Method method = Method::gk;
-    double tolerance = 1e-6;  ///< on the circles' change in a sweep, a length in the unit disk
-    int max_sweeps = 50;
     bool in_turn = false;  ///< GK's steps of a sweep follow each other in the condensed engine, too (koebe_condensed)
 };
 
