@@ -1,9 +1,11 @@
 """The table of options is what the command, the library, the package and the add-on have: one row, one option."""
 
+import importlib
 import inspect
 import json
 import math
 import re
+import sys
 import typing
 from pathlib import Path
 
@@ -181,3 +183,31 @@ def test_defaults_may_be_left_to_the_table():
     assert said == {"price": 0.0037, "cut": True, "round_cuts": False, "most_lost": 0.5}
     with pytest.raises(TypeError, match="most_lost"):
         koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)
+
+
+@pytest.fixture(scope="module")
+def addon():
+    """A function that imports modules of the add-on that need no bpy."""
+    name, file = "addon_of_the_table", ROOT / "addon" / "__init__.py"
+    spec = importlib.util.spec_from_file_location(name, file, submodule_search_locations=[str(file.parent)])
+    sys.modules[name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sys.modules[name])
+    return lambda module: importlib.import_module(f"{name}.{module}")
+
+
+def test_the_addon_hands_every_option_to_the_solver(addon):
+    options = addon("maps.options")
+    chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(), "sphere": options.SphereChoice(),
+              "torus": options.TileChoice("torus"), "ring": options.TileChoice("ring"),
+              "schottky": options.SchottkyChoice()}  # fmt: skip
+    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance"}
+    engine = {row["name"] for row in TABLE if "with" in row}
+    for of, choice in chosen.items():
+        assert {*choice.solver_arguments()} == {*rows_in("python", of)} - by_island - engine, of
+
+
+def test_the_addons_words_are_the_solvers(addon):
+    for name, row in addon("maps.option_table").ROWS.items():
+        if row.kind == "choice" and row.is_native:
+            of = row.maps[0]
+            assert set(row.words) <= set(_option_table.rows(of)[name].words)
