@@ -137,17 +137,30 @@ def test_the_commands_flags_are_the_tables(of):
             assert number and float(number[1]) == row["default"], row["name"]
 
 
+def at_the_bounds(row):
+    """Numbers that the row's range has, and the nearest ones that it has not."""
+    least, most, above, below = _option_table._bounds(row["range"])
+    lower, higher = (least - 1, most + 1) if row["kind"] == "integer" else (
+        math.nextafter(least, -math.inf), math.nextafter(most, math.inf))  # fmt: skip
+    number = int if row["kind"] == "integer" else float
+    right = [*([] if above else [least]), *([] if below else [most])]
+    wrong = [least if above else lower, *([] if math.isinf(most) else [most if below else higher])]
+    return [*map(number, right)], [*map(number, wrong)]
+
+
 @pytest.mark.parametrize("of", sorted(COMMANDS))
-def test_the_command_refuses_what_is_out_of_range(of, tmp_path):
+def test_the_command_takes_what_is_in_the_range_and_nothing_else(of, tmp_path):
     for name, row in rows_in("command", of).items():
         if row["kind"] not in ("number", "integer"):
             continue
-        least, most, above, below = _option_table._bounds(row["range"])
-        wrong = [least if above else least - 1, *([] if math.isinf(most) else [most if below else most + 1])]
-        for value in (*wrong, "nan"):
-            text = f"{value:.0f}" if row["kind"] == "integer" and value != "nan" else str(value)
-            done = run(of, "in.obj", "out.obj", f"--{name.replace('_', '-')}={text}", cwd=tmp_path)
-            assert done.returncode == 2 and f"--{name.replace('_', '-')}" in done.stderr, (name, text)
+        flag, (right, wrong) = f"--{name.replace('_', '-')}", at_the_bounds(row)
+        files = ["in.obj", "--output=out"] if of == "sequence" else ["in.obj", "out.obj"]
+        for value in (*wrong, "nan", ""):
+            done = run(of, *files, f"{flag}={value}", cwd=tmp_path)
+            assert done.returncode == 2 and flag in done.stderr, (name, value)
+        for value in right:
+            done = run(of, *files, f"{flag}={value}", cwd=tmp_path)
+            assert done.returncode == 3 and "FileError" in done.stderr, (name, value)
 
 
 @pytest.mark.parametrize("of", MAPS)
@@ -156,10 +169,12 @@ def test_python_refuses_what_is_out_of_range_and_what_is_misspelt(of):
     triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
     for name, row in rows_in("python", of).items():
         if row["kind"] in ("number", "integer"):
-            least, most, above, _ = _option_table._bounds(row["range"])
-            for value in (least if above else least - 1, *([] if math.isinf(most) else [most + 1])):
+            right, wrong = at_the_bounds(row)
+            for value in wrong:
                 with pytest.raises(koebe.OptionError, match=name):
-                    function(*triangle, **{name: type(row["default"])(value)})
+                    function(*triangle, **{name: value})
+            for value in right:
+                assert _options._checked(_option_table.rows(of)[name], value) == value
             with pytest.raises(TypeError, match=name):
                 function(*triangle, **{name: "much"})
         elif row["kind"] == "choice":

@@ -41,7 +41,12 @@ def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Functio
         signature = inspect.signature(function)
         positional = {name: one for name, one in signature.parameters.items() if one.kind is one.POSITIONAL_OR_KEYWORD}
         named = [
-            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=hints[name])
+            inspect.Parameter(
+                name,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=default,
+                annotation=hints.get(name, inspect.Parameter.empty),
+            )
             for name, default in defaults.items()
         ]
         with_defaults.__signature__ = signature.replace(  # type: ignore[attr-defined]
