@@ -7,11 +7,10 @@ import dataclasses
 from typing import Any, NoReturn
 
 from ..maps import options
-from ..maps.option_table import ROWS, Row, rows_of
+from ..maps.option_table import LARGEST, ROWS, Row, rows_of
 from .exit_and_signals import USAGE, Stop
 from .flags import flag
 
-LARGEST = 2**31 - 1  # of the native module's whole numbers
 LARGEST_FRAME = 1048574  # that Blender has
 DISK = "disk"
 OF_SEQUENCES = ("sequence", "frames", "sequence_target", "play")

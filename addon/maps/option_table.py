@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 PACKED = Path(__file__).with_name("options.json")
+LARGEST = 2**31 - 1  # of whole numbers, here and in the native module
 SOURCE = Path(__file__).parents[2] / "native" / "options" / "options.json"  # of a checkout
 
 
@@ -54,9 +55,11 @@ class Row:
         inside = (least < value if above else least <= value) and (value < most if below else value <= most)
         if inside and math.isfinite(value):
             return ""
-        if most == math.inf:
-            return f"{value} is not a number {'above' if above else 'from'} {least:g}{'' if above else ' on'}"
-        return f"{value} is not a number from {least:g} to {'below ' if below else ''}{most:g}"
+        if above and most == math.inf:
+            return f"{value} is not a number above {least:g}"
+        if most >= LARGEST:
+            return f"{value} is less than {least:g}"
+        return f"{value} is not from {least:g} to {'below ' if below else ''}{most:g}"
 
 
 def _row(entry: dict[str, Any]) -> Row:

@@ -7,10 +7,9 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from ..maps.option_table import ROWS, Row, rows_of
+from ..maps.option_table import LARGEST, ROWS, Row, rows_of
 from ..maps.options import CHOICES, WRITTEN, Options, PartsChoice, TileChoice
 
-LARGEST = 2**31 - 1  # of an IntProperty
 PROPERTIES = {"number": FloatProperty, "integer": IntProperty, "flag": BoolProperty, "text": StringProperty,
               "weights": StringProperty}  # fmt: skip
 
