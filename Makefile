@@ -67,7 +67,7 @@ $(DONE)/wheel-%: $(NATIVE_SOURCES) scripts/wheel.sh scripts/isolate_wheel.py bui
 	@mkdir -p $(@D) && touch $@
 
 # Wheels that were made for other Pythons go into the zip too, and are made again when the sources change.
-$(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) scripts/package_extension.py
+$(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) native/options/options.json scripts/package_extension.py
 	$(VENV)/bin/python scripts/package_extension.py
 	@touch $@
 

@@ -18,6 +18,7 @@ import tomllib
 from package_extension import DATE, ROOT, project_version
 
 PACKAGE = ROOT / "native" / "python" / "koebe"
+TABLE = ROOT / "native" / "options" / "options.json"
 LIBRARIES = ("libkoebe.so", "libkoebe.dylib", "koebe.dll")
 MODULES = ("_koebe.*.so", "_koebe.*.pyd")
 PROGRAMS = ("bin/koebe", "koebe.exe")  # Windows looks for the library beside the program
@@ -50,7 +51,7 @@ def entry_points() -> str:
 
 def members(build: Path, platform: str, version: str) -> dict[str, bytes]:
     """What the wheel holds but for its RECORD: path -> content."""
-    files = {f"koebe/{path.name}": path.read_bytes() for path in [*PACKAGE.glob("*.py"), PACKAGE / "py.typed"]}
+    files = {f"koebe/{path.name}": path.read_bytes() for path in [*PACKAGE.glob("*.py"), PACKAGE / "py.typed", TABLE]}
     found = {kind: sorted(path for pattern in patterns for path in (build / "koebe").glob(pattern))
              for kind, patterns in {"library": LIBRARIES, "modules": MODULES, "program": PROGRAMS}.items()}
     if len(found["library"]) != 1 or len(found["program"]) != 1 or not found["modules"]:

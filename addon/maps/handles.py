@@ -94,9 +94,8 @@ def _map(
     checked_loops(koebe, island, choice.domain)
     try:
         result = koebe.schottky_map(
-            island.vertices, island.triangles, normalization=choice.normalization, tolerance=choice.tolerance,
-            max_sweeps=choice.max_sweeps, most_lost=choice.most_lost, polygon=island.triangle_face,
-            progress=progress, cancel=cancel,
+            island.vertices, island.triangles, polygon=island.triangle_face, progress=progress, cancel=cancel,
+            **choice.solver_arguments(),
         )  # fmt: skip
     except koebe.TopologyError as error:
         if kind_of(error) != "genus":

@@ -132,15 +132,16 @@ def cut_into_parts(
     Errors are the outcome's; `koebe.Cancelled` goes on.
     """
     surface, price = task.surface, price_of(choice.evenness) if choice.seams == "add" else NO_CUTS
+    arguments = {"price": price, **choice.solver_arguments()}
     outcome = PartsOutcome(task, np.zeros(0, dtype=np.int32), np.zeros((0, 2), dtype=np.float32))
     slits = tube_slits(surface, cut_into_islands(surface))
     try:
         if slits.any():
-            _map(koebe, outcome, surface, slits, price, choice.most_lost, progress, cancel)
+            _map(koebe, outcome, surface, slits, arguments, progress, cancel)
             assert outcome.cuts is not None
             if not (inner_seams(surface) & ~outcome.cuts).any():
                 return outcome
-        _map(koebe, outcome, surface, np.zeros_like(slits), price, choice.most_lost, progress, cancel)
+        _map(koebe, outcome, surface, np.zeros_like(slits), arguments, progress, cancel)
     except koebe.Cancelled:
         raise
     except Exception as error:
@@ -153,8 +154,7 @@ def _map(
     outcome: PartsOutcome,
     surface: Surface,
     slits: np.ndarray,
-    price: float,
-    most_lost: float,
+    arguments: dict[str, Any],
     progress: Progress | None,
     cancel: Any,
 ) -> None:
@@ -172,10 +172,10 @@ def _map(
     ends = np.stack([on_slit, next_corners(surface)[on_slit]], axis=1)
     outcome.numbers = Numbers(surface.triangle_face[chosen], np.concatenate(sources))
     result = koebe.parts(
-        np.concatenate(positions), vertex_of_corner[corners], price=price, polygon=outcome.numbers.triangle_face,
-        slits=vertex_of_corner[ends], most_lost=most_lost, progress=progress, cancel=cancel,
+        np.concatenate(positions), vertex_of_corner[corners], polygon=outcome.numbers.triangle_face,
+        slits=vertex_of_corner[ends], progress=progress, cancel=cancel, **arguments,
     )  # fmt: skip
-    if result.lost_area > most_lost:
+    if result.lost_area > arguments["most_lost"]:
         outcome.result = result
         raise LostAreaError(result.lost_area, result.flipped_faces, "uniformize")
     uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)

@@ -81,9 +81,8 @@ def _map(
     island = one.island
     checked_loops(koebe, island, choice.domain)
     result = koebe.sphere_map(
-        island.vertices, island.triangles, layout=choice.layout, tolerance=choice.tolerance,
-        max_sweeps=choice.max_sweeps, most_lost=choice.most_lost, polygon=island.triangle_face,
-        progress=progress, cancel=cancel,
+        island.vertices, island.triangles, polygon=island.triangle_face, progress=progress, cancel=cancel,
+        **choice.solver_arguments(),
     )  # fmt: skip
     one.take_corners(surface, result.uv.astype(np.float32))
     one.torn = np.asarray(result.layout["torn"], dtype=np.int64)

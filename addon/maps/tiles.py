@@ -106,12 +106,10 @@ def _map(
 ) -> None:
     island = one.island
     loops = checked_loops(koebe, island, choice.domain)
-    arguments: dict[str, Any] = {
-        "tolerance": choice.tolerance, "max_sweeps": choice.max_sweeps, "most_lost": choice.most_lost,
-    }  # fmt: skip
+    arguments = choice.solver_arguments()
     if choice.domain == "ring":
         outer, inner = rims_of(island, loops, choice.rims, picked)
-        arguments.update(outer=outer, inner=inner, holes=choice.holes)
+        arguments.update(outer=outer, inner=inner)
     function = getattr(koebe, f"{choice.domain}_map")
     result = function(
         island.vertices, island.triangles, polygon=island.triangle_face, progress=progress, cancel=cancel, **arguments

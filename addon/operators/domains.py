@@ -18,8 +18,8 @@ from ..state.option_properties import (
     SchottkyProperties,
     SphereProperties,
     TorusProperties,
-    domain_choice_of,
-    domain_option_names,
+    choice_of,
+    option_names,
     written_options_of,
 )
 from .modal_run import redraw
@@ -30,7 +30,7 @@ from .tooltip import tooltip
 
 def shown(domain: str) -> tuple[str, ...]:
     """The options of a domain, those last that most runs leave alone."""
-    return tuple(sorted(domain_option_names(domain), key=lambda name: name in ACCURACY_NAMES))
+    return tuple(sorted(option_names(domain), key=lambda name: name in ACCURACY_NAMES))
 
 
 class DomainOperator(MapOperator):
@@ -39,7 +39,7 @@ class DomainOperator(MapOperator):
     domain: str
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> DomainJob:
-        choice, options = domain_choice_of(self.domain, self), written_options_of(self)
+        choice, options = choice_of(self.domain, self), written_options_of(self)
         objects = target_objects(context)
         if isinstance(choice, SphereChoice):
             return SphereJob(objects, options, choice, selected_only, refused=[])

@@ -8,9 +8,8 @@ from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.parts_job import PartsJob
 from ..maps import wording
-from ..maps.options import PartsChoice
 from ..state import run_report
-from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, written_options_of
+from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, choice_of, written_options_of
 from .modal_run import redraw
 from .run_operator import MapOperator
 from .tooltip import tooltip
@@ -27,8 +26,8 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     options_shown = PART_OPTION_NAMES
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
-        choice = PartsChoice(self.evenness, self.seams, self.write_seams, self.most_lost)
-        return PartsJob(target_objects(context), written_options_of(self), choice, selected_only, refused=[])
+        choice, options = choice_of("parts", self), written_options_of(self)
+        return PartsJob(target_objects(context), options, choice, selected_only, refused=[])
 
     def _finish(self, context: bpy.types.Context, job: PartsJob) -> set[str]:
         """Write what was computed, each object wholly or not at all, and say what became of it."""

@@ -12,8 +12,13 @@ from ..jobs.sequence_job import SequenceJob
 from ..maps import wording
 from ..maps.options import SequenceChoice
 from ..state import run_report
-from ..state.option_properties import ACCURACY_NAMES, SEQUENCE_OPTION_NAMES, SequenceProperties, sequence_options_of
-from ..state.sequence_properties import RANGE_NAMES
+from ..state.option_properties import (
+    ACCURACY_NAMES,
+    RANGE_NAMES,
+    SEQUENCE_OPTION_NAMES,
+    SequenceProperties,
+    sequence_options_of,
+)
 from .modal_run import redraw
 from .run_operator import MapOperator
 from .tooltip import tooltip

@@ -10,13 +10,7 @@ from ..operators.parts import UV_OT_koebe_parts
 from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import (
-    copy_domain_options,
-    copy_options,
-    copy_part_options,
-    copy_sequence_options,
-    settings_of,
-)
+from ..state.option_properties import copy_options, settings_of
 
 
 def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -25,10 +19,10 @@ def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     layout.separator()
     layout.operator_context = "INVOKE_DEFAULT"
     copy_options(settings_of(context), layout.operator(UV_OT_koebe_uniformize.bl_idname))
-    copy_part_options(settings_of(context), layout.operator(UV_OT_koebe_parts.bl_idname))
+    copy_options(settings_of(context), layout.operator(UV_OT_koebe_parts.bl_idname), "parts")
     for domain, operator in OPERATORS.items():
-        copy_domain_options(settings_of(context), layout.operator(operator.bl_idname), domain)
-    copy_sequence_options(settings_of(context), layout.operator(UV_OT_koebe_sequence.bl_idname))
+        copy_options(settings_of(context), layout.operator(operator.bl_idname), domain)
+    copy_options(settings_of(context), layout.operator(UV_OT_koebe_sequence.bl_idname), "sequence")
     layout.operator(UV_OT_koebe_symmetrize.bl_idname)
 
 

@@ -11,8 +11,7 @@ from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.run_operator import draw_option, is_used
 from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
-from ..state.option_properties import ACCURACY_NAMES, KoebeSettings, copy_sequence_options, settings_of
-from ..state.sequence_properties import RANGE_NAMES
+from ..state.option_properties import ACCURACY_NAMES, RANGE_NAMES, KoebeSettings, copy_options, settings_of
 from .panel_parts import KoebePanel, draw_domain_button
 
 
@@ -100,7 +99,7 @@ class SequencePanel(ClosedPanel):
                 column.prop(settings, name)
         draw_option(column, settings, "target", context)
         button = column.operator(UV_OT_koebe_sequence.bl_idname, text="Unwrap Sequence", icon="RENDER_ANIMATION")
-        copy_sequence_options(settings, button)
+        copy_options(settings, button, "sequence")
 
 
 class LayerPanel(ClosedPanel):

@@ -8,7 +8,7 @@ import bpy
 
 from ..operators.domains import OPERATORS
 from ..operators.parts import UV_OT_koebe_parts
-from ..state.option_properties import KoebeSettings, copy_domain_options, copy_part_options
+from ..state.option_properties import KoebeSettings, copy_options
 
 CHARACTER = 7.8  # pixels of the sidebar's width for each character of a line of text, at a resolution scale of 1
 
@@ -42,7 +42,8 @@ def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial:
         column.prop(settings, "evenness", slider=True)
     button = column.column(align=True)
     button.scale_y = 1.4 if dial else 1.0
-    copy_part_options(settings, button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA"))
+    run = button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA")
+    copy_options(settings, run, "parts")
 
 
 DOMAIN_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER", "MESH_UVSPHERE", "META_ELLIPSOID"]]] = {
@@ -56,7 +57,7 @@ DOMAIN_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER", "MES
 def draw_domain_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:
     """The button that maps to a domain that is no disk."""
     text, icon = DOMAIN_BUTTONS[domain]
-    copy_domain_options(settings, column.operator(OPERATORS[domain].bl_idname, text=text, icon=icon), domain)
+    copy_options(settings, column.operator(OPERATORS[domain].bl_idname, text=text, icon=icon), domain)
 
 
 def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int:

@@ -26,6 +26,16 @@ struct KoebeMeshOptions {
     AnnulusBackend annulus = AnnulusBackend::harmonic;
     bool record_steps = false;  ///< keep each step's own image (KoebeOutcome::step_images)
     DiskPatchOptions patch;
+
+    template <typename Visit>
+    static void each_option(Visit&& visit)
+    {
+        visit("partners", &KoebeMeshOptions::partners);
+        visit("schedule", &KoebeMeshOptions::schedule);
+        visit("metric", &KoebeMeshOptions::metric);
+        visit("annulus", &KoebeMeshOptions::annulus);
+        visit("record_steps", &KoebeMeshOptions::record_steps);
+    }
 };
 
 }  // namespace koebe

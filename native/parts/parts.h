@@ -12,13 +12,12 @@
 
 namespace koebe {
 
-struct PartsOptions {
+struct PartsOptions : MapOptions {
     /// What a part costs, in area share times the u that lies outside the even window; a cut as long as the root of the
     /// area costs as much. Higher: fewer parts. Positive.
     double price = 0.0037;
-    double most_lost = most_lost_area;  ///< where a larger share of the area is lost as stored, the parts are not done
-    bool cut =
-        true;  ///< any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes
+    /// Any mesh, opened and cut at its handles (cut/open_surface.h); false: only what uniformize takes.
+    bool cut = true;
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
     /// Edges, by their vertices, along which a tube is opened where they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
@@ -26,6 +25,17 @@ struct PartsOptions {
     /// costs no angles. The surface's own loops lie on circles and straight ends either way.
     bool round_cuts = false;
     int threads = 0;  ///< at most; 0: as many as the machine has. The result is the same for any number
+
+    template <typename Visit>
+    static void each_option(Visit&& visit)
+    {
+        visit("price", &PartsOptions::price);
+        visit("round_cuts", &PartsOptions::round_cuts);
+        MapOptions::each_option(visit);
+        visit("cut", &PartsOptions::cut);
+        visit("polygon", &PartsOptions::polygon);
+        visit("slits", &PartsOptions::slits);
+    }
 };
 
 struct PartReport {

@@ -4,7 +4,6 @@
 #include "core/types.h"
 #include "iteration/iteration_options.h"
 #include "iteration/koebe_mesh_options.h"
-#include "quality/verdict.h"
 
 #include <vector>
 
@@ -25,13 +24,28 @@ struct UniformizeOptions : IterationOptions {
     /// With Balance::area, of each vertex, 0 to 1: the balance takes the surface there for most_important^w times as
     /// large in length, so that it gets more texels; empty: all alike. Equal ones change nothing.
     std::vector<double> importance = {};
-    double most_lost = most_lost_area;  ///< a warning comes first where a larger share of the area is lost as stored
-    bool polish = false;                ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
     bool repair = true;  ///< false: as the iteration leaves it, faces may be turned over; for maps that are only judged
     /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh
                       ///< go side by side; the result is the same for any number
+
+    /// Without those of the mesh engine, which has its own.
+    template <typename Visit>
+    static void each_option(Visit&& visit)
+    {
+        visit("method", &UniformizeOptions::method);
+        visit("engine", &UniformizeOptions::engine);
+        visit("outer", &UniformizeOptions::outer);
+        visit("center", &UniformizeOptions::center);
+        visit("point", &UniformizeOptions::point);
+        SweepOptions::each_option(visit);
+        visit("balance", &UniformizeOptions::balance);
+        visit("importance", &UniformizeOptions::importance);
+        visit("polish", &UniformizeOptions::polish);
+        visit("threads", &UniformizeOptions::threads);
+    }
 };
 
 }  // namespace koebe

@@ -115,6 +115,16 @@ std::pair<PlanarPoints, double> annulus_by(AnnulusBackend backend, const Vertice
     return {planar(map.positions), map.inner_radius};
 }
 
+/// The struct of a map's options, each by its name.
+template <typename Options>
+py::class_<Options> bind_options(py::module_& m, const char* name)
+{
+    py::class_<Options> bound(m, name);
+    bound.def(py::init<>());
+    Options::each_option([&](const char* option, auto member) { bound.def_readwrite(option, member); });
+    return bound;
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_koebe, m)
@@ -153,28 +163,10 @@ PYBIND11_MODULE(_koebe, m)
         .def("cancel", &CancelToken::cancel)
         .def_property_readonly("cancelled", &CancelToken::cancelled);
 
-    py::class_<KoebeMeshOptions>(m, "KoebeMeshOptions")
-        .def_readwrite("metric", &KoebeMeshOptions::metric)
-        .def_readwrite("partners", &KoebeMeshOptions::partners)
-        .def_readwrite("schedule", &KoebeMeshOptions::schedule)
-        .def_readwrite("annulus", &KoebeMeshOptions::annulus)
-        .def_readwrite("record_steps", &KoebeMeshOptions::record_steps);
-    py::class_<UniformizeOptions>(m, "UniformizeOptions")
-        .def(py::init<>())
+    bind_options<KoebeMeshOptions>(m, "KoebeMeshOptions");
+    bind_options<UniformizeOptions>(m, "UniformizeOptions")
         .def_readonly("mesh", &UniformizeOptions::mesh)
-        .def_readwrite("method", &UniformizeOptions::method)
-        .def_readwrite("engine", &UniformizeOptions::engine)
-        .def_readwrite("outer", &UniformizeOptions::outer)
-        .def_readwrite("outer_vertex", &UniformizeOptions::outer_vertex)
-        .def_readwrite("center", &UniformizeOptions::center)
-        .def_readwrite("point", &UniformizeOptions::point)
-        .def_readwrite("tolerance", &UniformizeOptions::tolerance)
-        .def_readwrite("most_lost", &UniformizeOptions::most_lost)
-        .def_readwrite("max_sweeps", &UniformizeOptions::max_sweeps)
-        .def_readwrite("balance", &UniformizeOptions::balance)
-        .def_readwrite("importance", &UniformizeOptions::importance)
-        .def_readwrite("threads", &UniformizeOptions::threads)
-        .def_readwrite("polish", &UniformizeOptions::polish);
+        .def_readwrite("outer_vertex", &UniformizeOptions::outer_vertex);
 
     py::dict warning_elements;
     for (int k = 0; k <= static_cast<int>(WarningKind::not_mapped); ++k)
@@ -236,36 +228,17 @@ PYBIND11_MODULE(_koebe, m)
         .def_property_readonly("part",
                                [](const PartsResult& r) { return py::array_t<Index>(r.part.size(), r.part.data()); })
         .def("report", [](const PartsResult& r) { return to_object(to_json(r)); });
-    m.attr("default_price") = PartsOptions{}.price;
-    m.attr("most_lost_area") = most_lost_area;
-    m.def("parts",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles, double price,
-             bool cut, const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& slits,
-             bool round_cuts, double most_lost, const py::object& progress, const CancelToken& cancel) {
-              return without_gil(progress, cancel, [&](ExecutionContext& context) {
-                  return parts_of(vertices, triangles,
-                                  {.price = price,
-                                   .most_lost = most_lost,
-                                   .cut = cut,
-                                   .polygon = polygon,
-                                   .slits = slits,
-                                   .round_cuts = round_cuts},
-                                  context);
-              });
-          });
+    bind_options<PartsOptions>(m, "PartsOptions");
+    m.def("parts", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                      const PartsOptions& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel,
+                           [&](ExecutionContext& context) { return parts_of(vertices, triangles, options, context); });
+    });
     py::enum_<RingHoles>(m, "RingHoles")
         .value("circles", RingHoles::circles)
         .value("concentric", RingHoles::concentric)
         .value("radial", RingHoles::radial);
-    py::class_<TileOptions>(m, "TileOptions")
-        .def(py::init<>())
-        .def_readwrite("tolerance", &TileOptions::tolerance)
-        .def_readwrite("most_lost", &TileOptions::most_lost)
-        .def_readwrite("max_sweeps", &TileOptions::max_sweeps)
-        .def_readwrite("holes", &TileOptions::holes)
-        .def_readwrite("outer", &TileOptions::outer)
-        .def_readwrite("inner", &TileOptions::inner)
-        .def_readwrite("polygon", &TileOptions::polygon);
+    bind_options<TileOptions>(m, "TileOptions");
     py::class_<TileResult, MapReport>(m, "TileResult")
         .def_property_readonly("uv", [](const TileResult& r) { return r.uv; })
         .def("report", [](const TileResult& r) { return to_object(to_json(r)); });
@@ -282,13 +255,7 @@ PYBIND11_MODULE(_koebe, m)
     py::enum_<SphereLayout>(m, "SphereLayout")
         .value("equirectangular", SphereLayout::equirectangular)
         .value("octahedral", SphereLayout::octahedral);
-    py::class_<SphereOptions>(m, "SphereOptions")
-        .def(py::init<>())
-        .def_readwrite("tolerance", &SphereOptions::tolerance)
-        .def_readwrite("most_lost", &SphereOptions::most_lost)
-        .def_readwrite("max_sweeps", &SphereOptions::max_sweeps)
-        .def_readwrite("layout", &SphereOptions::layout)
-        .def_readwrite("polygon", &SphereOptions::polygon);
+    bind_options<SphereOptions>(m, "SphereOptions");
     py::class_<SphereResult, MapReport>(m, "SphereResult")
         .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
         .def_property_readonly("uv", [](const SphereResult& r) { return r.uv; })
@@ -302,13 +269,7 @@ PYBIND11_MODULE(_koebe, m)
     py::enum_<SchottkyNormalization>(m, "SchottkyNormalization")
         .value("area", SchottkyNormalization::area)
         .value("circles", SchottkyNormalization::circles);
-    py::class_<SchottkyOptions>(m, "SchottkyOptions")
-        .def(py::init<>())
-        .def_readwrite("normalization", &SchottkyOptions::normalization)
-        .def_readwrite("tolerance", &SchottkyOptions::tolerance)
-        .def_readwrite("most_lost", &SchottkyOptions::most_lost)
-        .def_readwrite("max_sweeps", &SchottkyOptions::max_sweeps)
-        .def_readwrite("polygon", &SchottkyOptions::polygon);
+    bind_options<SchottkyOptions>(m, "SchottkyOptions");
     py::class_<SchottkyResult, MapReport>(m, "SchottkyResult")
         .def_property_readonly("uv", [](const SchottkyResult& r) { return r.uv; })
         .def("report", [](const SchottkyResult& r) { return to_object(to_json(r)); });

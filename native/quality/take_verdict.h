@@ -1,14 +1,15 @@
 // What the verdict on the stored UVs means for a map: whether it is done, and what is said first.
 #pragma once
 
+#include "core/map_options.h"
 #include "quality/report.h"
 
 namespace koebe {
 
 /// What becomes of a map that loses too much of the surface's area.
 struct LossPolicy {
-    double most_lost = most_lost_area;  ///< share of the area; 1: any loss is taken
-    bool done = false;                  ///< whether it is done all the same: the one map of a surface with long limbs
+    double most_lost = MapOptions{}.most_lost;  ///< share of the area; 1: any loss is taken
+    bool done = false;  ///< whether it is done all the same: the one map of a surface with long limbs
     const char* advice = "Parts (koebe parts) serve such surfaces";
 };
 

@@ -9,9 +9,6 @@
 
 namespace koebe {
 
-/// A map that loses a larger share of the surface's area is not done, unless another one is asked for.
-inline constexpr double most_lost_area = 0.01;
-
 /// A map as it is stored: u and v as 32-bit floats, areas in 64 bits.
 struct Verdict {
     double lost_area = 0.0;  ///< share of the surface's area in faces without a positive area as stored

@@ -22,12 +22,18 @@ enum class SchottkyNormalization {
 /// As in the JSON report: the enumerator's name.
 KOEBE_API const char* to_string(SchottkyNormalization normalization) noexcept;
 
-struct SchottkyOptions {
+/// The tolerance is on the relative change, in a sweep, of the matrices of the disks that fill the loops.
+struct SchottkyOptions : SweepOptions {
     SchottkyNormalization normalization = SchottkyNormalization::area;
-    double tolerance = 1e-6;  ///< on the relative change, in a sweep, of the matrices of the disks that fill the loops
-    int max_sweeps = 50;
-    double most_lost = most_lost_area;  ///< where a larger share of the area is lost as stored, the map is not done
-    std::vector<Index> polygon = {};    ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+
+    template <typename Visit>
+    static void each_option(Visit&& visit)
+    {
+        visit("normalization", &SchottkyOptions::normalization);
+        SweepOptions::each_option(visit);
+        visit("polygon", &SchottkyOptions::polygon);
+    }
 };
 
 /// A handle: all in the plane of the unit disk, z = 2 (u + i v) - 1 - i.

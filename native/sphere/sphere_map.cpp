@@ -53,8 +53,7 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
 {
     UniformizeOptions map_options;
     map_options.outer = OuterLoop::longest;
-    map_options.tolerance = options.tolerance;
-    map_options.max_sweeps = options.max_sweeps;
+    static_cast<SweepOptions&>(map_options) = options;
     map_options.most_lost = 1.0;  // the sphere has its own verdict
     const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
     PlaneMap map;
@@ -301,8 +300,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     PlaneMap map;
     if (domain.loops.empty()) {
         IterationOptions iteration;
-        iteration.tolerance = options.tolerance;
-        iteration.max_sweeps = options.max_sweeps;
+        static_cast<SweepOptions&>(iteration) = options;
         ClosedSphereMap closed = closed_sphere_map(domain, weights, iteration, context);
         map.z = std::move(closed.z);
         map.converged = closed.converged;

@@ -21,12 +21,18 @@ enum class SphereLayout {
 /// As in the JSON report: the enumerator's name.
 KOEBE_API const char* to_string(SphereLayout layout) noexcept;
 
-struct SphereOptions {
-    double tolerance = 1e-6;  ///< on the circles' change in a sweep, in the unit disk; closed: on the points' change
-    int max_sweeps = 50;
+/// Of a closed surface the tolerance is on the points' change.
+struct SphereOptions : SweepOptions {
     SphereLayout layout = SphereLayout::equirectangular;
-    double most_lost = most_lost_area;  ///< where a larger share of the area is lost as stored, the map is not done
-    std::vector<Index> polygon = {};    ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+
+    template <typename Visit>
+    static void each_option(Visit&& visit)
+    {
+        visit("layout", &SphereOptions::layout);
+        SweepOptions::each_option(visit);
+        visit("polygon", &SphereOptions::polygon);
+    }
 };
 
 /// A loop on the sphere.

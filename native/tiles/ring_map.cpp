@@ -256,8 +256,7 @@ RoundRing round_ring(const Vertices& vertices, const Triangles& triangles, const
     UniformizeOptions map_options;
     map_options.outer = OuterLoop::vertex;
     map_options.outer_vertex = domain.original[domain.loops[0].front()];
-    map_options.tolerance = options.tolerance;
-    map_options.max_sweeps = options.max_sweeps;
+    static_cast<SweepOptions&>(map_options) = options;
     map_options.most_lost = 1.0;  // the tile has its own verdict
     const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
     std::vector<const LoopReport*> report;

@@ -22,13 +22,21 @@ enum class RingHoles {
 /// As in the JSON report: the enumerator's name.
 KOEBE_API const char* to_string(RingHoles holes) noexcept;
 
-struct TileOptions {
-    double tolerance = 1e-6;  ///< on the circles' change in a sweep; of a torus its shortest period is 1
-    int max_sweeps = 50;
+/// Of a torus the circles' change is measured where its shortest period is 1.
+struct TileOptions : SweepOptions {
     RingHoles holes = RingHoles::circles;  ///< of a ring
     Index outer = -1, inner = -1;          ///< of a ring, vertices of the two rims; -1: the longest loops
-    double most_lost = most_lost_area;     ///< where a larger share of the area is lost as stored, the map is not done
     std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each is one by itself
+
+    template <typename Visit>
+    static void each_option(Visit&& visit)
+    {
+        visit("outer", &TileOptions::outer);
+        visit("inner", &TileOptions::inner);
+        visit("holes", &TileOptions::holes);
+        SweepOptions::each_option(visit);
+        visit("polygon", &TileOptions::polygon);
+    }
 };
 
 /// A loop in the tile.

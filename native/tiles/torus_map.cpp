@@ -19,8 +19,7 @@ TileResult torus_map_here(const Vertices& vertices, const Triangles& triangles, 
     clock.end(&StageSeconds::topology);
     context.begin_stage("iterate", 0.1, 0.9);
     IterationOptions iteration;
-    iteration.tolerance = options.tolerance;
-    iteration.max_sweeps = options.max_sweeps;
+    static_cast<SweepOptions&>(iteration) = options;
     FlatMap map = torus_circles(domain, iteration, context);
     clock.end(&StageSeconds::iterate);
     context.begin_stage("finish", 0.9, 1.0);

@@ -5,6 +5,7 @@ import platform
 import sys
 import zipfile
 
+import bpy
 import pytest
 
 
@@ -29,6 +30,32 @@ def test_usable_values_are_taken(addon):
     chosen = options.Options(method="ck", outer=12, layer="ä" * 31, margin=0.0)
     assert chosen.solver_arguments()["method"] == "ck"
     assert chosen.outer == 12
+
+
+def test_the_panel_is_made_of_the_table(addon):
+    """Labels, words, defaults and ranges of every option, in the panel and in the operator that has it."""
+    operators = {"uniformize": "koebe_uniformize", "parts": "koebe_parts", "sequence": "koebe_sequence",
+                 **{domain: f"koebe_{domain}" for domain in ("torus", "ring", "sphere", "schottky")}}  # fmt: skip
+    table = {row.name: row for row in addon("maps.option_table").ROWS.values() if row.is_property}
+    panel = bpy.context.scene.koebe_uv.bl_rna.properties
+    assert {prop.identifier for prop in panel} - {"rna_type", "name"} == {*table}
+    for of, operator in operators.items():
+        own = getattr(bpy.ops.uv, operator).get_rna_type().properties
+        names = {row.name for row in table.values() if of in row.maps}
+        assert {prop.identifier for prop in own} - {"rna_type"} == names
+        for prop in [*own, *panel]:
+            row = table.get(prop.identifier)
+            if row is None:
+                continue
+            assert prop.name == row.blender["label"] and prop.description.lower().startswith(row.does.lower())
+            assert prop.default == (pytest.approx(row.default) if row.kind == "number" else row.default)
+            if row.choices:
+                items = [(item.identifier, item.name, item.description.lower()) for item in prop.enum_items]
+                assert items == [(word, label, means.lower()) for word, label, means in row.choices]
+            elif row.kind in ("number", "integer"):
+                # The panel offers nothing that the options refuse, but for open ends and what has no bounds.
+                assert row.bounds[0] <= prop.hard_min or row.bounds[0] < -1e9
+                assert prop.hard_max <= row.bounds[1] or prop.hard_max == pytest.approx(2**31 - 1)
 
 
 def test_wheels_are_told_apart_by_their_tags(addon, monkeypatch):

@@ -175,7 +175,7 @@ void check_verdict(const MapReport& report, const Flips& flips)
     require(flips.tiny == told.below_resolution, "so are those below resolution");
     require(std::isfinite(told.angle_error_stored_deg.mean), "the stored angle error is a number");
     require(told.lost_area >= 0.0 && told.lost_area <= 1.0, "the lost area is a share");
-    require(!report.converged || told.lost_area <= most_lost_area, "what converged has lost little");
+    require(!report.converged || told.lost_area <= MapOptions{}.most_lost, "what converged has lost little");
 }
 
 /// What tiles and Schottky maps promise alike.

@@ -1,5 +1,6 @@
 // koebe batch INPUTS... --output FOLDER
 #include "cli/commands/subcommand.h"
+#include "cli/options/option_table.h"
 #include "cli/options/uniformize_options.h"
 #include "cli/options/validators.h"
 #include "cli/options/wrong_usage.h"
@@ -14,13 +15,11 @@
 #include "batch/program.h"
 #include "batch/summary.h"
 #include "core/counted.h"
-#include "schottky/schottky_map.h"
-#include "sphere/sphere_map.h"
-#include "tiles/tile_map.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -32,16 +31,33 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* disk_domain = "disk";
-constexpr const char* ring_domain = "ring";
-constexpr const char* sphere_domain = "sphere";
-constexpr const char* schottky_domain = "schottky";
+const std::vector<std::string> domains{disk_domain, "torus", "ring", "sphere", "schottky"};
+
+/// The choices that a disk has not.
+std::vector<const OptionRow*> domain_rows()
+{
+    std::vector<const OptionRow*> rows;
+    for (const OptionRow& row : option_rows())
+        if (row.kind == "choice" && !row.is_of("uniformize") &&
+            std::ranges::any_of(domains, [&](const std::string& domain) { return row.is_of(domain); }))
+            rows.push_back(&row);
+    return rows;
+}
+
+/// Whether another domain has an option of a disk, and of the same kind.
+bool has_too(const std::string& domain, const std::string& flag)
+{
+    return std::ranges::any_of(option_rows(), [&](const OptionRow& row) {
+        const OptionRow* const of_disk = find_row("uniformize", row.name);
+        return row.flag() == flag && row.is_of(domain) && of_disk != nullptr && of_disk->kind == row.kind;
+    });
+}
 
 struct Request : MapRequest {
-    UniformizeWords words;
-    std::vector<CLI::Option*> forwarded;  ///< the options of a map
-    std::string domain = disk_domain, holes = to_string(RingHoles::circles),
-                layout = to_string(SphereLayout::equirectangular),
-                normalization = to_string(SchottkyNormalization::area);
+    std::vector<CLI::Option*> forwarded;           ///< the options of a map
+    std::map<std::string, std::string> of_domain;  ///< words of options that other domains have alone
+    std::string domain = disk_domain;
+    bool cut = false;
     std::vector<std::string> inputs, blender_arguments;
     std::string folder, base, format = "obj", blender, blender_script;
     int workers = 0;
@@ -85,18 +101,12 @@ void add_batch_options(CLI::App& app, Request& request)
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
     app.add_option("--domain", request.domain,
                    "disk: koebe uniformize; torus, ring: those commands, UVs that are a tile; sphere, schottky: those")
-        ->check(CLI::IsMember({disk_domain, "torus", ring_domain, sphere_domain, schottky_domain}))
+        ->check(CLI::IsMember(domains))
         ->capture_default_str();
-    app.add_option("--holes", request.holes, "of --domain ring: what becomes of the loops that are no rims")
-        ->check(CLI::IsMember(
-            {to_string(RingHoles::circles), to_string(RingHoles::concentric), to_string(RingHoles::radial)}))
-        ->capture_default_str();
-    app.add_option("--layout", request.layout, "of --domain sphere: the sphere as texture coordinates")
-        ->check(CLI::IsMember({to_string(SphereLayout::equirectangular), to_string(SphereLayout::octahedral)}))
-        ->capture_default_str();
-    app.add_option("--normalization", request.normalization, "of --domain schottky: even texels, or equal circles")
-        ->check(CLI::IsMember({to_string(SchottkyNormalization::area), to_string(SchottkyNormalization::circles)}))
-        ->capture_default_str();
+    for (const OptionRow* row : domain_rows()) {
+        std::string& word = request.of_domain[std::string(row->name)] = row->choices().front();
+        add_choice(app, *row, 0, [&word, row](int k) { word = row->choices()[static_cast<std::size_t>(k)]; });
+    }
     const std::string group = "Files of Blender";
     app.add_option("--blender", request.blender, "map .blend files too, by this program and the add-on")
         ->type_name("PROGRAM")
@@ -113,30 +123,23 @@ void add_batch_options(CLI::App& app, Request& request)
 /// @throws CLI::ValidationError options of another domain
 void check_domain(const CLI::App& app, const Request& request)
 {
-    if (app.count("--holes") > 0 && request.domain != ring_domain)
-        throw CLI::ValidationError("--holes", "is of --domain ring");
-    if (app.count("--layout") > 0 && request.domain != sphere_domain)
-        throw CLI::ValidationError("--layout", "is of --domain sphere");
-    if (app.count("--normalization") > 0 && request.domain != schottky_domain)
-        throw CLI::ValidationError("--normalization", "is of --domain schottky");
+    for (const OptionRow* row : domain_rows())
+        if (app.count(row->flag()) > 0 && !row->is_of(request.domain))
+            throw CLI::ValidationError(row->flag(), "is of --domain " + std::string(row->maps));
     if (request.domain == disk_domain) return;
     for (const CLI::Option* option : request.forwarded)
-        if (option->count() > 0 && !option->check_name("--tolerance") && !option->check_name("--max-sweeps") &&
-            !option->check_name("--most-lost"))
+        if (option->count() > 0 && !has_too(request.domain, option->get_name()))
             throw CLI::ValidationError(option->get_name(), "is of --domain disk");
 }
 
 /// What a map depends on beside the mesh.
 nlohmann::ordered_json recipe_options(const Request& request)
 {
-    if (request.domain == disk_domain) return options_report(request, request.words);
+    if (request.domain == disk_domain) return uniformize_report(request.options, request.cut);
     nlohmann::ordered_json report{{"domain", request.domain}};
-    if (request.domain == ring_domain) report["holes"] = request.holes;
-    if (request.domain == sphere_domain) report["layout"] = request.layout;
-    if (request.domain == schottky_domain) report["normalization"] = request.normalization;
-    report.update({{"tolerance", request.options.tolerance},
-                   {"max_sweeps", request.options.max_sweeps},
-                   {"most_lost", request.options.most_lost}});
+    for (const auto& [name, word] : request.of_domain)
+        if (find_row(request.domain, name) != nullptr) report[name] = word;
+    report.update(option_report<SweepOptions>(request.domain, request.options));
     return report;
 }
 
@@ -144,9 +147,9 @@ nlohmann::ordered_json recipe_options(const Request& request)
 std::vector<std::string> given_words(const Request& request, bool with_threads)
 {
     std::vector<std::string> words;
-    if (request.domain == ring_domain) words.push_back("--holes=" + request.holes);
-    if (request.domain == sphere_domain) words.push_back("--layout=" + request.layout);
-    if (request.domain == schottky_domain) words.push_back("--normalization=" + request.normalization);
+    for (const auto& [name, word] : request.of_domain)
+        if (find_row(request.domain, name) != nullptr)
+            words.push_back(find_row(request.domain, name)->flag() + "=" + word);
     for (const CLI::Option* option : request.forwarded) {
         if (option->count() == 0 || (!with_threads && option->check_name("--threads"))) continue;
         if (option->get_expected_max() == 0) {  // a flag
@@ -295,11 +298,11 @@ Subcommand add_batch(CLI::App& app)
     CLI::App* options = app.add_subcommand("batch", "map many files, each by a process of its own; go on after a stop");
     add_batch_options(*options, *request);
     const std::size_t before = options->get_options().size();
-    add_uniformize_options(*options, *request, request->words);
+    add_uniformize_options(*options, request->options, request->cut);
     const std::vector<CLI::Option*> all = options->get_options({});
     request->forwarded.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
     options->callback([options, request] {
-        set_uniformize_options(*options, request->words, *request);
+        check_uniformize_options(*options, request->options, request->cut);
         check_domain(*options, *request);
     });
     return {options, [request] { return run(*request); }};

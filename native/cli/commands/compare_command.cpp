@@ -3,7 +3,7 @@
 #include "cli/commands/shape_input.h"
 #include "cli/commands/subcommand.h"
 #include "cli/files/output_files.h"
-#include "cli/options/mapping_options.h"
+#include "cli/options/option_table.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/standard_streams.h"
@@ -152,7 +152,7 @@ Subcommand add_compare(CLI::App& app)
         options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")
             ->expected(0, 1)
             ->type_name("[FILE]");
-    add_mapping_options(*options, request->options);
+    add_options(*options, "shapes", request->options);
     options->callback([request, json] { settle_words(*request, *json); });
     return {options, [request] { return run(*request); }};
 }

@@ -3,7 +3,7 @@
 #include "cli/commands/shape_input.h"
 #include "cli/commands/subcommand.h"
 #include "cli/files/output_files.h"
-#include "cli/options/mapping_options.h"
+#include "cli/options/option_table.h"
 #include "cli/options/validators.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/exit_code.h"
@@ -117,7 +117,7 @@ Subcommand add_module(CLI::App& app)
     options->add_flag("--error", request->with_error,
                       "with --csv: also bars of the error that the mesh makes, each from a map of a finer mesh");
     options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
-    add_mapping_options(*options, request->options);
+    add_options(*options, "shapes", request->options);
     options->callback([request] { require_loop_words(*request); });
     return {options, [request] { return run(*request); }};
 }

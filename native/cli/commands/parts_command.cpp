@@ -1,8 +1,7 @@
 // koebe parts IN OUT
 #include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
-#include "cli/options/mapping_options.h"
-#include "cli/options/validators.h"
+#include "cli/options/option_table.h"
 
 #include "core/counted.h"
 #include "parts/parts.h"
@@ -53,23 +52,13 @@ Subcommand add_parts(CLI::App& app)
             "OUT", request->output,
             "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
         ->required();
-    options
-        ->add_option("--price", request->parts.price,
-                     "of a part, in area times log density outside a factor 3: a higher one makes fewer parts")
-        ->check(positive_number())
-        ->type_name("PRICE")
-        ->capture_default_str();
-    options->add_flag("--round-cuts", request->parts.round_cuts,
-                      "loops at cuts on circles and straight lines, for more angle error");
-    add_most_lost(*options, request->parts.most_lost);
+    add_options(*options, "parts", request->parts);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");
     options->callback([request] {
         check_map_files(*request);
-        request->entries["options"] = {{"price", request->parts.price},
-                                       {"round_cuts", request->parts.round_cuts},
-                                       {"most_lost", request->parts.most_lost}};
+        request->entries["options"] = option_report("parts", request->parts);
     });
     return {options, [request] { return run(*request); }};
 }

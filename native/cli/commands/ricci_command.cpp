@@ -1,6 +1,7 @@
 // koebe ricci IN OUT
 #include "cli/commands/map_command.h"
 #include "cli/commands/subcommand.h"
+#include "cli/options/option_table.h"
 
 #include "baselines/ricci_uniformize.h"
 
@@ -46,14 +47,11 @@ Subcommand add_ricci(CLI::App& app)
                      "delaunay: edges are flipped on the surface before, given: those of the file")
         ->check(CLI::IsMember({"delaunay", "given"}))
         ->capture_default_str();
-    add_domain_options(*options, *request);
+    add_options(*options, "ricci", request->options);
     add_report_options(*options, *request);
-    options->get_option("--tolerance")->description("on the circles' change in an update, a length in the unit disk");
-    options->get_option("--max-sweeps")->description("updates of the boundary's curvature before giving up");
     options->callback([request] {
         check_map_files(*request);
-        set_outer_loop(*request);
-        nlohmann::ordered_json words = domain_options_report(*request);
+        nlohmann::ordered_json words = option_report("ricci", request->options);
         words.update(
             {{"packing", request->packing}, {"target", request->target}, {"triangulation", request->triangulation}});
         request->entries["options"] = std::move(words);

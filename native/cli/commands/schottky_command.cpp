@@ -1,8 +1,7 @@
 // koebe schottky IN OUT
 #include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
-#include "cli/options/mapping_options.h"
-#include "cli/options/validators.h"
+#include "cli/options/option_table.h"
 #include "cli/process/end_with_input.h"
 
 #include "core/counted.h"
@@ -10,7 +9,6 @@
 #include "report/schottky_svg.h"
 #include "schottky/schottky_map.h"
 
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -54,26 +52,7 @@ Subcommand add_schottky(CLI::App& app)
             "OUT", request->output,
             "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
         ->required();
-    const std::map<std::string, SchottkyNormalization> names{
-        {to_string(SchottkyNormalization::area), SchottkyNormalization::area},
-        {to_string(SchottkyNormalization::circles), SchottkyNormalization::circles}};
-    options
-        ->add_option("--normalization", request->schottky.normalization,
-                     "with holes: the least area distortion, or near it room for equally large circles of handles")
-        ->transform(CLI::Transformer(names))
-        ->type_name("area|circles")
-        ->default_str("area");
-    options
-        ->add_option("--tolerance", request->schottky.tolerance,
-                     "stop when the disks that fill the loops change by less in a sweep, relative")
-        ->check(positive_number())
-        ->type_name("NUMBER")
-        ->capture_default_str();
-    options->add_option("--max-sweeps", request->schottky.max_sweeps, "then stop, not converged")
-        ->check(whole_number(1))
-        ->type_name("N")
-        ->capture_default_str();
-    add_most_lost(*options, request->schottky.most_lost);
+    add_options(*options, "schottky", request->schottky);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture there: the faces, and the circles of the copies")
         ->type_name("FILE");
@@ -81,10 +60,7 @@ Subcommand add_schottky(CLI::App& app)
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
     options->callback([request] {
         check_map_files(*request);
-        request->entries["options"] = {{"normalization", to_string(request->schottky.normalization)},
-                                       {"tolerance", request->schottky.tolerance},
-                                       {"max_sweeps", request->schottky.max_sweeps},
-                                       {"most_lost", request->schottky.most_lost}};
+        request->entries["options"] = option_report("schottky", request->schottky);
     });
     return {options, [request] { return run_schottky(*request); }};
 }

@@ -2,7 +2,8 @@
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
 #include "cli/options/loop_options.h"
-#include "cli/options/mapping_options.h"
+#include "cli/options/option_table.h"
+#include "cli/options/uniformize_options.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/error_line.h"
 
@@ -26,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Request : MapRequest {
-    std::string method = "gk", balance = "none", folder, extension = "obj";
+    std::string folder, extension = "obj";
     std::vector<std::string> inputs;
 };
 
@@ -151,31 +152,12 @@ Subcommand add_sequence(CLI::App& app)
     options->add_option("--format", request->extension, "of the meshes that are written")
         ->check(CLI::IsMember({"obj", "ply"}))
         ->capture_default_str();
-    options
-        ->add_option("--method", request->method,
-                     "gk: generalized Koebe iteration, ck: conventional, against-outer: a hole at a time")
-        ->check(CLI::IsMember({"gk", "ck", "against-outer"}))
-        ->capture_default_str();
-    options->add_option("--balance", request->balance, "area: the Moebius map of least area distortion")
-        ->check(CLI::IsMember({"none", "area"}))
-        ->capture_default_str();
-    options->add_flag("--polish", request->options.polish, "lower the angle error, circles unchanged; slower");
-    add_domain_options(*options, *request);
+    add_options(*options, "sequence", request->options);
     options->add_flag("--quiet", request->quiet, "no progress and no result lines");
     options->callback([request] {
-        UniformizeOptions& chosen = request->options;
-        chosen.method = request->method == "gk"   ? Method::gk
-                        : request->method == "ck" ? Method::ck
-                                                  : Method::against_outer;
-        chosen.balance = request->balance == "none" ? Balance::none : Balance::area;
-        if (chosen.center >= 0 && chosen.balance != Balance::none)
-            throw CLI::ValidationError("--center", "excludes --balance: both choose the automorphism of the disk");
-        set_outer_loop(*request);
+        check_center(request->options);
         check_files(*request);
-        nlohmann::ordered_json report{{"method", request->method}};
-        report.update(domain_options_report(*request));
-        report.update({{"balance", request->balance}, {"polish", chosen.polish}});
-        request->entries["options"] = report;
+        request->entries["options"] = option_report("sequence", request->options);
     });
     return {options, [request] {
                 make_folder(request->folder);

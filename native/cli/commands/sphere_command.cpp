@@ -1,8 +1,7 @@
 // koebe sphere IN OUT
 #include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
-#include "cli/options/mapping_options.h"
-#include "cli/options/validators.h"
+#include "cli/options/option_table.h"
 #include "cli/process/end_with_input.h"
 
 #include "core/counted.h"
@@ -10,7 +9,6 @@
 #include "report/sphere_svg.h"
 #include "sphere/sphere_map.h"
 
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -65,7 +63,6 @@ int run_sphere(const SphereRequest& request)
 Subcommand add_sphere(CLI::App& app)
 {
     auto request = std::make_shared<SphereRequest>();
-    SphereOptions& sphere = request->sphere_options;
     CLI::App* options = app.add_subcommand("sphere", "map a surface without handles to the sphere, its holes round");
     options->add_option("IN", request->input, "surface of genus 0, closed or with holes: OBJ, OFF, PLY or STL")
         ->required();
@@ -73,30 +70,11 @@ Subcommand add_sphere(CLI::App& app)
         ->add_option("OUT", request->output,
                      "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners")
         ->required();
-    const std::map<std::string, SphereLayout> names{
-        {to_string(SphereLayout::equirectangular), SphereLayout::equirectangular},
-        {to_string(SphereLayout::octahedral), SphereLayout::octahedral}};
-    options
-        ->add_option("--layout", sphere.layout,
-                     "the sphere as texture coordinates: longitude and latitude, or the octahedron folded out")
-        ->transform(CLI::Transformer(names))
-        ->type_name("equirectangular|octahedral")
-        ->default_str("equirectangular");
+    add_options(*options, "sphere", request->sphere_options);
     options
         ->add_option("--sphere", request->sphere,
                      "write the sphere itself there, OBJ or PLY: the same faces, their vertices on the unit sphere")
         ->type_name("FILE");
-    options
-        ->add_option("--tolerance", sphere.tolerance,
-                     "stop when the circles, or the points of a closed surface, move by less in a sweep")
-        ->check(positive_number())
-        ->type_name("LENGTH")
-        ->capture_default_str();
-    options->add_option("--max-sweeps", sphere.max_sweeps, "then stop, not converged")
-        ->check(whole_number(1))
-        ->type_name("N")
-        ->capture_default_str();
-    add_most_lost(*options, sphere.most_lost);
     options->add_option("--json", request->json, "write the report there")->type_name("FILE");
     options->add_option("--svg", request->svg, "write a picture of the sphere there, front and back")
         ->type_name("FILE");
@@ -105,10 +83,7 @@ Subcommand add_sphere(CLI::App& app)
     options->callback([request] {
         check_map_files(*request);
         if (!request->sphere.empty()) required_format(request->sphere);
-        request->entries["options"] = {{"layout", to_string(request->sphere_options.layout)},
-                                       {"tolerance", request->sphere_options.tolerance},
-                                       {"max_sweeps", request->sphere_options.max_sweeps},
-                                       {"most_lost", request->sphere_options.most_lost}};
+        request->entries["options"] = option_report("sphere", request->sphere_options);
     });
     return {options, [request] { return run_sphere(*request); }};
 }

@@ -1,8 +1,7 @@
 // koebe torus IN OUT, koebe ring IN OUT
 #include "cli/commands/corner_map.h"
 #include "cli/commands/subcommand.h"
-#include "cli/options/mapping_options.h"
-#include "cli/options/validators.h"
+#include "cli/options/option_table.h"
 #include "cli/process/end_with_input.h"
 
 #include "core/counted.h"
@@ -10,7 +9,6 @@
 #include "report/tile_svg.h"
 #include "tiles/tile_map.h"
 
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -55,26 +53,14 @@ void add_files(CLI::App& app, Request& request, const char* kind)
         ->required();
 }
 
-void add_iteration(CLI::App& app, Request& request)
+/// The options of the map, and the files beside OUT.
+void add_tile_options(CLI::App& app, const char* map, Request& request)
 {
-    app.add_option("--tolerance", request.tile.tolerance, "stop when the circles move by less in a sweep")
-        ->check(positive_number())
-        ->type_name("LENGTH")
-        ->capture_default_str();
-    app.add_option("--max-sweeps", request.tile.max_sweeps, "then stop, not converged")
-        ->check(whole_number(1))
-        ->type_name("N")
-        ->capture_default_str();
-    add_most_lost(app, request.tile.most_lost);
+    add_options(app, map, request.tile);
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
     app.add_option("--svg", request.svg, "write a picture of the tile and its copies there")->type_name("FILE");
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
-}
-
-nlohmann::ordered_json iteration_report(const TileOptions& options)
-{
-    return {{"tolerance", options.tolerance}, {"max_sweeps", options.max_sweeps}, {"most_lost", options.most_lost}};
 }
 
 }  // namespace
@@ -84,10 +70,10 @@ Subcommand add_torus(CLI::App& app)
     auto request = std::make_shared<Request>();
     CLI::App* options = app.add_subcommand("torus", "map a surface with one handle to a flat torus, its holes round");
     add_files(*options, *request, "surface of genus 1, with or without holes: OBJ, OFF, PLY or STL");
-    add_iteration(*options, *request);
+    add_tile_options(*options, "torus", *request);
     options->callback([request] {
         check_map_files(*request);
-        request->entries["options"] = iteration_report(request->tile);
+        request->entries["options"] = option_report("torus", request->tile);
     });
     return {options, [request] { return run(*request, torus_map); }};
 }
@@ -97,32 +83,10 @@ Subcommand add_ring(CLI::App& app)
     auto request = std::make_shared<Request>();
     CLI::App* options = app.add_subcommand("ring", "map a surface with two loops and more to a cylinder, unrolled");
     add_files(*options, *request, "surface of genus 0 with two loops or more: OBJ, OFF, PLY or STL");
-    options->add_option("--outer", request->tile.outer, "a vertex of the rim where v = 0 (from 0); else a longest loop")
-        ->check(whole_number(0))
-        ->type_name("VERTEX");
-    options->add_option("--inner", request->tile.inner, "a vertex of the other rim (from 0); else a longest loop")
-        ->check(whole_number(0))
-        ->type_name("VERTEX");
-    const std::map<std::string, RingHoles> names{{to_string(RingHoles::circles), RingHoles::circles},
-                                                 {to_string(RingHoles::concentric), RingHoles::concentric},
-                                                 {to_string(RingHoles::radial), RingHoles::radial}};
-    options
-        ->add_option("--holes", request->tile.holes,
-                     "what becomes of the others: round in the annulus, or slits round it or along its radii")
-        ->transform(CLI::Transformer(names))
-        ->type_name("circles|concentric|radial")
-        ->default_str("circles");
-    add_iteration(*options, *request);
+    add_tile_options(*options, "ring", *request);
     options->callback([request] {
         check_map_files(*request);
-        const auto vertex = [](Index number) {
-            return number < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(number);
-        };
-        nlohmann::ordered_json report{{"outer", vertex(request->tile.outer)},
-                                      {"inner", vertex(request->tile.inner)},
-                                      {"holes", to_string(request->tile.holes)}};
-        report.update(iteration_report(request->tile));
-        request->entries["options"] = std::move(report);
+        request->entries["options"] = option_report("ring", request->tile);
     });
     return {options, [request] { return run(*request, ring_map); }};
 }

@@ -3,7 +3,7 @@
 #include "cli/files/landmark_file.h"
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
-#include "cli/options/mapping_options.h"
+#include "cli/options/option_table.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
@@ -155,7 +155,7 @@ Subcommand add_transfer(CLI::App& app)
             "points that correspond exactly, a line each: two vertices, counted from 0, or x y z on A and x y z "
             "on B")
         ->type_name("FILE");
-    add_mapping_options(*options, request->options);
+    add_options(*options, "shapes", request->options);
     options
         ->add_option("--json", request->json,
                      "write there in which triangle of B each point lies, and how far the holes miss")

@@ -14,7 +14,7 @@
 namespace koebe::cli {
 
 struct MapRequest {
-    std::string input, output, json, svg, outer = "auto";
+    std::string input, output, json, svg;
     std::string sphere;                         ///< of `koebe sphere` alone: the sphere as a mesh
     WrittenFormat format = WrittenFormat::obj;  ///< of OUT
     UniformizeOptions options;
@@ -24,15 +24,8 @@ struct MapRequest {
 
 /// IN and OUT.
 void add_mesh_arguments(CLI::App& app, MapRequest& request);
-/// --outer, --center, --point, --tolerance, --max-sweeps, --threads: what the map depends on.
-void add_domain_options(CLI::App& app, MapRequest& request);
 /// --json, --svg, --quiet.
 void add_report_options(CLI::App& app, MapRequest& request);
-/// Sets what the word of --outer means.
-void set_outer_loop(MapRequest& request);
-/// What add_domain_options has set, for the report: words and numbers by the options' names. The number of threads is
-/// not among them, as a map does not depend on it.
-nlohmann::ordered_json domain_options_report(const MapRequest& request);
 /// The files of a request, by the names that the usage has for them.
 std::vector<OutputFile> map_files(const MapRequest& request);
 /// @throws CLI::ValidationError OUT names no format; two of the files are one

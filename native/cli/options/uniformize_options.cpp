@@ -1,57 +1,70 @@
 #include "cli/options/uniformize_options.h"
 
-#include <utility>
-#include <vector>
+#include "cli/options/option_table.h"
+#include "cli/options/wrong_usage.h"
+#include "core/errors.h"
+#include "iteration/koebe_mesh.h"
+#include "mesh/topology.h"
+
+#include <string>
 
 namespace koebe::cli {
+namespace {
 
-void add_uniformize_options(CLI::App& app, MapRequest& request, UniformizeWords& words)
+constexpr const char* uniformize_map = "uniformize";
+
+}  // namespace
+
+void add_uniformize_options(CLI::App& app, UniformizeOptions& options, bool& cut)
 {
-    const auto one_of = [](std::vector<std::string> choice) { return CLI::IsMember(std::move(choice)); };
-
-    app.add_option("--method", words.method,
-                   "gk: generalized Koebe iteration, ck: conventional, against-outer: a hole at a time")
-        ->check(one_of({"gk", "ck", "against-outer"}))
-        ->capture_default_str();
-    app.add_option("--engine", words.engine, "condensed: fast, mesh: as in the paper")
-        ->check(one_of({"condensed", "mesh"}))
-        ->capture_default_str();
-    app.add_option("--balance", words.balance, "area: the Moebius map of least area distortion")
-        ->check(one_of({"none", "area"}))
-        ->capture_default_str();
-    app.add_flag("--polish", request.options.polish, "lower the angle error, circles unchanged; slower");
-    app.add_flag("--cut", words.cut,
-                 "open, cut and split in the UVs what cannot be mapped as it is: any mesh, several pieces");
-    add_domain_options(app, request);
-    add_mesh_engine_options(app, words.mesh);
+    add_options(app, uniformize_map, options);
+    add_value(app, *find_row(uniformize_map, "cut"), cut);
+    add_options(app, uniformize_map, options.mesh);
 }
 
-void set_uniformize_options(const CLI::App& app, const UniformizeWords& words, MapRequest& request)
+void check_uniformize_options(const CLI::App& app, const UniformizeOptions& options, bool cut)
 {
-    UniformizeOptions& options = request.options;
-    options.method = words.method == "gk" ? Method::gk : words.method == "ck" ? Method::ck : Method::against_outer;
-    options.engine = words.engine == "condensed" ? Engine::condensed : Engine::mesh;
-    options.balance = words.balance == "none" ? Balance::none : Balance::area;
-    set_outer_loop(request);
-    set_mesh_engine_options(app, words.mesh, options);
-    if (words.cut && !options.mesh.schedule.empty())
+    const KoebeMeshOptions& mesh = options.mesh;
+    KoebeMeshOptions::each_option([&](const char* name, auto) {
+        const OptionRow* const row = find_row(uniformize_map, name);
+        if (row != nullptr && options.engine != Engine::mesh && app.count(row->flag()) > 0)
+            throw CLI::ValidationError(row->flag(), "is an option of --engine mesh");
+    });
+    if (mesh.partners == Partners::changing && options.method != Method::gk)
+        throw CLI::ValidationError("--partners", "change with --method gk alone");
+    if (mesh.partners == Partners::changing && !mesh.schedule.empty())
+        throw CLI::ValidationError("--partners", "and --schedule exclude each other");
+    if (mesh.annulus == AnnulusBackend::yamabe && mesh.metric == KoebeMeshOptions::Metric::first)
+        throw CLI::ValidationError("--annulus", "yamabe needs --metric planar or reflected");
+    if (cut && !mesh.schedule.empty())
         throw CLI::ValidationError("--cut", "excludes --schedule: which loops there are follows from the cuts");
+    check_center(options);
+}
+
+void check_center(const UniformizeOptions& options)
+{
     if (options.center >= 0 && options.balance != Balance::none)
         throw CLI::ValidationError("--center", "excludes --balance: both choose the automorphism of the disk");
 }
 
-nlohmann::ordered_json options_report(const MapRequest& request, const UniformizeWords& words)
+nlohmann::ordered_json uniformize_report(const UniformizeOptions& options, bool cut)
 {
-    nlohmann::ordered_json report{{"method", words.method}, {"engine", words.engine}};
-    report.update(domain_options_report(request));
-    report.update({{"balance", words.balance}, {"polish", request.options.polish}});
-    if (words.cut) report["cut"] = true;
-    if (request.options.engine == Engine::mesh)
-        report.update({{"partners", words.mesh.partners},
-                       {"schedule", words.mesh.schedule},
-                       {"metric", words.mesh.metric},
-                       {"annulus", words.mesh.annulus}});
+    nlohmann::ordered_json report = option_report(uniformize_map, options);
+    if (cut) report["cut"] = true;
+    if (options.engine == Engine::mesh) report.update(option_report(uniformize_map, options.mesh));
     return report;
+}
+
+void require_schedule_of_loops(const Triangles& triangles, Index vertex_count, const UniformizeOptions& options)
+{
+    if (options.mesh.schedule.empty()) return;
+    const std::size_t loop_count = analyze_surface(triangles, vertex_count).loops.size();
+    if (loop_count == 0) return;  // closed: another error
+    try {
+        require_possible(options.mesh, static_cast<int>(loop_count), options.method);
+    } catch (const InputError& error) {
+        throw WrongUsage(std::string("--schedule: ") + error.what());
+    }
 }
 
 }  // namespace koebe::cli

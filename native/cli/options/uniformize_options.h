@@ -2,28 +2,26 @@
 #pragma once
 
 #include "cli/options/map_request.h"
-#include "cli/options/mesh_engine_options.h"
+#include "core/types.h"
 
 #include <nlohmann/json.hpp>
 
-#include <string>
-
 namespace koebe::cli {
 
-struct UniformizeWords {
-    std::string method = "gk", engine = "condensed", balance = "none";
-    MeshEngineWords mesh;
-    bool cut = false;
-};
+/// All of `koebe uniformize` in the table of options but for lists.
+void add_uniformize_options(CLI::App& app, UniformizeOptions& options, bool& cut);
 
-/// --method, --engine, --balance, --polish, --cut, those of add_domain_options, and those of the mesh engine.
-void add_uniformize_options(CLI::App& app, MapRequest& request, UniformizeWords& words);
+/// @throws CLI::ValidationError options that exclude each other, or are of another engine
+void check_uniformize_options(const CLI::App& app, const UniformizeOptions& options, bool cut);
 
-/// Sets what the words mean.
-/// @throws CLI::ValidationError options that exclude each other
-void set_uniformize_options(const CLI::App& app, const UniformizeWords& words, MapRequest& request);
+/// @throws CLI::ValidationError a centre, and a balance, which chooses one
+void check_center(const UniformizeOptions& options);
 
-/// What a map depends on beside the mesh, for its report (domain_options_report, and the words).
-nlohmann::ordered_json options_report(const MapRequest& request, const UniformizeWords& words);
+/// What a map depends on beside the mesh, for its report.
+nlohmann::ordered_json uniformize_report(const UniformizeOptions& options, bool cut);
+
+/// For the value of --schedule.
+/// @throws WrongUsage it does not fit the surface's loops; TopologyError as analyze_surface
+void require_schedule_of_loops(const Triangles& triangles, Index vertex_count, const UniformizeOptions& options);
 
 }  // namespace koebe::cli

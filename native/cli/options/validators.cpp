@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace koebe::cli {
@@ -29,24 +30,25 @@ CLI::Validator whole_number(int least)
     return {check, "", "whole_number"};
 }
 
-CLI::Validator positive_number()
-{
-    const auto check = [](const std::string& word) -> std::string {
-        double number = 0.0;
-        if (parse(word, number) && number > 0.0 && std::isfinite(number)) return {};
-        return "must be a finite number above 0; got '" + word + "'";
-    };
-    return {check, "", "positive_number"};
-}
+CLI::Validator positive_number() { return number_between(0.0, INFINITY, true, true); }
 
-CLI::Validator share()
+CLI::Validator number_between(double least, double most, bool above, bool below)
 {
-    const auto check = [](const std::string& word) -> std::string {
-        double number = 0.0;
-        if (parse(word, number) && number >= 0.0 && number <= 1.0) return {};
-        return "must be a number from 0 to 1; got '" + word + "'";
+    const auto text = [](double bound) {
+        std::ostringstream stream;
+        stream << bound;
+        return stream.str();
     };
-    return {check, "", "share"};
+    std::string range = (above ? "above " : "from ") + text(least);
+    if (std::isfinite(most)) range += (below ? " to below " : " to ") + text(most);
+    const auto check = [=](const std::string& word) -> std::string {
+        double number = 0.0;
+        if (parse(word, number) && std::isfinite(number) && (above ? number > least : number >= least) &&
+            (below ? number < most : number <= most))
+            return {};
+        return "must be a finite number " + range + "; got '" + word + "'";
+    };
+    return {check, "", "number"};
 }
 
 CLI::Validator outer_loop_choice(std::vector<std::string> words)

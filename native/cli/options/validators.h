@@ -14,8 +14,9 @@ CLI::Validator whole_number(int least);
 /// A finite number above zero.
 CLI::Validator positive_number();
 
-/// A number from 0 to 1.
-CLI::Validator share();
+/// A finite number between bounds.
+/// @param above, below whether the bounds themselves are left out
+CLI::Validator number_between(double least, double most, bool above, bool below);
 
 /// One of the words or a vertex, counted from 0.
 CLI::Validator outer_loop_choice(std::vector<std::string> words);

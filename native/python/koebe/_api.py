@@ -1,7 +1,7 @@
 """The public functions: arrays checked, options made native, results wrapped."""
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, overload
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
@@ -9,93 +9,34 @@ from ._arrays import as_indices, as_loops, as_points, as_triangles
 from ._cut_result import CutResult
 from ._input import is_surface, polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, choice, flag, outer_loop, positive, share, sweep, token, vertex, whole
+from ._option_table import rows
+from ._options import callback, choice, filled, flag, takes, token, whole
 from ._result import UniformizeResult, with_origin
+from ._signatures import UniformizeOptions
 from .errors import InputError, OptionError, SolverError, TopologyError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack  # of typing itself from Python 3.11 on
 
-Progress = Callable[[float, str], Any]
 
-
-def _set_mesh_engine(
-    options: "_koebe.UniformizeOptions", partners: Any, schedule: Any, metric: Any, annulus: Any, record_steps: Any
-) -> None:
+def _check_mesh_engine(options: "_koebe.UniformizeOptions", given: Mapping[str, Any]) -> None:
     mesh = options.mesh
-    mesh.partners = choice(partners, "partners", _koebe.Partners)
-    mesh.schedule = sweep(schedule, "schedule")
-    mesh.metric = choice(metric, "metric", _koebe.Metric)
-    mesh.annulus = choice(annulus, "annulus", _koebe.AnnulusBackend)
-    mesh.record_steps = flag(record_steps, "record_steps")
     if options.engine != _koebe.Engine.mesh:
-        asked = {
-            "partners": partners != "fixed",
-            "schedule": schedule is not None,
-            "metric": metric != "first",
-            "annulus": annulus != "harmonic",
-            "record_steps": record_steps,
-        }
-        if any(asked.values()):
-            name = next(name for name, is_asked in asked.items() if is_asked)
-            raise OptionError(f"{name} is an option of engine='mesh'")
+        for name, row in rows("uniformize").items():
+            if row.of_mesh_engine and given[name] != row.given:
+                raise OptionError(f"{name} is an option of engine='mesh'")
     if mesh.partners == _koebe.Partners.changing and (options.method != _koebe.Method.gk or mesh.schedule):
         raise OptionError("partners change with method='gk' alone, and without a schedule")
     if mesh.annulus == _koebe.AnnulusBackend.yamabe and mesh.metric == _koebe.Metric.first:
         raise OptionError("annulus='yamabe' needs metric='planar' or 'reflected'")
 
 
-def solver_options(
-    method: Any,
-    engine: Any,
-    outer: Any,
-    tolerance: Any,
-    max_sweeps: Any,
-    balance: Any,
-    threads: Any,
-    polish: Any,
-    center: Any,
-    point: Any,
-    most_lost: Any,
-) -> "_koebe.UniformizeOptions":
-    options = _koebe.UniformizeOptions()
-    options.method = choice(method, "method", _koebe.Method)
-    options.engine = choice(engine, "engine", _koebe.Engine)
-    options.balance = choice(balance, "balance", _koebe.Balance)
-    options.outer, options.outer_vertex = outer_loop(outer)
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    options.threads = whole(threads, "threads", least=0)
-    options.polish = flag(polish, "polish")
-    options.center, options.point = vertex(center, "center"), vertex(point, "point")
-    if center is not None and balance != "none":
+def solver_options(of: str, given: Mapping[str, Any]) -> tuple["_koebe.UniformizeOptions", dict[str, Any]]:
+    """The native options of `uniformize` or of a sequence, and what a report says of them."""
+    options, said = filled(of, _koebe.UniformizeOptions(), given)
+    if options.center >= 0 and options.balance != _koebe.Balance.none:
         raise OptionError("center and balance exclude each other: both choose the automorphism of the disk")
-    return options
-
-
-class UniformizeOptions(TypedDict, total=False):
-    """The options of `uniformize`, but for `cut`."""
-
-    method: str
-    engine: str
-    outer: str | int
-    tolerance: float
-    max_sweeps: int
-    balance: str
-    progress: Progress | None
-    cancel: "_koebe.CancelToken | None"
-    threads: int
-    polish: bool
-    center: int | None
-    point: int | None
-    importance: Any
-    partners: str
-    schedule: Sequence[Sequence[int]] | None
-    metric: str
-    annulus: str
-    record_steps: bool
-    most_lost: float
+    return options, said
 
 
 @overload
@@ -110,30 +51,9 @@ def uniformize(
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool, **options: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult: ...
+@takes("uniformize", UniformizeOptions, progress=None, cancel=None)
 def uniformize(
-    vertices: Any,
-    triangles: Any = None,
-    *,
-    method: str = "gk",
-    engine: str = "condensed",
-    outer: str | int = "auto",
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    balance: str = "none",
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-    threads: int = 0,
-    polish: bool = False,
-    center: int | None = None,
-    point: int | None = None,
-    importance: Any = None,
-    partners: str = "fixed",
-    schedule: Sequence[Sequence[int]] | None = None,
-    metric: str = "first",
-    annulus: str = "harmonic",
-    record_steps: bool = False,
-    cut: bool = False,
+    vertices: Any, triangles: Any = None, *, cut: bool = False, **given: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult:
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
@@ -143,61 +63,28 @@ def uniformize(
     OFF, PLY, STL), as text or PathLike; a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh, a meshio Mesh or a
     nibabel GiftiImage. Files and meshes may have quadrilaterals and polygons; a mesh's to_mesh() of the result gives
     the same kind back, with UVs and fields
-    method       'gk': two loops a step (paper, section 4.4, second algorithm); 'ck': one loop a step, all others filled
-                 (section 1.2); 'against-outer': one hole a step, the outer loop never filled (section 4.4, first one)
-    engine       'condensed': boundary angles alone (default); 'mesh': the paper's patches as real triangles
-    outer        the loop on the unit circle: 'auto', 'longest', or a vertex of it
-    tolerance    stop when the circles move by less in a sweep, a length in the unit disk
-    max_sweeps   then stop with converged = False
-    most_lost    share of the surface's area that may have no area as stored before a warning comes first that says so
-    balance      'none', or 'area': the disk automorphism with the least area distortion
+    {options}
     progress     called as progress(fraction, stage) on the calling thread; fraction never goes back
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
-    threads      of the dense and sparse kernels; 0 takes all cores
-    polish       at the end, lower the angle error with the circles as they are; takes up to three times the map
-    center       a vertex inside the surface that goes to 0; not together with balance
-    point        a vertex of a boundary loop that goes to 1; its loop is the one on the unit circle. Both together leave
-                 no freedom (paper, section 4.3); center alone turns nothing, point alone only turns
-    importance   with balance='area': (V,) numbers from 0 to 1. The balance takes the surface for 4^w times as large in
-                 length where its importance is w, so that it gets more texels there. Equal ones change nothing
-    cut          open, cut and split in the UVs what cannot be mapped as it is: closed surfaces, handles, edges of three
-                 faces, one-sided surfaces, several components, degenerate and duplicate faces. Gives a CutResult, whose
-                 uv are the corners' (F, 3, 2) in [0, 1]^2. A vertex named by outer, center, point is of one piece
 
-    With engine='mesh', the paper's own choices:
-    partners     'fixed', or 'changing': with 'gk' each sweep pairs the loops another way (Fig. 4)
-    schedule     the loops that each step of a sweep opens, as places in the result's `loops`: pairs, with 'ck' single
-                 ones; None: the method's own order
-    metric       each step's: 'first', the surface's; 'planar', of the last step's image, as in print; 'reflected', that
-                 after the reflection tau in a circle inside a hole
-    annulus      'harmonic': 1-forms (section 4.2); 'yamabe': the discrete Yamabe flow (abstract)
-    record_steps keep each step's own image: `step_maps`
-
+    With cut=True the result is a CutResult, whose uv are the corners' (F, 3, 2) in [0, 1]^2. A vertex named by outer,
+    center, point is of one piece. center and point together leave no freedom (paper, section 4.3); center alone turns
+    nothing, point alone only turns; center and balance exclude each other.
+    'gk' is the second algorithm of the paper's section 4.4, 'against-outer' the first; 'ck' is that of section 1.2.
     One loop gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe
     iteration (section 4.4). Ctrl-C ends the call at once, as it does in all functions here.
     Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
-    options = solver_options(
-        method, engine, outer, tolerance, max_sweeps, balance, threads, polish, center, point, most_lost
-    )
-    _set_mesh_engine(options, partners, schedule, metric, annulus, record_steps)
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    if flag(cut, "cut") and (schedule is not None or record_steps):
+    options, chosen = solver_options("uniformize", {"cut": cut, **given})
+    _check_mesh_engine(options, given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
+    if not chosen.pop("cut"):
+        cut = False
+    elif options.mesh.schedule or options.mesh.record_steps:
         raise OptionError("cut excludes schedule and record_steps: they are about the loops of one surface")
     source = surface_of(vertices, triangles, degenerate=cut)
-    options.importance = importance_of(importance, balance, len(source.vertices))
-    chosen = {
-        "method": method, "engine": engine, "outer": outer if isinstance(outer, str) else int(outer),
-        "tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
-        "most_lost": options.most_lost, "balance": balance,
-        "threads": options.threads, "polish": options.polish,
-        "center": None if center is None else options.center, "point": None if point is None else options.point,
-        "partners": partners, "schedule": sweep(schedule, "schedule") or None, "metric": metric, "annulus": annulus,
-        "record_steps": options.mesh.record_steps,
-    }  # fmt: skip
-    if importance is not None:
-        chosen["importance"] = True
+    options.importance = importance_of(given["importance"], chosen["balance"], len(source.vertices))
     if cut:
         polygon = polygons_of(None, source)
         made = _koebe.uniformize_with_cuts(source.vertices, source.triangles, polygon, options, progress, cancel)

@@ -1,16 +1,108 @@
 """Options as the native module takes them: TypeError for a wrong type, OptionError for a wrong value."""
 
+import functools
+import inspect
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 
 from ._native import _koebe
+from ._option_table import Row, rows
 from .errors import InputError, OptionError
 
+Function = TypeVar("Function", bound=Callable[..., Any])
+Native = TypeVar("Native")
+
 _MOST = 2**31 - 1  # of a 32-bit integer
+
+
+def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Function]:
+    """Gives a function the options of a map as keywords, with their defaults, and its docstring what they are for.
+
+    typed    the TypedDict of its keywords
+    others   keywords beside those of the table, with their defaults
+    The docstring has {options} where they are to stand.
+    """
+    table = rows(of)
+    defaults = {**{name: row.given for name, row in table.items()}, **others}
+    hints = {**get_type_hints(typed), "cut": bool}
+
+    def changed(function: Function) -> Function:
+        @functools.wraps(function)
+        def with_defaults(*arguments: Any, **given: Any) -> Any:
+            for name in given:
+                if name not in defaults and name not in positional:
+                    raise TypeError(f"{function.__qualname__}() got an unexpected keyword argument {name!r}")
+            return function(*arguments, **{**defaults, **given})
+
+        signature = inspect.signature(function)
+        positional = {name: one for name, one in signature.parameters.items() if one.kind is one.POSITIONAL_OR_KEYWORD}
+        named = [
+            inspect.Parameter(
+                name,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=default,
+                annotation=hints.get(name, inspect.Parameter.empty),
+            )
+            for name, default in defaults.items()
+        ]
+        with_defaults.__signature__ = signature.replace(  # type: ignore[attr-defined]
+            parameters=[*positional.values(), *named]
+        )
+        if function.__doc__:  # which python -OO leaves out
+            said = "\n".join(row.text() for row in table.values())
+            with_defaults.__doc__ = function.__doc__.replace("{options}", said.replace("\n", "\n    "))
+        return with_defaults  # type: ignore[return-value]
+
+    return changed
+
+
+def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, dict[str, Any]]:
+    """The native options of a map, set to what is given, and what a report says of them.
+
+    Lists of numbers are left to the caller.
+    """
+    said = {}
+    for name, row in rows(of).items():
+        value = _checked(row, row.default if given[name] is row.given is None else given[name])
+        if row.kind != "weights":
+            said[name] = value or None if row.kind == "steps" else value
+            _set(native, row, value)
+        elif value is not None:
+            said[name] = True
+    return native, said
+
+
+def _checked(row: Row, value: Any) -> Any:
+    """The value of an option of any kind, as reports have it."""
+    if row.kind == "number":
+        return number(value, row)
+    if row.kind == "integer":
+        return whole(value, row.name, *map(int, row.bounds[:2]))
+    if row.kind == "flag":
+        return flag(value, row.name)
+    if row.kind == "choice":
+        return choice_of(value, row.name, {word: word for word in row.words})
+    if row.kind == "steps":
+        return sweep(value, row.name)
+    if row.kind == "vertex":
+        return None if value is None else vertex(value, row.name)
+    if row.kind == "loop":
+        return value if isinstance(value, str) and outer_loop(value) else outer_loop(value)[1]
+    return value
+
+
+def _set(native: Any, row: Row, value: Any) -> None:
+    holder = next((one for one in (native, getattr(native, "mesh", None)) if hasattr(one, row.name)), None)
+    if row.kind == "loop":
+        native.outer, native.outer_vertex = outer_loop(value)
+    elif row.kind == "choice":
+        setattr(holder, row.name, type(getattr(holder, row.name)).__members__[value])
+    elif holder is not None:
+        setattr(holder, row.name, -1 if row.kind == "vertex" and value is None else value)
 
 
 def choice(value: Any, option: str, enumeration: Any) -> Any:
@@ -52,22 +144,15 @@ def whole(value: Any, option: str, least: int, most: int = _MOST) -> int:
     return int(value)
 
 
-def positive(value: Any, option: str) -> float:
-    _require(value, option, Real, "a number")
+def number(value: Any, row: Row) -> float:
+    _require(value, row.name, Real, "a number")
     try:
-        number = float(value)
+        found = float(value)
     except OverflowError:
-        number = math.inf
-    if not 0.0 < number < math.inf:
-        raise OptionError(f"{option} must be positive and finite, not {value!r}")
-    return number
-
-
-def share(value: Any, option: str) -> float:
-    _require(value, option, Real, "a number")
-    if not 0 <= value <= 1:
-        raise OptionError(f"{option} must be from 0 to 1, not {value!r}")
-    return float(value)
+        found = math.inf
+    if not (math.isfinite(found) and row.has(found)):
+        raise OptionError(f"{row.name} must be {row.range_text}, not {value!r}")
+    return found
 
 
 def outer_loop(value: Any) -> tuple["_koebe.OuterLoop", int]:

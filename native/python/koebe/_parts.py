@@ -1,16 +1,19 @@
 """Surfaces cut in their UVs into even disks and tubes."""
 
 import copy
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._input import polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, flag, positive, share, token
+from ._options import callback, filled, takes, token
 from ._result import MapReport, Source, Warning
+from ._signatures import PartsOptions
 from .errors import InputError
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
 
 
 class PartsResult(MapReport):
@@ -75,48 +78,27 @@ class PartsResult(MapReport):
         )
 
 
-def parts(
-    vertices: Any,
-    triangles: Any = None,
-    *,
-    price: float | None = None,
-    cut: bool = True,
-    polygon: Any = None,
-    slits: Any = None,
-    round_cuts: bool = False,
-    most_lost: float = _koebe.most_lost_area,
-    progress: Callable[[float, str], Any] | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> PartsResult:
+@takes("parts", PartsOptions, polygon=None, slits=None, progress=None, cancel=None)
+def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
     """Cut a surface in its UVs alone into disks and tubes of even texel density, packed into the unit square.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
-    price     of a part, in area share times the log of the density outside a factor 3: a higher one makes fewer parts.
-              None: 0.0037
-    cut       True: any mesh; what is not manifold is split, handles are cut, what is closed is opened, each component
-              is laid out by itself. False: only what `uniformize` takes
-    polygon   (F,) integers: triangles of one number are one polygon and stay together. None: each by itself, or as the
-              mesh has them
-    slits     (E, 2) vertices of edges along which a tube is opened where they lead from one of its loops to the other.
-              None: along a short, straight path
-    round_cuts    True: loops at cuts lie on circles and on straight ends of tubes, as the own loops do. False:
-              they follow the surface's edges, for less angle error
-    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
+    {options}
+    polygon      (F,) integers: triangles of one number are one polygon and stay together. None: each by itself, or as
+                 the mesh has them
+    slits        (E, 2) vertices of edges along which a tube is opened where they lead from one of its loops to the
+                 other. None: along a short, straight path
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
     """
-    loss = share(most_lost, "most_lost")
-    chosen = _koebe.default_price if price is None else positive(price, "price")
-    whole, is_round = flag(cut, "cut"), flag(round_cuts, "round_cuts")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    source = surface_of(vertices, triangles, degenerate=whole)
-    numbers = polygons_of(polygon, source)
-    edges = np.zeros((0, 2), np.int32) if slits is None else _edges(slits, len(source.vertices))
-    native = _koebe.parts(
-        source.vertices, source.triangles, chosen, whole, numbers, edges.tolist(), is_round, loss, progress, cancel
-    )
-    report = native.report()
-    report["options"] = {"price": chosen, "cut": whole, "round_cuts": is_round, "most_lost": loss}
+    options, said = filled("parts", _koebe.PartsOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
+    source = surface_of(vertices, triangles, degenerate=options.cut)
+    options.polygon = polygons_of(given["polygon"], source)
+    if given["slits"] is not None:
+        options.slits = _edges(given["slits"], len(source.vertices)).tolist()
+    native = _koebe.parts(source.vertices, source.triangles, options, progress, cancel)
+    report = {**native.report(), "options": said}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32), source)
 
 

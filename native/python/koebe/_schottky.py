@@ -1,17 +1,18 @@
 """Maps of surfaces with handles to fundamental domains of Schottky groups, their holes round."""
 
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._domain_map import DomainMap
 from ._input import polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, choice, positive, share, token, whole
+from ._options import callback, filled, takes, token
 from ._result import Source
+from ._signatures import SchottkyOptions
 
-Progress = Callable[[float, str], Any]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
 
 
 class SchottkyMap(DomainMap):
@@ -68,49 +69,24 @@ class SchottkyMap(DomainMap):
         )
 
 
-def schottky_map(
-    vertices: Any,
-    triangles: Any = None,
-    *,
-    normalization: str = "area",
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> SchottkyMap:
+@takes("schottky", SchottkyOptions, polygon=None, progress=None, cancel=None)
+def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[SchottkyOptions]") -> SchottkyMap:
     """Map a surface with one handle or more, and any number of holes, conformally into the disk, its holes round.
 
     Each handle is cut along a short loop; the two sides of a cut come to lie a Moebius map apart, so that copies of the
     UVs continue them across every cut: they are a fundamental domain of a Schottky group.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
-    normalization    with holes, which of the maps that differ by an automorphism of the disk: 'area', that of the least
-                 area distortion; 'circles', the nearest one where equally large circles of each handle are apart
-    tolerance    stop when, in a sweep, the disks that fill the loops change by less, as matrices and relative
-    max_sweeps   then stop with converged = False
-    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
+    {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
                  as the mesh has them
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
     SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    options = _koebe.SchottkyOptions()
-    options.normalization = choice(normalization, "normalization", _koebe.SchottkyNormalization)
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    options, said = filled("schottky", _koebe.SchottkyOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(polygon, source)
+    options.polygon = polygons_of(given["polygon"], source)
     native = _koebe.schottky_map(source.vertices, source.triangles, options, progress, cancel)
-    report = native.report()
-    report["options"] = {
-        "normalization": normalization,
-        "tolerance": options.tolerance,
-        "max_sweeps": options.max_sweeps,
-        "most_lost": options.most_lost,
-    }
-    return SchottkyMap(report, native, source)
+    return SchottkyMap({**native.report(), "options": said}, native, source)

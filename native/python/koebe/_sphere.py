@@ -1,17 +1,18 @@
 """The map of a surface without handles to the sphere, its holes round caps."""
 
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._domain_map import DomainMap
 from ._input import polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, choice, positive, share, token, whole
+from ._options import callback, filled, takes, token
 from ._result import Source
+from ._signatures import SphereOptions
 
-Progress = Callable[[float, str], Any]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
 
 
 class SphereMap(DomainMap):
@@ -67,44 +68,24 @@ class SphereMap(DomainMap):
         )
 
 
-def sphere_map(
-    vertices: Any,
-    triangles: Any = None,
-    *,
-    layout: str = "equirectangular",
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> SphereMap:
+@takes("sphere", SphereOptions, polygon=None, progress=None, cancel=None)
+def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOptions]") -> SphereMap:
     """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, its holes round.
 
     Of all such maps this is the one with the least area distortion: the mean over the surface of the log of area on the
     surface over area on the sphere. It is turned as the surface is.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
-    layout       of the UVs: 'equirectangular' (longitude and latitude) or 'octahedral' (the octahedron folded out)
-    tolerance    stop when the circles, or the points of a closed surface, move by less in a sweep
-    max_sweeps   then stop with converged = False
-    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
+    {options}
     polygon      (F,) integers: triangles of one number are one polygon, whose corners have one UV each. None: each by
                  itself, or as the mesh has them
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: handles), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    options = _koebe.SphereOptions()
-    options.layout = choice(layout, "layout", _koebe.SphereLayout)
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    options, said = filled("sphere", _koebe.SphereOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(polygon, source)
+    options.polygon = polygons_of(given["polygon"], source)
     native = _koebe.sphere_map(source.vertices, source.triangles, options, progress, cancel)
-    report = native.report(options.layout)
-    report["options"] = {"layout": layout, "tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
-                         "most_lost": options.most_lost}  # fmt: skip
-    return SphereMap(report, native, source)
+    return SphereMap({**native.report(options.layout), "options": said}, native, source)

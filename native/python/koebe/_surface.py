@@ -1,16 +1,20 @@
 """Many maps of one surface whose vertices move."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._api import Progress, importance_of, solver_options
+from ._api import importance_of, solver_options
 from ._arrays import as_points
 from ._input import is_surface, surface_of
 from ._native import _koebe
-from ._options import callback, token
+from ._options import callback, takes, token
 from ._result import Source, UniformizeResult, with_origin
+from ._signatures import Progress, SequenceOptions
 from .errors import InputError
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
 
 
 class Surface:
@@ -27,37 +31,11 @@ class Surface:
     Raises InputError, TopologyError, SolverError, MemoryError.
     """
 
-    def __init__(
-        self,
-        vertices: Any,
-        triangles: Any = None,
-        *,
-        method: str = "gk",
-        outer: str | int = "auto",
-        tolerance: float = 1e-6,
-        max_sweeps: int = 50,
-        most_lost: float = _koebe.most_lost_area,
-        balance: str = "none",
-        threads: int = 0,
-        polish: bool = False,
-        center: int | None = None,
-        point: int | None = None,
-        importance: Any = None,
-    ) -> None:
-        options = solver_options(
-            method, "condensed", outer, tolerance, max_sweeps, balance, threads, polish, center, point, most_lost
-        )
+    @takes("sequence", SequenceOptions)
+    def __init__(self, vertices: Any, triangles: Any = None, **given: "Unpack[SequenceOptions]") -> None:
+        options, self._options = solver_options("sequence", given)
         self._source = surface_of(vertices, triangles)
-        options.importance = importance_of(importance, balance, len(self._source.vertices))
-        self._options = {
-            "method": method, "outer": outer if isinstance(outer, str) else int(outer),
-            "tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
-            "most_lost": options.most_lost, "balance": balance,
-            "threads": options.threads, "polish": options.polish,
-            "center": None if center is None else options.center, "point": None if point is None else options.point,
-        }  # fmt: skip
-        if importance is not None:
-            self._options["importance"] = True
+        options.importance = importance_of(given["importance"], self._options["balance"], len(self._source.vertices))
         self._native = _koebe.Surface(self._source.vertices, self._source.triangles, options)
 
     def uniformize(

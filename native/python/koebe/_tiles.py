@@ -1,17 +1,18 @@
 """Maps to a flat torus and to a cylinder: UVs that are one tile, whose copies continue them."""
 
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._domain_map import DomainMap
 from ._input import polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, choice, positive, share, token, vertex, whole
+from ._options import callback, filled, takes, token
 from ._result import Source
+from ._signatures import RingOptions, TorusOptions
 
-Progress = Callable[[float, str], Any]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
 
 
 class TileMap(DomainMap):
@@ -48,85 +49,43 @@ class TileMap(DomainMap):
         )
 
 
-def torus_map(
-    vertices: Any,
-    triangles: Any = None,
-    *,
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> TileMap:
+@takes("torus", TorusOptions, polygon=None, progress=None, cancel=None)
+def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOptions]") -> TileMap:
     """Map a surface with one handle, and any number of holes, conformally to a flat torus, its holes round.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
-    tolerance    stop when the circles move by less in a sweep; the shortest period of the torus is 1
-    max_sweeps   then stop with converged = False
-    most_lost    share of the surface's area that may have no area as stored: beyond it converged is False
+    {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
                  as the mesh has them
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    options = _koebe.TileOptions()
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    options, said = filled("torus", _koebe.TileOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(polygon, source)
+    options.polygon = polygons_of(given["polygon"], source)
     native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
-    report = native.report()
-    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
-                         "most_lost": options.most_lost}  # fmt: skip
-    return TileMap(report, native, source)
+    return TileMap({**native.report(), "options": said}, native, source)
 
 
-def ring_map(
-    vertices: Any,
-    triangles: Any = None,
-    *,
-    outer: int | None = None,
-    inner: int | None = None,
-    holes: str = "circles",
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> TileMap:
+@takes("ring", RingOptions, polygon=None, progress=None, cancel=None)
+def ring_map(vertices: Any, triangles: Any = None, **given: "Unpack[RingOptions]") -> TileMap:
     """Map a surface of genus 0 with two loops and more conformally to a cylinder and unroll it.
 
     Two loops become the rims, straight lines along u; v runs from the outer one to the inner one. The map's copies
     along u continue it.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
-    outer, inner    a vertex of each rim; None: the longest loops
-    holes        what becomes of the other loops. 'circles': the surface is mapped to a round annulus with round holes,
-                 whose logarithm this is; 'concentric': slits along u, in the annulus arcs round its centre; 'radial':
-                 slits along v, in the annulus along its radii
-    tolerance, max_sweeps    of the iteration that makes holes round, as of `uniformize`
-    most_lost    as of `torus_map`
+    {options}
     polygon      as of `torus_map`
     progress, cancel    as of `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
     not one to one has converged = False, and a warning says why.
     """
-    options = _koebe.TileOptions()
-    options.holes = choice(holes, "holes", _koebe.RingHoles)
-    options.outer, options.inner = vertex(outer, "outer"), vertex(inner, "inner")
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    options, said = filled("ring", _koebe.TileOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(polygon, source)
+    options.polygon = polygons_of(given["polygon"], source)
     native = _koebe.ring_map(source.vertices, source.triangles, options, progress, cancel)
-    report = native.report()
-    report["options"] = {"outer": outer, "inner": inner, "holes": holes, "tolerance": options.tolerance,
-                         "max_sweeps": options.max_sweeps, "most_lost": options.most_lost}  # fmt: skip
-    return TileMap(report, native, source)
+    return TileMap({**native.report(), "options": said}, native, source)

@@ -1,0 +1,95 @@
+// Flags made of the table of options (options/options.json), and what they were set to, for reports.
+#pragma once
+
+#include "core/types.h"
+#include "iteration/sweep_order.h"
+#include "pipeline/options.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace koebe::cli {
+
+/// A row of the table, as far as the command has it.
+struct OptionRow {
+    std::string_view name, maps, does, kind, unit, words, with;
+    double least, most;  ///< of a number
+    bool above, below;   ///< not these themselves
+
+    bool is_of(std::string_view map) const;
+    std::string flag() const;  ///< "--max-sweeps"
+    std::vector<std::string> choices() const;
+};
+
+std::span<const OptionRow> option_rows();
+
+/// @return null where the map has no such option
+const OptionRow* find_row(std::string_view map, std::string_view name);
+
+CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value);
+CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value);
+CLI::Option* add_value(CLI::App& app, const OptionRow& row, bool& value);
+/// Of the words of a choice the one of this number.
+CLI::Option* add_choice(CLI::App& app, const OptionRow& row, int chosen, const std::function<void(int)>& set);
+CLI::Option* add_outer_loop(CLI::App& app, const OptionRow& row, UniformizeOptions& options);
+CLI::Option* add_steps(CLI::App& app, const OptionRow& row, Sweep& steps);
+
+/// Flags for the options of a map, each of which sets its field. Lists have none, but for steps.
+template <typename Options>
+void add_options(CLI::App& app, std::string_view map, Options& options)
+{
+    Options::each_option([&](const char* name, auto member) {
+        const OptionRow* const row = find_row(map, name);
+        if (row == nullptr) return;
+        auto& field = options.*member;
+        using Field = std::remove_reference_t<decltype(field)>;
+        if constexpr (std::is_same_v<Field, OuterLoop>)
+            add_outer_loop(app, *row, options);
+        else if constexpr (std::is_enum_v<Field>)
+            add_choice(app, *row, static_cast<int>(field), [&field](int k) { field = static_cast<Field>(k); });
+        else if constexpr (std::is_same_v<Field, Sweep>)
+            add_steps(app, *row, field);
+        else if constexpr (std::is_arithmetic_v<Field>)
+            add_value(app, *row, field);
+    });
+}
+
+/// How steps are written: "0-2" for loops 0 and 2, "3" for loop 3 alone.
+std::vector<std::string> words_of(const Sweep& steps);
+
+/// The options of a map as a report has them: words and numbers by their names, null for no vertex. Without the number
+/// of threads, on which no map depends, and without lists but steps.
+template <typename Options>
+nlohmann::ordered_json option_report(std::string_view map, const Options& options)
+{
+    nlohmann::ordered_json report = nlohmann::ordered_json::object();
+    Options::each_option([&](const std::string& name, auto member) {
+        const OptionRow* const row = find_row(map, name);
+        if (row == nullptr || name == "threads") return;
+        const auto& field = options.*member;
+        using Field = std::remove_cvref_t<decltype(field)>;
+        if constexpr (std::is_same_v<Field, OuterLoop>) {
+            if (field == OuterLoop::vertex)
+                report[name] = options.outer_vertex;
+            else
+                report[name] = row->choices().at(static_cast<std::size_t>(field));
+        } else if constexpr (std::is_enum_v<Field>) {
+            report[name] = row->choices().at(static_cast<std::size_t>(field));
+        } else if constexpr (std::is_same_v<Field, Sweep>) {
+            report[name] = words_of(field);
+        } else if constexpr (std::is_arithmetic_v<Field>) {
+            report[name] = field;
+            if (row->kind == "vertex" && field == Field(-1)) report[name] = nullptr;
+        }
+    });
+    return report;
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,88 @@
+"""The table of options (options.json): what each map can be asked for, in which range, and what is said of it."""
+
+import functools
+import json
+import math
+import re
+import textwrap
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+_BULLET = 13  # characters of a name in a docstring
+
+
+@dataclass(frozen=True)
+class Row:
+    """An option of one map.
+
+    default   what it is without the option
+    given     the same as a call has it: None where the call may leave it to the table
+    words     of a choice, or of a loop, with what each means
+    bounds    of a number: least, most, and whether these themselves are left out
+    """
+
+    name: str
+    kind: str
+    default: Any
+    given: Any
+    does: str
+    more: tuple[str, ...]
+    words: dict[str, str]
+    bounds: tuple[float, float, bool, bool]
+    of_mesh_engine: bool
+
+    @property
+    def range_text(self) -> str:
+        """The range of a number in words."""
+        least, most, above, below = self.bounds
+        if (least, most, above) == (0.0, math.inf, True):
+            return "positive and finite"
+        return f"from {least:g} to {most:g}" if not below else f"from {least:g} to below {most:g}"
+
+    def has(self, number: float) -> bool:
+        """Whether a number is in the range."""
+        least, most, above, below = self.bounds
+        return (least < number if above else least <= number) and (number < most if below else number <= most)
+
+    def text(self) -> str:
+        """What a docstring says of the option."""
+        words = "; ".join(f"{word!r}: {means}" for word, means in self.words.items())
+        if self.kind == "loop":
+            words += "; or a vertex of it"
+        parts = [self.does, *([words] if words else []), *self.more]
+        if self.given != self.default:
+            parts.append(f"{self.given}: {self.default}")
+        prefix = "with engine='mesh': " if self.of_mesh_engine else ""
+        return textwrap.fill(
+            f"{self.name:<{_BULLET - 1}} {prefix}{'. '.join(parts)}", 116, subsequent_indent=" " * _BULLET
+        )
+
+
+def _bounds(text: str) -> tuple[float, float, bool, bool]:
+    """The range as mathematics writes it: [0, 1) is from 0 to below 1."""
+    found = re.fullmatch(r"([\[(])(\S+), (\S+)([\])])", text)
+    if not found:
+        raise ValueError(f"{text!r} is no range")
+    return float(found[2]), float(found[3]), found[1] == "(", found[4] == ")"
+
+
+@functools.cache
+def rows(of: str) -> dict[str, Row]:
+    """The options of a map in Python, by their names."""
+    table = json.loads((Path(__file__).with_name("options.json")).read_text("utf-8"))
+    return {
+        row["name"]: Row(
+            row["name"],
+            row["kind"],
+            row["default"],
+            row.get("python", row)["default"],
+            row.get("of", {}).get(of, row["does"]),
+            tuple(row.get("more", ())),
+            {word: means for word, _, means in row.get("choices", ())},
+            _bounds(row.get("range", "(-inf, inf)")),
+            "with" in row,
+        )
+        for row in table
+        if of in row["maps"].split() and "python" in row.get("in", "python")
+    }

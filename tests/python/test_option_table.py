@@ -1,0 +1,228 @@
+"""The table of options is what the command, the library, the package and the add-on have: one row, one option."""
+
+import importlib
+import inspect
+import json
+import math
+import re
+import sys
+import typing
+from pathlib import Path
+
+import koebe
+import pytest
+from cli_support import koebe as run
+from koebe import _koebe, _option_table, _options, _signatures
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLE = json.loads((ROOT / "native" / "options" / "options.json").read_text(encoding="utf-8"))
+MAPS = {  # function, TypedDict, struct
+    "uniformize": (koebe.uniformize, _signatures.UniformizeOptions, _koebe.UniformizeOptions),
+    "sequence": (koebe.Surface.__init__, _signatures.SequenceOptions, _koebe.UniformizeOptions),
+    "ring": (koebe.ring_map, _signatures.RingOptions, _koebe.TileOptions),
+    "torus": (koebe.torus_map, _signatures.TorusOptions, _koebe.TileOptions),
+    "sphere": (koebe.sphere_map, _signatures.SphereOptions, _koebe.SphereOptions),
+    "schottky": (koebe.schottky_map, _signatures.SchottkyOptions, _koebe.SchottkyOptions),
+    "parts": (koebe.parts, _signatures.PartsOptions, _koebe.PartsOptions),
+}
+COMMANDS = {"uniformize", "sequence", "ring", "torus", "sphere", "schottky", "parts", "ricci"}
+TYPES = {
+    "number": "float", "integer": "int", "flag": "bool", "choice": "str", "vertex": "int | None",
+    "loop": "str | int", "steps": "collections.abc.Sequence[collections.abc.Sequence[int]] | None",
+    "weights": "typing.Any",
+}  # fmt: skip
+BESIDE = {"progress", "cancel", "polygon", "slits"}  # arguments that are no options
+
+
+def rows_in(front, of):
+    """The rows of the map that this front has."""
+    return {row["name"]: row for row in TABLE if of in row["maps"].split() and front in row.get("in", front).split()}
+
+
+def name_of(hint):
+    return str(hint) if typing.get_origin(hint) else getattr(hint, "__name__", str(hint)).replace("Any", "typing.Any")
+
+
+def test_every_row_is_of_the_form():
+    kinds = {*TYPES, "text"}
+    for row in TABLE:
+        assert row["kind"] in kinds and row["does"] and not row["does"].endswith("."), row["name"]
+        assert set(row["maps"].split()) <= {*MAPS, "ricci", "shapes"}, row["name"]
+        assert set(row.get("in", "command").split()) <= {"command", "python", "blender", "batch"}, row["name"]
+        assert ("choices" in row) == (row["kind"] in ("choice", "loop")), row["name"]
+        assert row["kind"] != "choice" or row["default"] in [word for word, _, _ in row["choices"]], row["name"]
+        if row["kind"] == "number":
+            least, most, above, below = _option_table._bounds(row["range"])
+            assert least <= row["default"] <= most and not (above and row["default"] == least), row["name"]
+
+
+def test_a_name_is_one_option_of_a_map_and_one_property():
+    for of in (*MAPS, "ricci", "shapes"):
+        for front in ("command", "python"):
+            names = [row["name"] for row in TABLE if of in row["maps"].split() and front in row.get("in", front)]
+            assert len(names) == len(set(names))
+    names = [row["name"] for row in TABLE if {"blender", "batch"} & set(row.get("in", "blender").split())]
+    assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize("of", MAPS)
+def test_a_functions_types_are_the_tables(of):
+    function, typed, _ = MAPS[of]
+    hints = {name: name_of(hint) for name, hint in typing.get_type_hints(typed).items() if name not in BESIDE}
+    expected = {
+        name: TYPES[row["kind"]] + (" | None" if "python" in row else "")
+        for name, row in rows_in("python", of).items()
+        if (of, name) != ("uniformize", "cut")  # by which the result's type is known
+    }
+    assert hints == expected
+    parameters = inspect.signature(function).parameters
+    given = {name: one.default for name, one in parameters.items() if one.kind is one.KEYWORD_ONLY}
+    assert {name: value for name, value in given.items() if name not in BESIDE} == {
+        name: row.get("python", row)["default"] for name, row in rows_in("python", of).items()
+    }
+    assert not {*given} & BESIDE - {*typing.get_type_hints(typed)}
+
+
+@pytest.mark.parametrize("of", MAPS)
+def test_the_librarys_defaults_and_words_are_the_tables(of):
+    native = MAPS[of][2]()
+    found = {}
+    for name, row in rows_in("python", of).items():
+        holder = next((one for one in (native, getattr(native, "mesh", None)) if hasattr(one, name)), None)
+        if holder is None:
+            assert (of, name) == ("uniformize", "cut")
+            continue
+        value = getattr(holder, name)
+        words = [word for word, _, _ in row.get("choices", [])]
+        if row["kind"] == "choice":
+            assert [*type(value).__members__] == words and [int(one) for one in type(value).__members__.values()] == [
+                *range(len(words))
+            ]  # the command counts them
+            found[name] = words[int(value)]
+        elif row["kind"] == "loop":
+            assert [int(one) for one in type(value).__members__.values()] == [*range(len(words) + 1)]
+            found[name] = words[int(value)]
+        elif row["kind"] in ("vertex", "steps", "weights"):
+            found[name] = None if value == -1 or len(value) == 0 else value
+        else:
+            found[name] = value
+    assert found == {name: row["default"] for name, row in rows_in("python", of).items() if name in found}
+
+
+@pytest.mark.parametrize("of", MAPS)
+def test_the_structs_have_no_option_that_the_table_lacks(of):
+    native = MAPS[of][2]
+    own = {name for name in vars(native) if not name.startswith("_")} - BESIDE - {"mesh", "outer_vertex"}
+    if native is _koebe.UniformizeOptions:
+        own |= {name for name in vars(_koebe.KoebeMeshOptions) if not name.startswith("_")}
+    of_all = {name for map_name, (_, _, kind) in MAPS.items() if kind is native
+              for name in rows_in("python", map_name)}  # fmt: skip
+    assert own == of_all - ({"cut"} if native is _koebe.UniformizeOptions else set())
+
+
+@pytest.mark.parametrize("of", sorted(COMMANDS))
+def test_the_commands_flags_are_the_tables(of):
+    text = run(of, "--help").stdout
+    flags = set(re.findall(r"^ +(?:-\w,)?--([\w-]+)", text, re.MULTILINE)) - {"help"}
+    files = {"json", "svg", "quiet", "sphere", "output", "format", "packing", "target", "triangulation"}
+    expected = {name.replace("_", "-") for name, row in rows_in("command", of).items()
+                if (of, name) != ("sequence", "importance")}  # fmt: skip
+    assert flags - files == expected
+    shown = " ".join(text.split())
+    for row in rows_in("command", of).values():
+        if row["kind"] == "number":  # CLI11 writes =1 or [1]
+            number = re.search(
+                rf"--{row['name'].replace('_', '-')} \w+(?:=| \[)([^]\s]+)", shown
+            )  # newer or older CLI11
+            assert number and float(number[1]) == row["default"], row["name"]
+
+
+def at_the_bounds(row):
+    """Numbers that the row's range has, and the nearest ones that it has not."""
+    least, most, above, below = _option_table._bounds(row["range"])
+    lower, higher = (least - 1, most + 1) if row["kind"] == "integer" else (
+        math.nextafter(least, -math.inf), math.nextafter(most, math.inf))  # fmt: skip
+    number = int if row["kind"] == "integer" else float
+    right = [*([] if above else [least]), *([] if below else [most])]
+    wrong = [least if above else lower, *([] if math.isinf(most) else [most if below else higher])]
+    return [*map(number, right)], [*map(number, wrong)]
+
+
+@pytest.mark.parametrize("of", sorted(COMMANDS))
+def test_the_command_takes_what_is_in_the_range_and_nothing_else(of, tmp_path):
+    for name, row in rows_in("command", of).items():
+        if row["kind"] not in ("number", "integer"):
+            continue
+        flag, (right, wrong) = f"--{name.replace('_', '-')}", at_the_bounds(row)
+        files = ["in.obj", "--output=out"] if of == "sequence" else ["in.obj", "out.obj"]
+        for value in (*wrong, "nan", ""):
+            done = run(of, *files, f"{flag}={value}", cwd=tmp_path)
+            assert done.returncode == 2 and flag in done.stderr, (name, value)
+        for value in right:
+            done = run(of, *files, f"{flag}={value}", cwd=tmp_path)
+            assert done.returncode == 3 and "FileError" in done.stderr, (name, value)
+
+
+@pytest.mark.parametrize("of", MAPS)
+def test_python_refuses_what_is_out_of_range_and_what_is_misspelt(of):
+    function = MAPS[of][0] if of != "sequence" else koebe.Surface
+    triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    for name, row in rows_in("python", of).items():
+        if row["kind"] in ("number", "integer"):
+            right, wrong = at_the_bounds(row)
+            for value in wrong:
+                with pytest.raises(koebe.OptionError, match=name):
+                    function(*triangle, **{name: value})
+            for value in right:
+                assert _options._checked(_option_table.rows(of)[name], value) == value
+            with pytest.raises(TypeError, match=name):
+                function(*triangle, **{name: "much"})
+        elif row["kind"] == "choice":
+            with pytest.raises(koebe.OptionError, match=name):
+                function(*triangle, **{name: "nonsense"})
+    with pytest.raises(TypeError, match="tolerence"):
+        function(*triangle, tolerence=1e-3)
+
+
+@pytest.mark.parametrize("of", [of for of in MAPS if of != "sequence"])
+def test_docstrings_say_what_the_table_says(of):
+    text = " ".join(MAPS[of][0].__doc__.split())
+    assert "{options}" not in text
+    for name, row in rows_in("python", of).items():
+        assert f"{name} " in text and row.get("of", {}).get(of, row["does"]) in text
+
+
+def test_defaults_may_be_left_to_the_table():
+    _, said = _options.filled("parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | {
+        "cut": True, "round_cuts": False, "most_lost": 0.5})  # fmt: skip
+    assert said == {"price": 0.0037, "cut": True, "round_cuts": False, "most_lost": 0.5}
+    with pytest.raises(TypeError, match="most_lost"):
+        koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)
+
+
+@pytest.fixture(scope="module")
+def addon():
+    """A function that imports modules of the add-on that need no bpy."""
+    name, file = "addon_of_the_table", ROOT / "addon" / "__init__.py"
+    spec = importlib.util.spec_from_file_location(name, file, submodule_search_locations=[str(file.parent)])
+    sys.modules[name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sys.modules[name])
+    return lambda module: importlib.import_module(f"{name}.{module}")
+
+
+def test_the_addon_hands_every_option_to_the_solver(addon):
+    options = addon("maps.options")
+    chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(), "sphere": options.SphereChoice(),
+              "torus": options.TileChoice("torus"), "ring": options.TileChoice("ring"),
+              "schottky": options.SchottkyChoice()}  # fmt: skip
+    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance"}
+    engine = {row["name"] for row in TABLE if "with" in row}
+    for of, choice in chosen.items():
+        assert {*choice.solver_arguments()} == {*rows_in("python", of)} - by_island - engine, of
+
+
+def test_the_addons_words_are_the_solvers(addon):
+    for name, row in addon("maps.option_table").ROWS.items():
+        if row.kind == "choice" and row.is_native:
+            of = row.maps[0]
+            assert set(row.words) <= set(_option_table.rows(of)[name].words)
