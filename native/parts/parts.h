@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/api.h"
+#include "core/map_options.h"
 #include "core/types.h"
 #include "evenness/part_map.h"
 #include "execution/execution.h"

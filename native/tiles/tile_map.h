@@ -3,6 +3,7 @@
 
 #include "circles/circle_fit.h"
 #include "core/api.h"
+#include "core/map_options.h"
 #include "core/warning.h"
 #include "execution/execution.h"
 #include "quality/report.h"
