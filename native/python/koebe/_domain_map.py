@@ -1,11 +1,14 @@
 """What the maps to canonical domains other than the disk have in common."""
 
 import copy
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
+from ._input import polygons_of, surface_of
+from ._options import callback, positive, share, token, whole
 from ._result import MapReport, Seconds, Source, Warning
 
 
@@ -53,3 +56,39 @@ class DomainMap(MapReport):
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
         return copy.deepcopy(self._report)
+
+
+Made = TypeVar("Made", bound=DomainMap)
+
+
+def domain_map(
+    made: type[Made],
+    function: Callable[..., Any],
+    options: Any,
+    chosen: dict[str, Any],
+    surface: tuple[Any, Any],
+    *report: Any,
+    tolerance: float,
+    max_sweeps: int,
+    most_lost: float,
+    polygon: Any,
+    progress: Any,
+    cancel: Any,
+) -> Made:
+    """The result of a native function, whose options are set as far as they are its own.
+
+    chosen   these, as the report has them
+    report   arguments of the native result's report
+    Raises OptionError and InputError, and what the function raises.
+    """
+    options.tolerance = positive(tolerance, "tolerance")
+    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
+    options.most_lost = share(most_lost, "most_lost")
+    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
+    source = surface_of(*surface)
+    options.polygon = polygons_of(polygon, source)
+    native = function(source.vertices, source.triangles, options, progress, cancel)
+    found = native.report(*report)
+    names = ("tolerance", "max_sweeps", "most_lost")
+    found["options"] = {**chosen, **{name: getattr(options, name) for name in names}}
+    return made(found, native, source)

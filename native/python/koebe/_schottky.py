@@ -5,10 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from ._domain_map import DomainMap
-from ._input import polygons_of, surface_of
+from ._domain_map import DomainMap, domain_map
 from ._native import _koebe
-from ._options import callback, choice, positive, share, token, whole
+from ._options import choice
 from ._result import Source
 
 Progress = Callable[[float, str], Any]
@@ -99,18 +98,8 @@ def schottky_map(
     """
     options = _koebe.SchottkyOptions()
     options.normalization = choice(normalization, "normalization", _koebe.SchottkyNormalization)
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(polygon, source)
-    native = _koebe.schottky_map(source.vertices, source.triangles, options, progress, cancel)
-    report = native.report()
-    report["options"] = {
-        "normalization": normalization,
-        "tolerance": options.tolerance,
-        "max_sweeps": options.max_sweeps,
-        "most_lost": options.most_lost,
-    }
-    return SchottkyMap(report, native, source)
+    return domain_map(
+        SchottkyMap, _koebe.schottky_map, options, {"normalization": normalization}, (vertices, triangles),
+        tolerance=tolerance, max_sweeps=max_sweeps, most_lost=most_lost,
+        polygon=polygon, progress=progress, cancel=cancel,
+    )  # fmt: skip

@@ -5,10 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from ._domain_map import DomainMap
-from ._input import polygons_of, surface_of
+from ._domain_map import DomainMap, domain_map
 from ._native import _koebe
-from ._options import callback, choice, positive, share, token, vertex, whole
+from ._options import choice, vertex
 from ._result import Source
 
 Progress = Callable[[float, str], Any]
@@ -71,18 +70,11 @@ def torus_map(
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    options = _koebe.TileOptions()
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(polygon, source)
-    native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
-    report = native.report()
-    report["options"] = {"tolerance": options.tolerance, "max_sweeps": options.max_sweeps,
-                         "most_lost": options.most_lost}  # fmt: skip
-    return TileMap(report, native, source)
+    return domain_map(
+        TileMap, _koebe.torus_map, _koebe.TileOptions(), {}, (vertices, triangles),
+        tolerance=tolerance, max_sweeps=max_sweeps, most_lost=most_lost,
+        polygon=polygon, progress=progress, cancel=cancel,
+    )  # fmt: skip
 
 
 def ring_map(
@@ -119,14 +111,8 @@ def ring_map(
     options = _koebe.TileOptions()
     options.holes = choice(holes, "holes", _koebe.RingHoles)
     options.outer, options.inner = vertex(outer, "outer"), vertex(inner, "inner")
-    options.tolerance = positive(tolerance, "tolerance")
-    options.max_sweeps = whole(max_sweeps, "max_sweeps", least=1)
-    options.most_lost = share(most_lost, "most_lost")
-    progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(polygon, source)
-    native = _koebe.ring_map(source.vertices, source.triangles, options, progress, cancel)
-    report = native.report()
-    report["options"] = {"outer": outer, "inner": inner, "holes": holes, "tolerance": options.tolerance,
-                         "max_sweeps": options.max_sweeps, "most_lost": options.most_lost}  # fmt: skip
-    return TileMap(report, native, source)
+    return domain_map(
+        TileMap, _koebe.ring_map, options, {"outer": outer, "inner": inner, "holes": holes}, (vertices, triangles),
+        tolerance=tolerance, max_sweeps=max_sweeps, most_lost=most_lost,
+        polygon=polygon, progress=progress, cancel=cancel,
+    )  # fmt: skip
