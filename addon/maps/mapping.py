@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 
 from . import places
+from .disk_outcomes import IslandOutcome, SurfaceOutcome
 from .errors import MapError
 from .islands import cut_into_islands, whole_island
 from .opening import Opening, open_island
 from .options import Options
-from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task
+from .outcomes import Progress, Task
 from .packing import Placement, fit_placement, pack_disks
 from .side_by_side import Unit, side_by_side
 from .stored import SERVES, judge, lost_text, turned_of
@@ -277,7 +278,7 @@ def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
 
 
 @contextlib.contextmanager
-def failing_alone(koebe: ModuleType, ones: Iterable[IslandOutcome]) -> Iterator[None]:
+def failing_alone(koebe: ModuleType, ones: Iterable[Any]) -> Iterator[None]:
     """Whatever goes wrong inside is the error of these islands, and what comes after goes on."""
     try:
         yield

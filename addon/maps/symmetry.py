@@ -6,8 +6,8 @@ from types import ModuleType
 import numpy as np
 
 from .circle_domain import DomainError, domain_in
+from .disk_outcomes import IslandOutcome
 from .mirror import symmetric
-from .outcomes import IslandOutcome
 
 WORSE, NOISE = 1.05, 0.05  # times the angle error, and degrees beside: what symmetry may cost
 
