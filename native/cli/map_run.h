@@ -13,6 +13,8 @@
 #include "core/thread_share.h"
 #include "core/warning.h"
 #include "io/atomic_file.h"
+#include "io/corner_uvs.h"
+#include "io/mesh_writer.h"
 #include "quality/distortion.h"
 
 #include <chrono>
@@ -41,6 +43,28 @@ struct MapKind {
 
 /// The kind of a map to the disk, its computation left out.
 MapKind<UniformizeResult> disk_map(const MapRequest& request);
+
+/// The kind of a map whose UVs are of corners, by the file's polygons: how it is computed and written.
+template <typename Result, typename Options>
+MapKind<Result> corner_map(const MapRequest& request, const Options& chosen,
+                           Result (*map)(const Vertices&, const Triangles&, const Options&, ExecutionContext&))
+{
+    MapKind<Result> kind;
+    kind.compute = [&chosen, map](const MeshInput& input, ExecutionContext& context) {
+        Options options = chosen;
+        options.polygon = input.triangulation.face;
+        Result result = with_filed_faces(
+            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
+        result.turned = filed_faces(input.triangulation, result.turned);
+        add_input_warnings(input, result.warnings);
+        return result;
+    };
+    kind.write_mesh = [&request](AtomicFile& file, const MeshInput& input, const Result& result) {
+        return write_with_corner_uvs(file, request.format, input.polygons,
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
+    };
+    return kind;
+}
 
 /// The files of a request, by the names that the usage has for them.
 std::vector<OutputFile> map_files(const MapRequest& request);

@@ -27,21 +27,7 @@ struct SchottkyRequest : MapRequest {
 int run_schottky(const SchottkyRequest& request)
 {
     if (request.ends_with_input) end_with_input();
-    MapKind<SchottkyResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        SchottkyOptions options = request.schottky;
-        options.polygon = input.triangulation.face;
-        SchottkyResult result = with_filed_faces(input, [&] {
-            return schottky_map(input.polygons.vertices, input.triangulation.triangles, options, context);
-        });
-        result.turned = filed_faces(input.triangulation, result.turned);
-        add_input_warnings(input, result.warnings);
-        return result;
-    };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SchottkyResult& result) {
-        return write_with_corner_uvs(file, request.format, input.polygons,
-                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
-    };
+    MapKind<SchottkyResult> kind = corner_map<SchottkyResult, SchottkyOptions>(request, request.schottky, schottky_map);
     kind.draw = [](const MeshInput&, const SchottkyResult& result) { return schottky_svg(result); };
     kind.report = [](const SchottkyResult& result) { return to_json(result); };
     kind.first_words = [](const SchottkyResult& result) {

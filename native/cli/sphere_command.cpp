@@ -31,36 +31,21 @@ PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
     return mesh;
 }
 
-std::vector<Warning> write_sphere_mesh(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
-                                       const MeshInput& input, const SphereResult& result, bool moved)
-{
-    const PlanarPoints uvs = polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
-    return write_with_corner_uvs(file, format, mesh, uvs, {input.file, moved});
-}
-
 int run_sphere(const SphereRequest& request)
 {
     if (request.ends_with_input) end_with_input();
-    MapKind<SphereResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        SphereOptions options = request.sphere_options;
-        options.polygon = input.triangulation.face;
-        SphereResult result = with_filed_faces(input, [&] {
-            return sphere_map(input.polygons.vertices, input.triangulation.triangles, options, context);
-        });
-        result.turned = filed_faces(input.triangulation, result.turned);
+    MapKind<SphereResult> kind = corner_map<SphereResult, SphereOptions>(request, request.sphere_options, sphere_map);
+    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
+        SphereResult result = compute(input, context);
         for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::torn, &SphereLayoutReport::flipped,
                            &SphereLayoutReport::below_resolution})
             result.layout.*faces = filed_faces(input.triangulation, result.layout.*faces);
-        add_input_warnings(input, result.warnings);
         return result;
     };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        return write_sphere_mesh(file, request.format, input.polygons, input, result, false);
-    };
     kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        return write_sphere_mesh(file, required_format(request.sphere), on_unit_sphere(input, result), input, result,
-                                 true);
+        const PlanarPoints uvs = polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
+        return write_with_corner_uvs(file, required_format(request.sphere), on_unit_sphere(input, result), uvs,
+                                     {input.file, true});
     };
     kind.draw = [](const MeshInput& input, const SphereResult& result) {
         return sphere_svg(input.triangulation.triangles, result);

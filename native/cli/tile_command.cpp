@@ -37,20 +37,7 @@ std::string first_words(const TileResult& result)
 int run(const Request& request, TileFunction map)
 {
     if (request.ends_with_input) end_with_input();
-    MapKind<TileResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        TileOptions options = request.tile;
-        options.polygon = input.triangulation.face;
-        TileResult result = with_filed_faces(
-            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
-        result.turned = filed_faces(input.triangulation, result.turned);
-        add_input_warnings(input, result.warnings);
-        return result;
-    };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const TileResult& result) {
-        return write_with_corner_uvs(file, request.format, input.polygons,
-                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
-    };
+    MapKind<TileResult> kind = corner_map(request, request.tile, map);
     kind.draw = [](const MeshInput&, const TileResult& result) { return tile_svg(result); };
     kind.report = [](const TileResult& result) { return to_json(result); };
     kind.first_words = first_words;
