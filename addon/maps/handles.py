@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from .circle_fit import fitted_circle
 from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import MapError, elements_of, kind_of
 from .options import SchottkyChoice
@@ -63,7 +62,7 @@ class SchottkyIsland(DomainIsland):
             known = [vertex for vertex in elements_of(error) if vertex < len(island.vertices)]
             raise CutError(str(error), known) from error  # not that it has handles
         self.take_corners(task.surface, result.uv.astype(np.float32))
-        self.circles = [_circle(island.triangles, result.uv, loop["vertices"]) for loop in result.loops]
+        self.circles = [_circle(koebe, island.triangles, result.uv, loop["vertices"]) for loop in result.loops]
         self.result = result
 
 
@@ -95,12 +94,14 @@ class SchottkyOutcome(DomainOutcome):
         return {"uv_center": center, "uv_radius": radius, "name": f"{number}" if number else "Rim"}
 
 
-def _circle(triangles: np.ndarray, uv: np.ndarray, loop: list[int]) -> tuple[tuple[float, float], float]:
+def _circle(
+    koebe: ModuleType, triangles: np.ndarray, uv: np.ndarray, loop: list[int]
+) -> tuple[tuple[float, float], float]:
     """Of a loop whose corners, in the UVs (t, 3, 2) of triangles (t, 3), are on one circle, one for each vertex."""
     at_loop = np.isin(triangles, loop)
     places = np.unique(np.column_stack([triangles[at_loop], uv[at_loop]]), axis=0)
     if len(places) == len(loop):
-        center, radius, off = fitted_circle(places[:, 1:])
+        center, radius, off = koebe.fit_circle(places[:, 1:])
         if off < ROUND * radius + RESOLUTION:
             return (float(center[0]), float(center[1])), radius
     return (0.0, 0.0), 0.0

@@ -19,7 +19,8 @@ def make_symmetric(koebe: ModuleType, one: IslandOutcome) -> None:
         return
     try:
         domain = domain_in(koebe, one.island, one.uv)
-        made = symmetric(domain.numbered([int(one.island.source_vertex[loop].min()) for loop in one.result.loops[1:]]))
+        keys = [int(one.island.source_vertex[loop].min()) for loop in one.result.loops[1:]]
+        made = symmetric(koebe, domain.numbered(keys))
     except DomainError as error:
         one.remark = f"not made symmetric: {error}"
         return

@@ -58,7 +58,7 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
         found, refused = [], []
         for domain in job.domains:
             try:
-                found.append((job, symmetric(numbered(context, job, domain))))
+                found.append((job, symmetric(job.koebe, numbered(context, job, domain))))
             except DomainError as error:
                 refused.append(str(error))
         if not found:

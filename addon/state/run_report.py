@@ -3,6 +3,7 @@
 
 import json
 from collections.abc import Iterable
+from types import ModuleType
 from typing import Any
 
 import bpy
@@ -19,7 +20,6 @@ from bpy.props import (
 from ..blender.noted_properties import note_group
 from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried
-from ..maps.circle_fit import fitted_circle
 from ..maps.surface import Island
 from .registering import on_window_manager
 
@@ -112,7 +112,9 @@ def _fill(group: bpy.types.PropertyGroup, row: dict[str, Any]) -> None:
         setattr(group, name, json.dumps(value) if isinstance(value, list) else value)
 
 
-def record_moved(context: bpy.types.Context, name: str, layer: str, island: Island, placed: Carried) -> None:
+def record_moved(
+    context: bpy.types.Context, koebe: ModuleType, name: str, layer: str, island: Island, placed: Carried
+) -> None:
     """Bring the entry of an object of one island up to date with new UVs of the same loops; note the report before.
 
     placed  has uv (n, 2) of the island's vertices, angle_error in degrees and flipped (k,) triangles
@@ -125,7 +127,7 @@ def record_moved(context: bpy.types.Context, name: str, layer: str, island: Isla
         entry.flipped_faces = json.dumps(np.unique(island.triangle_face[placed.flipped]).tolist())
         for loop in entry.loops:
             rim = [number[v] for v in json.loads(loop.vertices) if v in number]
-            center, radius, _ = fitted_circle(placed.uv[rim].astype(np.float64))
+            center, radius, _ = koebe.fit_circle(placed.uv[rim].astype(np.float64))
             loop.uv_center, loop.uv_radius = center, radius
 
 
