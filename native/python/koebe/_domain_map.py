@@ -43,6 +43,15 @@ class DomainMap(MapReport):
         """(F,) which faces have UVs that can be drawn."""
         return np.ones(len(self.uv), bool)
 
+    def _counts(self) -> list[str]:
+        """What it is made of, in words."""
+        return [f"{len(self.loops)} loops"]
+
+    def __repr__(self) -> str:
+        counts = ", ".join([f"{self.faces} faces", *self._counts()])
+        error = f"angle error {self.angle_error_deg['mean']:.3g} deg"
+        return f"<koebe.{type(self).__name__} {counts}, {error}, {self.flipped} flipped>"
+
     @property
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
         """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""

@@ -60,11 +60,8 @@ class SchottkyMap(DomainMap):
             ),
         )
 
-    def __repr__(self) -> str:
-        return (
-            f"<koebe.SchottkyMap {self.faces} faces, {len(self.handles)} handles, {len(self.loops)} loops, "
-            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
-        )
+    def _counts(self) -> list[str]:
+        return [f"{len(self.handles)} handles", *super()._counts()]
 
 
 def schottky_map(
@@ -72,13 +69,9 @@ def schottky_map(
     triangles: Any = None,
     *,
     normalization: str = "area",
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> SchottkyMap:
+    tolerance: float = 1e-6, max_sweeps: int = 50, most_lost: float = _koebe.most_lost_area, polygon: Any = None,
+    progress: Progress | None = None, cancel: "_koebe.CancelToken | None" = None,
+) -> SchottkyMap:  # fmt: skip
     """Map a surface with one handle or more, and any number of holes, conformally into the disk, its holes round.
 
     Each handle is cut along a short loop; the two sides of a cut come to lie a Moebius map apart, so that copies of the

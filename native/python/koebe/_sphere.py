@@ -59,25 +59,15 @@ class SphereMap(DomainMap):
         drawn[self.layout["torn"]] = False
         return drawn
 
-    def __repr__(self) -> str:
-        return (
-            f"<koebe.SphereMap {self.faces} faces, {len(self.loops)} loops, "
-            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
-        )
-
 
 def sphere_map(
     vertices: Any,
     triangles: Any = None,
     *,
     layout: str = "equirectangular",
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> SphereMap:
+    tolerance: float = 1e-6, max_sweeps: int = 50, most_lost: float = _koebe.most_lost_area, polygon: Any = None,
+    progress: Progress | None = None, cancel: "_koebe.CancelToken | None" = None,
+) -> SphereMap:  # fmt: skip
     """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, its holes round.
 
     Of all such maps this is the one with the least area distortion: the mean over the surface of the log of area on the

@@ -40,24 +40,17 @@ class TileMap(DomainMap):
         self._set_arrays(periods=np.array(report["periods"]))
         self.modulus = complex(*report["modulus"])
 
-    def __repr__(self) -> str:
-        return (
-            f"<koebe.TileMap {self.faces} faces, {len(self.loops)} loops, modulus {self.modulus:.4g}, "
-            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
-        )
+    def _counts(self) -> list[str]:
+        return [*super()._counts(), f"modulus {self.modulus:.4g}"]
 
 
 def torus_map(
     vertices: Any,
     triangles: Any = None,
     *,
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> TileMap:
+    tolerance: float = 1e-6, max_sweeps: int = 50, most_lost: float = _koebe.most_lost_area, polygon: Any = None,
+    progress: Progress | None = None, cancel: "_koebe.CancelToken | None" = None,
+) -> TileMap:  # fmt: skip
     """Map a surface with one handle, and any number of holes, conformally to a flat torus, its holes round.
 
     vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
@@ -84,13 +77,9 @@ def ring_map(
     outer: int | None = None,
     inner: int | None = None,
     holes: str = "circles",
-    tolerance: float = 1e-6,
-    max_sweeps: int = 50,
-    most_lost: float = _koebe.most_lost_area,
-    polygon: Any = None,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> TileMap:
+    tolerance: float = 1e-6, max_sweeps: int = 50, most_lost: float = _koebe.most_lost_area, polygon: Any = None,
+    progress: Progress | None = None, cancel: "_koebe.CancelToken | None" = None,
+) -> TileMap:  # fmt: skip
     """Map a surface of genus 0 with two loops and more conformally to a cylinder and unroll it.
 
     Two loops become the rims, straight lines along u; v runs from the outer one to the inner one. The map's copies
