@@ -15,13 +15,12 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, reason, with_own_meshes
 from ..blender.transaction import Transaction, transaction
-from ..maps import json_report
 from ..maps.mapping import map_surfaces
 from ..maps.options import Options
-from ..maps.outcomes import LATER, Place, Progress, SurfaceOutcome, Task
+from ..maps.outcomes import LATER, Outcome, Place, Progress, Task, failure_row
 from ..maps.surface import Surface
 from ..maps.tile_pattern import Pattern
-from ..maps.wording import few, result_line
+from ..maps.wording import few
 from . import native_package
 
 
@@ -44,13 +43,13 @@ class Job:
         One that could not be written later is left out; without a list `refused` for these it ends everything.
         """
         self.koebe = native_package.load()
-        self.options = options
+        self.options, self.selected_only = options, selected_only
         self.refused = [] if refused is None else refused
         self.targets: list[Target] = []
         self.tasks: list[Task] = []
         for obj in with_own_meshes(objects):
             try:
-                self._add(obj, selected_only)
+                self._add(obj)
             except Exception as error:
                 if refused is None:
                     raise
@@ -77,28 +76,29 @@ class Job:
         if options.importance:
             self._even_importance()
         self.cancel_token = self.koebe.CancelToken()
-        self.outcomes: list[SurfaceOutcome] = LATER
+        self.outcomes: list[Any] = LATER  # of a subclass of `Outcome`
 
-    def _add(self, obj: MeshObject, selected_only: bool) -> None:
+    def _add(self, obj: MeshObject) -> None:
         check_mesh(obj)
-        surface = self._surface(obj, selected_only)
+        surface = self._surface(obj)
         if not surface.selected.any():
             return
         self._check_room(obj)
+        self.targets.append(Target.of(obj))
+        self.tasks.append(self._task(obj, surface))
+
+    def _surface(self, obj: MeshObject) -> Surface:
+        return mesh_reading.read_surface(obj, self.selected_only)
+
+    def _task(self, obj: MeshObject, surface: Surface) -> Task:
         outer = self.options.outer
         if outer == "active":
             vertex = mesh_reading.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
-        self.targets.append(Target.of(obj))
         mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
         center, point = (self._place(obj, wanted) for wanted in (self.options.center, self.options.point))
         importance = mesh_reading.vertex_weights(obj, self.options.importance) if self.options.importance else None
-        self.tasks.append(
-            Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
-        )
-
-    def _surface(self, obj: MeshObject, selected_only: bool) -> Surface:
-        return mesh_reading.read_surface(obj, selected_only)
+        return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
 
     def _check_room(self, obj: MeshObject) -> None:
         """Raise TransferError unless what is to be written has a place."""
@@ -129,13 +129,18 @@ class Job:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
         self.outcomes = map_surfaces(self.koebe, self.tasks, self.options, progress, self.cancel_token)
 
-    def line(self, outcome: SurfaceOutcome) -> str:
+    def line(self, outcome: Outcome) -> str:
         """One line on a surface of which something was mapped."""
-        return result_line(outcome)
+        return outcome.line()
 
-    def entries(self, outcome: SurfaceOutcome) -> list[dict[str, Any]]:
-        """One entry of the JSON report per island."""
-        return json_report.entries(outcome)
+    def entries(self, outcome: Outcome) -> list[dict[str, Any]]:
+        """Its entries of the JSON report."""
+        return outcome.entries()
+
+    def rows(self) -> list[dict[str, Any]]:
+        """What the report in Blender keeps of what was written."""
+        left_out = [failure_row(name, text) for name, text in self.refused]
+        return [row for outcome in self.outcomes for row in outcome.rows(self.options.layer)] + left_out
 
     def read_old_uv(self) -> None:
         """Note where the islands are now, for the placement "keep": call it before anything changes."""
@@ -177,13 +182,13 @@ class Job:
             run.put_back(start)  # the new material
 
     @staticmethod
-    def _attempt(run: Transaction, outcome: SurfaceOutcome) -> AbstractContextManager[None]:
+    def _attempt(run: Transaction, outcome: Any) -> AbstractContextManager[None]:
         def failed(error: Exception) -> None:
             outcome.not_written = reason(outcome.name, error)
 
         return run.attempt(failed)
 
-    def _plan(self, target: Target, outcome: SurfaceOutcome) -> map_writing.Plan:
+    def _plan(self, target: Target, outcome: Any) -> map_writing.Plan:
         return map_writing.plan(target, self.options.layer, outcome.task.surface, *outcome.corner_uv())
 
     def _checkers(self, run: Transaction, plans: list[map_writing.Plan]) -> list[bpy.types.Material | None]:
@@ -200,7 +205,7 @@ class Job:
         return Pattern(size)
 
     def _write_one(
-        self, run: Transaction, outcome: SurfaceOutcome, plan: map_writing.Plan, material: bpy.types.Material | None
+        self, run: Transaction, outcome: Any, plan: map_writing.Plan, material: bpy.types.Material | None
     ) -> None:
         map_writing.write(run, plan)
         hidden = sequence_player.shown_instead(plan.obj, plan.layer)

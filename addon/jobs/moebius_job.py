@@ -34,7 +34,7 @@ class MoebiusJob:
         self.target, self.layer = Target.of(obj), layer or _active_layer(obj)
         if self.layer not in obj.data.uv_layers:
             raise TransferError(f"{obj.name}: it has no UV layer {self.layer!r}: map it first")
-        self._koebe, self._old = koebe, mesh_reading.read_layer(obj, self.layer)
+        self.koebe, self._old = koebe, mesh_reading.read_layer(obj, self.layer)
         self.domains, errors = read_domains(koebe, self.surface, self._old)
         if not self.domains:
             reasons = dict.fromkeys(map(str, errors))
@@ -102,7 +102,7 @@ class MoebiusJob:
     def angle_error(self, image: CircleImage) -> float:
         """Mean difference of the angles on the surface and in the UVs, degrees."""
         island = image.domain.island
-        report = self._koebe.distortion(island.vertices, island.triangles, image.uv.astype(np.float64))
+        report = self.koebe.distortion(island.vertices, island.triangles, image.uv.astype(np.float64))
         return float(report["angle_error_deg"]["mean"])
 
 

@@ -13,11 +13,10 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target
 from ..blender.transaction import Transaction
-from ..maps import json_report
-from ..maps.options import OptionError, Options, SequenceChoice
-from ..maps.outcomes import LATER, Progress, Task, share_of
+from ..maps.options import OptionError, SequenceChoice
+from ..maps.outcomes import Progress, Task
 from ..maps.sequence import SequenceOutcome, are_alike, map_sequence, point_values
-from .map_job import Job
+from .choice_job import ChoiceJob
 
 STAYS_IN_EDIT_MODE = (
     "this is done in Object Mode, and Blender would not find back to Edit Mode with objects that are hidden or not "
@@ -25,25 +24,16 @@ STAYS_IN_EDIT_MODE = (
 )
 
 
-class SequenceJob(Job):
-    """Reads and writes as `Job` does, and has sequences for outcomes. `read_shapes` comes before `compute`."""
+class SequenceJob(ChoiceJob):
+    """Has sequences for outcomes. Objects are read first, `read_shapes` comes before `compute`."""
 
-    def __init__(
-        self,
-        objects: list[MeshObject],
-        options: Options,
-        choice: SequenceChoice,
-        selected_only: bool = False,
-        refused: list[tuple[str, str]] | None = None,
-    ) -> None:
-        """Read the objects, not yet their shapes. Raises as `Job`, and OptionError."""
+    choice: SequenceChoice
+
+    def _begin(self) -> None:
         scene: Any = bpy.context.scene
-        self.choice = choice
-        self.frames = choice.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+        self.frames = self.choice.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
         self.names: dict[str, list[str]] = {}  # by object: what holds the UVs of each shape
         self.shapes: dict[str, list[shapes.MeshShape]] = {}
-        super().__init__(objects, options, selected_only, refused)
-        self.outcomes: list[SequenceOutcome] = LATER  # type: ignore[assignment]
 
     def _check_room(self, obj: MeshObject) -> None:
         wanted = [*self.frames] if self.choice.source == "FRAMES" else shapes.key_names(obj)
@@ -78,19 +68,20 @@ class SequenceJob(Job):
                 yield (number * len(self.frames) + len(read)) / steps
 
     def compute(self, progress: Progress | None = None) -> None:
-        """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
-        outcomes, done = [], 0
-        alike = {task.name: self._keep_one(task) for task in self.tasks}
-        sizes = [len(self.shapes[task.name]) * len(task.surface.triangle_face) for task in self.tasks]
-        for task, size in zip(self.tasks, sizes, strict=True):
-            part = share_of(progress, done, size, sum(sizes))
-            found = self.shapes[task.name]
-            outcomes.append(
-                map_sequence(self.koebe, _begun(task, found[0]), found, self.options, part, self.cancel_token)
-            )
-            outcomes[-1].alike = alike[task.name]
-            done += size
-        self.outcomes = outcomes
+        """As of `ChoiceJob`."""
+        self._alike = {task.name: self._keep_one(task) for task in self.tasks}
+        super().compute(progress)
+
+    def _size(self, task: Task) -> int:
+        return len(self.shapes[task.name]) * super()._size(task)
+
+    def _map(self, task: Task, progress: Progress | None) -> SequenceOutcome:
+        found = self.shapes[task.name]
+        begun = _begun(task, found[0])
+        outcome = map_sequence(self.koebe, begun, found, self.options, progress, self.cancel_token)
+        outcome.alike, outcome.written = self._alike[task.name], self.names[task.name]
+        outcome.in_layers = self.choice.target == "LAYERS"
+        return outcome
 
     def _keep_one(self, task: Task) -> int:
         """Keep the first shape of an object alone where all are alike: their number, or 0."""
@@ -100,25 +91,6 @@ class SequenceJob(Job):
             return 0
         self.shapes[task.name], self.names[task.name] = found[:1], self.names[task.name][:1]
         return len(found)
-
-    def written(self, outcome: SequenceOutcome) -> list[str]:
-        """The UV layer of each shape, or nothing where it is none."""
-        names = self.names[outcome.task.name]
-        return names if self.choice.target == "LAYERS" else [""] * len(names)
-
-    def line(self, outcome: SequenceOutcome) -> str:
-        """One line on an object."""
-        return outcome.line()
-
-    def entries(self, outcome: SequenceOutcome) -> list[dict[str, Any]]:
-        """One entry of the JSON report per shape and island; `shape` and `written` tell which, and where it is."""
-        if outcome.broken is not None:
-            return [{**one, "object": outcome.task.name} for one in json_report.entries(outcome.broken)]
-        return [
-            {**one, "object": outcome.task.name, "shape": label, "written": name, "alike": outcome.alike}
-            for label, name, made in zip(outcome.labels, self.names[outcome.task.name], outcome.maps, strict=True)
-            for one in json_report.entries(made)
-        ]
 
     def _plan(self, target: Target, outcome: SequenceOutcome) -> Any:
         names, maps = self.names[outcome.task.name], outcome.maps

@@ -111,7 +111,7 @@ class CarryJob(_ShapeJob):
 
         Raises ShapeError if it is the source that cannot be used, and `koebe.Cancelled`.
         """
-        source = read_source(self._map(0, progress), self.source_uv)
+        source = read_source(self.koebe, self._map(0, progress), self.source_uv)
         carried: list[Carried | None] = []
         for index in range(1, len(self.names)):
             carried.append(None)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from .circle_fit import fitted_circle
 from .outcomes import Progress
 from .shapes import Shape, ShapeError, map_shape
 from .triangles import as_complex, as_points, flipped_triangles
@@ -59,7 +58,7 @@ class Carried:
     message: str = ""
 
 
-def read_source(shape: Shape, corner_uv: np.ndarray) -> Source:
+def read_source(koebe: ModuleType, shape: Shape, corner_uv: np.ndarray) -> Source:
     """The `Source` of a shape with UVs (C, 2) at its surface's corners. Raises ShapeError: no circle domain."""
     island, result = shape.island, shape.result
     uv = corner_uv[island.some_corner()].astype(np.float64)
@@ -68,7 +67,7 @@ def read_source(shape: Shape, corner_uv: np.ndarray) -> Source:
     circles = []
     for loop, off in zip(result.loops, result.off_circle, strict=True):
         rim = np.setdiff1d(loop, off)
-        circles.append(fitted_circle(uv[rim if len(rim) > 2 else loop]))
+        circles.append(koebe.fit_circle(uv[rim if len(rim) > 2 else loop]))
     outer = int(np.argmax([radius for _, radius, _ in circles]))
     # As exact as 32-bit UVs tell, and 0.5 where it is meant, so that no rim leaves the UV square by rounding.
     circles = [(np.round(center, 7), round(radius, 7), off) for center, radius, off in circles]
@@ -182,7 +181,7 @@ def _bent_onto_holes(
         if k == 0:
             continue
         rim = np.setdiff1d(result.loops[partner], result.off_circle[partner])
-        center, radius, _ = fitted_circle(points[rim])
+        center, radius, _ = koebe.fit_circle(points[rim])
         fixed.append(rim)
         values.append(source.domain.centers[k] + (points[rim] - center) * (source.domain.radii[k] / radius))
     return koebe.harmonic_map(

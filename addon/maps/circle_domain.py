@@ -7,7 +7,6 @@ from types import ModuleType
 
 import numpy as np
 
-from .circle_fit import fitted_circle
 from .errors import NOWHERE, KnownError
 from .moebius import Moebius, balance_point, inside_out, own_center, rotation, to_middle
 from .rounding import RESOLUTION, rounded
@@ -229,7 +228,7 @@ def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDo
     plane = old_uv.astype(np.float64)
     if np.ptp(plane, axis=0).max() < RESOLUTION:
         raise DomainError("it has no UVs: map it first")
-    loops = [_fitted(plane, vertices) for vertices in _boundary_loops(koebe, island)]
+    loops = [_fitted(koebe, plane, vertices) for vertices in _boundary_loops(koebe, island)]
     if not loops:
         raise DomainError("it is closed: it has no rim")
     loops.sort(key=lambda loop: -loop.radius)
@@ -252,17 +251,17 @@ def _boundary_loops(koebe: ModuleType, island: Island) -> list[np.ndarray]:
         raise DomainError(str(error)) from error
 
 
-def _fitted(plane: np.ndarray, vertices: np.ndarray) -> Loop:
+def _fitted(koebe: ModuleType, plane: np.ndarray, vertices: np.ndarray) -> Loop:
     """A loop with its circle in the UVs (n, 2). Raises DomainError if it is not round."""
     on = vertices
-    center, radius, off = fitted_circle(plane[on])
+    center, radius, off = koebe.fit_circle(plane[on])
     if off > ON_CIRCLE and len(on) > 3:  # some may hang on the loop by one edge
         arms = np.abs(np.linalg.norm(plane[on] - center, axis=1) - radius)
         on = vertices[arms <= np.median(arms) + ON_CIRCLE]
-        center, radius, _ = fitted_circle(plane[on])
+        center, radius, _ = koebe.fit_circle(plane[on])
         on = vertices[np.abs(np.linalg.norm(plane[vertices] - center, axis=1) - radius) <= ON_CIRCLE]
         if len(on) > 2:
-            center, radius, off = fitted_circle(plane[on])
+            center, radius, off = koebe.fit_circle(plane[on])
     if not (radius > 0.0 and off <= ON_CIRCLE and len(on) >= LEAST_ROUND * len(vertices)):
         raise DomainError("its UVs are no circle domain: map it first, with Tube: Annulus")
     return Loop(vertices, on, complex(*center), radius)

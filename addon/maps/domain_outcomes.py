@@ -2,21 +2,21 @@
 """What became of a surface whose islands were mapped to domains that are no disks. Each has the UVs to itself."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import ModuleType
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
 from .domains import DOMAINS
 from .errors import MapError
 from .islands import cut_into_islands
-from .mapping import check_area, foreseen
-from .outcomes import LATER, Progress, Task, share_of
+from .mapping import check_area, failing_alone
+from .outcomes import LATER, Outcome, Progress, Task, in_numbers, share_of
 from .seams import cut_edges
 from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
-from .wording import counted, in_mesh, own_warnings, too_uneven
+from .wording import UNEVEN_TEXELS, counted, in_mesh, too_uneven
 
 
 class DomainChoice(Protocol):
@@ -68,6 +68,25 @@ class DomainIsland:
         """Faces of the surface with such triangles."""
         return np.unique(self.island.triangle_face[self.flipped])
 
+    def faces(self, triangles: Sequence[int] | np.ndarray) -> list[int]:
+        """Faces of the surface that triangles of the island are of."""
+        return np.unique(self.island.triangle_face[np.asarray(triangles, dtype=np.int64)]).tolist()
+
+    def map(self, koebe: ModuleType, task: Task, choice: Any, loops: list[np.ndarray], **run: Any) -> None:
+        """Compute the result, and take its UVs.
+
+        loops  the island's boundary loops; there are as many as the domain wants
+        run    progress and cancel, as the native package takes them
+        """
+        raise NotImplementedError
+
+    def _solve(self, function: Callable[..., Any], choice: Any, **arguments: Any) -> Any:
+        """The result of a function of the native package, with what all of them take."""
+        return function(
+            self.island.vertices, self.island.triangles, polygon=self.island.triangle_face,
+            **choice.solver_arguments(), **arguments,
+        )  # fmt: skip
+
     def take_corners(self, surface: Surface, triangle_uv: np.ndarray) -> None:
         """The UVs of the polygons' corners out of those (t, 3, 2) of the triangles' corners, in 32 bits.
 
@@ -95,52 +114,17 @@ class DomainIsland:
 
 
 @dataclasses.dataclass
-class DomainOutcome:
-    """What became of one surface: each island has the UV square for itself.
+class DomainOutcome(Outcome):
+    """What became of one surface: each island has the UV square for itself. A subclass says what `kind` they are of."""
 
-    not_written  why nothing of it could be written, or None
-    remarks      what to say of the object beside its islands
-    """
+    kind: ClassVar[type[DomainIsland]]
 
-    task: Task
-    choice: Any
     islands: list[Any]
-    not_written: str | None = None
-    remarks: list[str] = dataclasses.field(default_factory=list)
-
-    @property
-    def name(self) -> str:
-        """Name of the surface's object."""
-        return self.task.name
-
-    @property
-    def mapped(self) -> list[Any]:
-        """The islands that have a result, unless it could not be written."""
-        return [] if self.not_written else [one for one in self.islands if one.error is None]
-
-    @property
-    def failed(self) -> list[Any]:
-        """The islands that have an error."""
-        return [one for one in self.islands if one.error is not None]
-
-    @property
-    def converged(self) -> bool:
-        """Whether every mapped island is what it promises."""
-        return all(one.result.converged for one in self.mapped)
-
-    def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
-        """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
-        mapped = self.mapped
-        return np.concatenate([one.corners for one in mapped]), np.concatenate([one.uv for one in mapped])
+    choice: Any
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
-        """What to watch out for in a mapped island, in the mesh's numbers."""
         found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # told already
-        return [*(in_mesh(one.island, warning) for warning in found), *own_warnings(self.task)]
-
-    def notes(self, one: Any) -> list[str]:
-        """What cannot be otherwise, in a mapped island."""
-        return []
+        return [*(in_mesh(one.island, warning) for warning in found), *self._own_warnings()]
 
     def figures(self) -> list[str]:
         """What is to be said of the mapped islands beside angles and flips."""
@@ -159,8 +143,46 @@ class DomainOutcome:
         if not self.converged:
             words.append("NOT CONVERGED")
         if any(too_uneven(one) for one in mapped):
-            words.append("texels very uneven: Unwrap to Parts makes them even")
+            words.append(UNEVEN_TEXELS)
         return f"{self.name}: {', '.join(words)}"
+
+    def _entry(self, index: int, one: Any) -> dict[str, Any]:
+        entry = self._head(index, one, len(one.island.faces))
+        if one.result is None:
+            return entry
+        result = one.result.to_dict()
+        in_numbers(result["loops"], one.island.source_vertex, "vertices", "off_circle")
+        result["turned"] = one.faces(result["turned"])
+        self._adapt(one, result)
+        result.update(one.stored.figures())
+        result["flipped"] = len(one.flipped)
+        if one.error is not None:  # too much is lost: it is not done
+            result["converged"] = False
+        result["warnings"] = self.warnings(one)
+        return {**result, **entry, "domain": self.choice.domain}
+
+    def _adapt(self, one: Any, result: dict[str, Any]) -> None:
+        """Make of the native result's dict what holds in the mesh and in the UVs as they are written."""
+
+    def _row(self, one: Any) -> dict[str, Any]:
+        result = one.result
+        return {
+            "sweeps": result.sweeps, "domain": self.choice.domain, "angle_error": one.angle_error,
+            "seconds": result.seconds["total"], "flipped": len(one.flipped),
+            "flipped_faces": one.flipped_faces.tolist(), "uneven": too_uneven(one),
+            "cut_edges": np.flatnonzero(one.cuts).tolist(),
+            "loops": [
+                {
+                    "vertices": one.island.source_vertex[of_loop["vertices"]].tolist(),
+                    **self._loop_row(one, number, of_loop),
+                }
+                for number, of_loop in enumerate(result.loops)
+            ],
+        }  # fmt: skip
+
+    def _loop_row(self, one: Any, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
+        """What the report keeps of a loop, given its number and what the native result says of it."""
+        raise NotImplementedError
 
 
 def islands_to_map(surface: Surface) -> list[Island]:
@@ -180,26 +202,28 @@ def islands_to_map(surface: Surface) -> list[Island]:
     return cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~idle)) if idle.any() else islands
 
 
-def map_islands(
+def map_domain(
     koebe: ModuleType,
-    ones: list[Any],
-    most_lost: float,
-    map_one: Callable[[Any, Progress | None], None],
+    outcome_type: type[DomainOutcome],
+    task: Task,
+    choice: DomainChoice,
     progress: Progress | None = None,
-) -> None:
-    """Map each of the islands by a function that fills it. Errors are those of their islands; `koebe.Cancelled` goes
-    on."""
+    cancel: Any = None,
+) -> Any:
+    """Map each island of the selected faces of a surface to a domain. Polygons stay whole.
+
+    Errors are those of their islands; `koebe.Cancelled` goes on.
+    """
+    ones = [outcome_type.kind(island) for island in islands_to_map(task.surface)]
     done, total = 0, sum(len(one.island.triangles) for one in ones)
     for one in ones:
-        share = len(one.island.triangles)
-        try:
-            map_one(one, share_of(progress, done, share, total))
-            one.judge(koebe, most_lost)
-        except koebe.Cancelled:
-            raise
-        except Exception as error:
-            one.error = foreseen(koebe, error)
-        done += share
+        size = len(one.island.triangles)
+        with failing_alone(koebe, [one]):
+            loops = checked_loops(koebe, one.island, choice.domain)
+            one.map(koebe, task, choice, loops, progress=share_of(progress, done, size, total), cancel=cancel)
+            one.judge(koebe, choice.most_lost)
+        done += size
+    return outcome_type(task, ones, choice)
 
 
 def checked_loops(koebe: ModuleType, island: Island, domain: str) -> list[np.ndarray]:

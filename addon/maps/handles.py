@@ -8,13 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from .circle_fit import fitted_circle
-from .domain_outcomes import DomainIsland, DomainOutcome, checked_loops, islands_to_map, map_islands
+from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import MapError, elements_of, kind_of
 from .options import SchottkyChoice
-from .outcomes import LATER, Progress, Task
+from .outcomes import LATER, Task, in_numbers
 from .rounding import RESOLUTION
-from .surface import Surface
 from .triangles import density_ratio, signed_areas
 from .wording import counted
 
@@ -51,10 +49,27 @@ class SchottkyIsland(DomainIsland):
         """What the UVs are cut along."""
         return "circles" if self.result.by_circles else "edges"
 
+    def map(
+        self, koebe: ModuleType, task: Task, choice: SchottkyChoice, loops: list[np.ndarray], **run: Any
+    ) -> None:
+        """As of `DomainIsland`, its handles cut open."""
+        island = self.island
+        try:
+            result = self._solve(koebe.schottky_map, choice, **run)
+        except koebe.TopologyError as error:
+            if kind_of(error) != "genus":
+                raise
+            known = [vertex for vertex in elements_of(error) if vertex < len(island.vertices)]
+            raise CutError(str(error), known) from error  # not that it has handles
+        self.take_corners(task.surface, result.uv.astype(np.float32))
+        self.circles = [_circle(koebe, island.triangles, result.uv, loop["vertices"]) for loop in result.loops]
+        self.result = result
+
 
 class SchottkyOutcome(DomainOutcome):
-    """What became of one surface: each island has the UV square for itself."""
+    """What became of one surface, its islands mapped into the disk, their handles cut open."""
 
+    kind = SchottkyIsland
     choice: SchottkyChoice
 
     def figures(self) -> list[str]:
@@ -65,54 +80,28 @@ class SchottkyOutcome(DomainOutcome):
             "cut along " + " and ".join(sorted({one.cut() for one in self.mapped})),
         ]
 
+    def _adapt(self, one: SchottkyIsland, result: dict[str, Any]) -> None:
+        """Circles and generators are those of `koebe.SchottkyMap`."""
+        in_numbers(result["handles"], one.island.source_vertex, "cut")
 
-def map_handles(
-    koebe: ModuleType, task: Task, choice: SchottkyChoice, progress: Progress | None = None, cancel: Any = None
-) -> SchottkyOutcome:
-    """Map each island of the selected faces of a surface into the disk, its handles cut open. Polygons stay whole.
+    def _row(self, one: SchottkyIsland) -> dict[str, Any]:
+        result = one.result
+        own = {"handles": len(result.handles), "by_circles": result.by_circles, "density": one.density_ratio}
+        return {**super()._row(one), **own}
 
-    Errors are those of their islands; `koebe.Cancelled` goes on.
-    """
-    outcome = SchottkyOutcome(task, choice, [SchottkyIsland(island) for island in islands_to_map(task.surface)])
-
-    def map_one(one: SchottkyIsland, own: Progress | None) -> None:
-        _map(koebe, task.surface, one, choice, own, cancel)
-
-    map_islands(koebe, outcome.islands, choice.most_lost, map_one, progress)
-    return outcome
+    def _loop_row(self, one: SchottkyIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
+        center, radius = one.circles[number]
+        return {"uv_center": center, "uv_radius": radius, "name": f"{number}" if number else "Rim"}
 
 
-def _map(
-    koebe: ModuleType,
-    surface: Surface,
-    one: SchottkyIsland,
-    choice: SchottkyChoice,
-    progress: Progress | None,
-    cancel: Any,
-) -> None:
-    island = one.island
-    checked_loops(koebe, island, choice.domain)
-    try:
-        result = koebe.schottky_map(
-            island.vertices, island.triangles, polygon=island.triangle_face, progress=progress, cancel=cancel,
-            **choice.solver_arguments(),
-        )  # fmt: skip
-    except koebe.TopologyError as error:
-        if kind_of(error) != "genus":
-            raise
-        known = [vertex for vertex in elements_of(error) if vertex < len(island.vertices)]
-        raise CutError(str(error), known) from error  # not that it has handles
-    one.take_corners(surface, result.uv.astype(np.float32))
-    one.circles = [_circle(island.triangles, result.uv, loop["vertices"]) for loop in result.loops]
-    one.result = result
-
-
-def _circle(triangles: np.ndarray, uv: np.ndarray, loop: list[int]) -> tuple[tuple[float, float], float]:
+def _circle(
+    koebe: ModuleType, triangles: np.ndarray, uv: np.ndarray, loop: list[int]
+) -> tuple[tuple[float, float], float]:
     """Of a loop whose corners, in the UVs (t, 3, 2) of triangles (t, 3), are on one circle, one for each vertex."""
     at_loop = np.isin(triangles, loop)
     places = np.unique(np.column_stack([triangles[at_loop], uv[at_loop]]), axis=0)
     if len(places) == len(loop):
-        center, radius, off = fitted_circle(places[:, 1:])
+        center, radius, off = koebe.fit_circle(places[:, 1:])
         if off < ROUND * radius + RESOLUTION:
             return (float(center[0]), float(center[1])), radius
     return (0.0, 0.0), 0.0

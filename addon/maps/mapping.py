@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 
 from . import places
+from .disk_outcomes import IslandOutcome, SurfaceOutcome
 from .errors import MapError
 from .islands import cut_into_islands, whole_island
 from .opening import Opening, open_island
 from .options import Options
-from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task
-from .packing import Placement, fit_placement, pack_disks
+from .outcomes import Progress, Task
+from .packing import Placement, fit_placement, packed
 from .side_by_side import Unit, side_by_side
 from .stored import SERVES, judge, lost_text, turned_of
 from .surface import Island
@@ -277,7 +278,7 @@ def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
 
 
 @contextlib.contextmanager
-def failing_alone(koebe: ModuleType, ones: Iterable[IslandOutcome]) -> Iterator[None]:
+def failing_alone(koebe: ModuleType, ones: Iterable[Any]) -> Iterator[None]:
     """Whatever goes wrong inside is the error of these islands, and what comes after goes on."""
     try:
         yield
@@ -321,7 +322,7 @@ def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> Non
     tubes = [one for one in outcome.mapped if _is_unrolled(one, options)]
     with failing_alone(koebe, tubes):
         cases = [(one.island, one.result.uv, one.result.loops, one.opening is not None) for one in tubes]
-        for one, unrolled in zip(tubes, unroll(outcome.task.surface, cases), strict=True):
+        for one, unrolled in zip(tubes, unroll(koebe, outcome.task.surface, cases), strict=True):
             if unrolled is None:
                 one.error = MapError("the tube cannot be cut open along its edges: take Tube: Annulus")
                 continue
@@ -355,15 +356,15 @@ def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Opt
         ]
     for group in groups:
         with failing_alone(koebe, [one for _, one in group]):
-            _pack(group, options.margin)
+            _pack(koebe, group, options.margin)
 
 
-def _pack(group: list[tuple[Task, IslandOutcome]], margin: float) -> None:
+def _pack(koebe: ModuleType, group: list[tuple[Task, IslandOutcome]], margin: float) -> None:
     if len(group) == 1:
         group[0][1].placement = Placement(scale=0.5 / _half_size(group[0][1]))
     elif group:
         sizes = [_natural_radius(one.sheet, one.flat, task.importance) for task, one in group]
-        for (_, one), placement in zip(group, pack_disks(sizes, margin), strict=True):
+        for (_, one), placement in zip(group, packed(koebe, sizes, margin), strict=True):
             one.placement = placement
 
 

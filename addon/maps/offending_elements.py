@@ -4,7 +4,6 @@
 import numpy as np
 
 from .errors import elements_of, kind_of
-from .outcomes import Failure
 from .stored import LostAreaError
 from .surface import Island, Surface
 
@@ -13,12 +12,12 @@ VERTICES, EDGES, FACES = "vertices", "edges", "faces"
 SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus", "cut")
 
 
-def offending_elements(surface: Surface, failure: Failure) -> tuple[str, np.ndarray]:
+def offending_elements(surface: Surface, island: Island, error: Exception | None) -> tuple[str, np.ndarray]:
     """(VERTICES, EDGES or FACES, indices) of what to show for an island that could not be mapped.
 
     Where the error names nothing that could be seen, as on a closed surface, that is the whole island.
     """
-    kind, elements, island = kind_of(failure.error), elements_of(failure.error), failure.island
+    kind, elements = kind_of(error), elements_of(error)
     not_finite = np.flatnonzero(~np.isfinite(island.vertices).all(axis=1))
     if len(not_finite):
         return VERTICES, np.unique(island.source_vertex[not_finite])

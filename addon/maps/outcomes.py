@@ -1,23 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is to be mapped, and what became of it."""
+"""What is to be mapped, and what became of it, whatever the kind of map."""
 
 import dataclasses
-import functools
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from .mirror import Symmetry
-from .opening import Opening
-from .packing import Placement
-from .rounding import rounded
-from .stored import Stored
-from .surface import Island, Surface
-from .triangles import as_complex, as_points, density_ratio, signed_areas
-
-if TYPE_CHECKING:
-    from koebe import UniformizeResult
+from .errors import elements_of, kind_of
+from .offending_elements import offending_elements
+from .surface import Surface
+from .wording import MIRRORED, PINNED, explain, failure_line, own_warning
 
 Progress = Callable[[float, str], None]  # called with a fraction and a stage
 # A vertex of the surface, or a place (3,) in its space that a vertex is to be nearest to.
@@ -32,42 +25,6 @@ def share_of(progress: Progress | None, done: int, size: int, total: int) -> Pro
     return lambda fraction, stage: progress((done + fraction * size) / max(total, 1), stage)
 
 
-class Mapped(Protocol):
-    """An island with a map, and how even its texels are."""
-
-    @property
-    def result(self) -> Any: ...
-    @property
-    def density_ratio(self) -> float: ...
-
-
-class Failed(Protocol):
-    """Why something could not be mapped."""
-
-    @property
-    def error(self) -> Exception | None: ...
-
-
-class Failure(Failed, Protocol):
-    """An island, and why it could not be mapped."""
-
-    @property
-    def island(self) -> Island: ...
-
-
-class Failures(Protocol):
-    """What became of a surface, as far as it could not be mapped, or not be written."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def not_written(self) -> str | None: ...
-    @property
-    def islands(self) -> Sequence[Failed]: ...
-    @property
-    def failed(self) -> Sequence[Failed]: ...
-
-
 @dataclasses.dataclass(frozen=True)
 class Task:
     """A surface to map.
@@ -76,6 +33,7 @@ class Task:
     the vertices that go to the disk's centre and to its right end; `old_uv` (C, 2) are the UVs of the
     surface's corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
     negative, `pinned` that UVs of the layer to write are pinned. `importance` (V,) in [0, 1] weighs the balance.
+    `picked` (V,) bool are the vertices by which the rims of rings are known.
     """
 
     name: str
@@ -87,102 +45,22 @@ class Task:
     center: Place = None
     point: Place = None
     importance: np.ndarray | None = None
+    picked: np.ndarray | None = None
 
 
 @dataclasses.dataclass
-class IslandOutcome:
-    """What became of one island: a result of `koebe.uniformize`, its shape and its place, or an error.
+class Outcome:
+    """What became of one surface. A kind of map is a subclass, and what it leaves open.
 
-    sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
-    shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
-    turn        complex number of modulus 1 by which the shape is turned about 0
-    distortion  `koebe.distortion` of the shape, where it is not that of the result
-    stored      what the UVs hold of the map
-    lost        what to say first where more is lost in the UVs than may be, or empty
-    places      the vertices that were asked for, by the solver's names: center, point
-    opening     what was cut to get this piece, with others, or None
-    symmetry    the island made symmetric, or None
-    remark      why something that was asked for was not done with it, or empty
-    """
-
-    island: Island
-    result: "UniformizeResult" = LATER
-    error: Exception | None = None
-    sheet: Island = LATER
-    shape: np.ndarray = LATER
-    turn: complex = 1.0
-    distortion: dict[str, Any] | None = None
-    stored: Stored = LATER
-    lost: str = ""
-    placement: Placement = LATER
-    places: dict[str, Any] = dataclasses.field(default_factory=dict)
-    opening: Opening | None = None
-    symmetry: Symmetry | None = None
-    remark: str = ""
-
-    @property
-    def unrolled(self) -> bool:
-        """Whether it is a rectangle: then its circles are not in the UVs."""
-        return self.sheet is not self.island
-
-    @property
-    def angle_error(self) -> float:
-        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs, once these are there."""
-        if self.stored is not None:
-            return self.stored.angle_error
-        return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
-
-    @functools.cached_property
-    def density_ratio(self) -> float:
-        """Texel density (a length over a length) at 95 % of the area over that at 5 %."""
-        return density_ratio(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)))
-
-    def turned(self, points: np.ndarray) -> np.ndarray:
-        """Points (n, 2) of the shape after the turn."""
-        if self.turn == 1.0:
-            return points
-        return as_points(self.turn * as_complex(points))
-
-    @functools.cached_property
-    def flat(self) -> np.ndarray:
-        """The sheet's vertices (n, 2) after the turn, in the unit disk."""
-        return self.turned(self.shape)
-
-    @functools.cached_property
-    def _rounded(self) -> tuple[np.ndarray, np.ndarray]:
-        return rounded(self.placement.apply(self.flat), self.sheet.triangles)
-
-    @property
-    def uv(self) -> np.ndarray:
-        """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
-        return self._rounded[0] if self.symmetry is None else self.symmetry.image.uv
-
-    @property
-    def flipped(self) -> np.ndarray:
-        """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
-        return self._rounded[1] if self.symmetry is None else self.symmetry.image.flipped
-
-    def circles(self) -> tuple[np.ndarray, np.ndarray]:
-        """Centres (k, 2) and radii (k,) of the loops' circles in the UVs; of a rectangle they mean nothing."""
-        if self.symmetry is not None:
-            domain, loops = self.symmetry.image.domain, self.symmetry.image.loops
-            centers = domain.placed(np.array([loop.center for loop in loops]))
-            return centers, domain.scale * np.array([loop.radius for loop in loops])
-        return self.placement.apply(self.turned(self.result.centers)), self.placement.scale * self.result.radii
-
-
-@dataclasses.dataclass
-class SurfaceOutcome:
-    """What became of one surface.
-
+    islands      what became of each: with a `result` of the native package, or an `error`
     not_written  why nothing of it could be written, or None
     remarks      what to say of the object beside its islands
     """
 
     task: Task
-    islands: list[IslandOutcome]
-    not_written: str | None = None
-    remarks: list[str] = dataclasses.field(default_factory=list)
+    islands: list[Any]
+    not_written: str | None = dataclasses.field(default=None, kw_only=True)
+    remarks: list[str] = dataclasses.field(default_factory=list, kw_only=True)
 
     @property
     def name(self) -> str:
@@ -190,47 +68,131 @@ class SurfaceOutcome:
         return self.task.name
 
     @property
-    def mapped(self) -> list[IslandOutcome]:
+    def mapped(self) -> list[Any]:
         """The islands that have a result, unless it could not be written."""
-        return [] if self.not_written else [outcome for outcome in self.islands if outcome.error is None]
+        return [] if self.not_written else [one for one in self.islands if one.error is None]
 
     @property
-    def failed(self) -> list[IslandOutcome]:
+    def failed(self) -> list[Any]:
         """The islands that have an error."""
-        return [outcome for outcome in self.islands if outcome.error is not None]
-
-    @property
-    def lost(self) -> list[IslandOutcome]:
-        """The mapped islands of which more is lost in the UVs than may be."""
-        return [outcome for outcome in self.mapped if outcome.lost]
+        return [one for one in self.islands if one.error is not None]
 
     @property
     def converged(self) -> bool:
-        """Whether every mapped island reached the tolerance."""
-        return all(outcome.result.converged for outcome in self.mapped)
+        """Whether every mapped island is what it promises."""
+        return all(one.result.converged for one in self.mapped)
+
+    @property
+    def is_good(self) -> bool:
+        """Whether there is nothing in its line that has to be looked at."""
+        return self.converged
 
     def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
         """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
-        corners = [outcome.sheet.corners for outcome in self.mapped]
-        uv = [outcome.uv.take(outcome.sheet.corner_vertex, axis=0) for outcome in self.mapped]
-        openings = self.openings
-        if len(uv) == 1 and not openings:
-            return corners[0], uv[0]
-        return _with_copied(np.concatenate(corners), np.concatenate(uv), openings)
+        mapped = self.mapped
+        return np.concatenate([one.corners for one in mapped]), np.concatenate([one.uv for one in mapped])
 
-    @property
-    def openings(self) -> list[Opening]:
-        """What was cut, for each island that was."""
-        return list({id(one.opening): one.opening for one in self.islands if one.opening is not None}.values())
+    def offending(self) -> list[tuple[str, np.ndarray]]:
+        """Kind and numbers of the elements at fault, for each island that has an error."""
+        return [offending_elements(self.task.surface, one.island, one.error) for one in self.failed]
+
+    # ---------------------------------------------------------------- words
+
+    def line(self) -> str:
+        """One line on what was mapped."""
+        raise NotImplementedError
+
+    def warnings(self, one: Any) -> list[dict[str, Any]]:
+        """What to watch out for in a mapped island: kind, elements in the mesh's numbers, text."""
+        raise NotImplementedError
+
+    def notes(self) -> list[tuple[Any, str]]:
+        """What was done to mapped islands beside their maps, or cannot be otherwise."""
+        return []
+
+    def said_warnings(self) -> list[str]:
+        """What to watch out for in all of it."""
+        return [warning["text"] for one in self.mapped for warning in self.warnings(one)]
+
+    def said_notes(self) -> list[str]:
+        """The notes of all islands."""
+        return [text for _, text in self.notes()]
+
+    def _own_warnings(self) -> list[dict[str, Any]]:
+        """What to watch out for in all islands, beside what the solver warns of."""
+        task = self.task
+        return [own_warning("mirrored", MIRRORED)] * task.mirrored + [own_warning("pinned", PINNED)] * task.pinned
+
+    # ---------------------------------------------------------------- the JSON report of the batch script
+
+    def entries(self) -> list[dict[str, Any]]:
+        """One dict per island: the native result's `to_dict()` in the mesh's numbers, or the error."""
+        return [self._entry(index, one) for index, one in enumerate(self.islands)]
+
+    def _entry(self, index: int, one: Any) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def _head(self, index: int, one: Any, faces: int) -> dict[str, Any]:
+        """Which island it is, and its error."""
+        entry: dict[str, Any] = {"object": self.task.name, "island": index, "island_faces": faces}
+        if one.error is None:
+            return entry
+        error: dict[str, Any] = {"name": type(one.error).__name__, "reason": str(one.error)}
+        kind = kind_of(one.error)
+        if kind is not None:
+            error["kind"] = kind
+            error["count"] = len(elements_of(one.error))
+        return {**entry, "error": error}
+
+    # ---------------------------------------------------------------- the report in Blender
+
+    def rows(self, layer: str) -> list[dict[str, Any]]:
+        """What the report keeps of each island that was written to a UV layer, or why it was not.
+
+        By the names of state/run_report.py; lists are kept there as JSON, but `loops` as entries of their own.
+        """
+        if self.not_written:
+            return [failure_row(self.name, self.not_written)]
+        said: dict[int, list[str]] = {}
+        for one, text in self.notes():
+            said.setdefault(id(one), []).append(text)
+        result = []
+        for index, one in enumerate(self.islands):
+            row: dict[str, Any] = {"object_name": self.name, "island": index, "layer": layer}
+            if one.error is None:
+                texts = [*(warning["text"] for warning in self.warnings(one)), *self.remarks]
+                row |= {"mapped": True, "converged": one.result.converged, "message": "; ".join(texts)}
+                row |= {"note": "; ".join(said.get(id(one), [])), **self._row(one)}
+            else:
+                kind, elements = offending_elements(self.task.surface, one.island, one.error)
+                row |= {"message": explain(one.error), "offer": _offer(one.error)}
+                row |= {"offenders": [kind, elements.tolist()]}
+            result.append(row)
+        return result
+
+    def _row(self, one: Any) -> dict[str, Any]:
+        """What the report keeps of a mapped island beside words."""
+        raise NotImplementedError
+
+    def _failure_row(self) -> dict[str, Any]:
+        """The row of an object of which nothing can be kept."""
+        offers = [_offer(one.error) for one in self.failed]
+        return failure_row(self.task.name, failure_line(self), offers[0] if offers else "")
 
 
-def _with_copied(corners: np.ndarray, uv: np.ndarray, openings: list[Opening]) -> tuple[np.ndarray, np.ndarray]:
-    """The corners and those that take their places, as far as these are mapped."""
-    copied = [opening.copied for opening in openings if len(opening.copied[0])]
-    if not copied:
-        return corners, uv
-    here, there = (np.concatenate(each) for each in zip(*copied))
-    row = np.full(int(max(corners.max(), there.max())) + 1, -1, dtype=np.int64)
-    row[corners] = np.arange(len(corners))
-    known = row[there] >= 0
-    return np.concatenate([corners, here[known]]), np.concatenate([uv, uv[row[there[known]]]])
+def failure_row(name: str, text: str, offer: str = "") -> dict[str, Any]:
+    """The row of an object that was left out as a whole."""
+    return {"object_name": name, "message": text.removeprefix(f"{name}: "), "offer": offer}
+
+
+def _offer(error: Exception | None) -> str:
+    """The operators that take what this error is of."""
+    return " ".join(getattr(error, "offer", ()))
+
+
+def in_numbers(paths: list[dict[str, Any]], numbers: np.ndarray, *keys: str) -> None:
+    """Turn the solver's vertices in dicts of a report into those of the mesh."""
+    for path in paths:
+        for key in keys:
+            if key in path:
+                path[key] = numbers[np.asarray(path[key], dtype=np.int64)].tolist()

@@ -3,21 +3,18 @@
 
 import dataclasses
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .islands import cut_into_islands
-from .mapping import foreseen
+from .mapping import failing_alone
 from .options import PartsChoice
-from .outcomes import LATER, Progress, Task
+from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
 from .stored import LostAreaError
 from .surface import Surface, next_corners
 from .wording import counted, density_text, in_mesh
-
-if TYPE_CHECKING:
-    from koebe import PartsResult
 
 # The price of a part at the dial's ends: as few parts as there can be, and texels as even as they can be.
 HIGHEST, LOWEST = 0.03, 0.0003
@@ -30,72 +27,55 @@ def price_of(evenness: float) -> float:
     return float(HIGHEST * (LOWEST / HIGHEST) ** evenness)
 
 
-@dataclasses.dataclass
-class PartsOutcome:
-    """What became of one surface.
+@dataclasses.dataclass(frozen=True)
+class Numbers:
+    """What the solver's triangles (t,) and vertices (n,) are on the surface."""
 
-    corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
+    triangle_face: np.ndarray
+    source_vertex: np.ndarray
+
+
+@dataclasses.dataclass
+class PartsIsland:
+    """What became of all selected faces: a result of `koebe.parts`, or an error, or both if too much is lost.
+
     numbers      what the solver's triangles and vertices are on the surface
+    corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
     cuts         (E,) bool, edges of the surface along which the UVs are cut
-    not_written  why nothing of it could be written, or None
-    remarks      what to say of the object beside its parts
     """
 
-    task: Task
-    corners: np.ndarray
-    uv: np.ndarray
-    numbers: "Numbers" = LATER
-    result: "PartsResult | None" = None
+    result: Any = None
     error: Exception | None = None
-    cuts: np.ndarray | None = None
-    not_written: str | None = None
-    remarks: list[str] = dataclasses.field(default_factory=list)
-
-    @property
-    def name(self) -> str:
-        """Name of the surface's object."""
-        return self.task.name
-
-    @property
-    def mapped(self) -> list["PartsResult"]:
-        """The result, unless there is none or it could not be written."""
-        return [] if self.result is None or self.error is not None or self.not_written else [self.result]
+    numbers: Numbers = LATER
+    corners: np.ndarray = LATER
+    uv: np.ndarray = LATER
+    cuts: np.ndarray = LATER
 
     @property
     def flipped_faces(self) -> np.ndarray:
         """Faces of the surface with triangles that are turned over in the UVs."""
-        return np.unique(self.numbers.triangle_face[self.mapped[0].flipped_faces])
+        return np.unique(self.numbers.triangle_face[self.result.flipped_faces])
 
-    def warnings(self) -> list[dict[str, Any]]:
-        """What to watch out for in the parts, in the mesh's numbers."""
-        found = [warning for result in self.mapped for warning in result.warnings]
-        return [in_mesh(self.numbers, warning) for warning in found if warning.kind != LostAreaError.kind]
 
-    @property
-    def islands(self) -> list["PartsOutcome"]:
-        """The surface as one, as of other outcomes."""
-        return [self]
+class PartsOutcome(Outcome):
+    """What became of one surface: the parts of all of it are its one island."""
 
-    @property
-    def failed(self) -> list["PartsOutcome"]:
-        """The same if it has an error."""
-        return [self] if self.error is not None else []
+    islands: list[PartsIsland]
 
-    @property
-    def converged(self) -> bool:
-        """Whether the parts are what they promise."""
-        return all(result.converged for result in self.mapped)
+    def warnings(self, one: PartsIsland) -> list[dict[str, Any]]:
+        return [in_mesh(one.numbers, warning) for warning in one.result.warnings if warning.kind != LostAreaError.kind]
 
-    def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
-        """Corners (m,) and their UV coordinates (m, 2) in 32 bits."""
-        return self.corners, self.uv
+    def offending(self) -> list[tuple[str, np.ndarray]]:
+        """Nothing: it cannot be mended face by face."""
+        return []
 
     def line(self) -> str:
         """One line: parts, cuts, evenness, angles, flips, seconds."""
-        result = self.mapped[0]
+        result = self.mapped[0].result
         kinds = [part["kind"] for part in result.parts]
+        of_kind = ", ".join(counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
         words = [
-            counted(len(kinds), "part") + f" ({', '.join(counted(kinds.count(kind), kind) for kind in _kinds(kinds))})",
+            f"{counted(len(kinds), 'part')} ({of_kind})",
             f"cuts {result.cut_length:.1f} times the root of the area",
             f"texel density 1 : {density_text(result.density_ratio_5_95)} on nine tenths",
             f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
@@ -108,17 +88,31 @@ class PartsOutcome:
             words.append("NOT CONVERGED")
         return f"{self.name}: {', '.join(words)}"
 
+    def _entry(self, index: int, one: PartsIsland) -> dict[str, Any]:
+        entry = self._head(index, one, int(np.count_nonzero(self.task.surface.selected)))
+        if one.result is None:
+            return entry
+        result, numbers = one.result.to_dict(), one.numbers
+        for part in result["parts"]:
+            part["faces"] = np.unique(numbers.triangle_face[part["faces"]]).tolist()
+            part["loops"] = [numbers.source_vertex[np.asarray(loop, dtype=np.int64)].tolist() for loop in part["loops"]]
+        result["warnings"] = [] if one.error is not None else self.warnings(one)
+        if one.error is not None:
+            result["converged"] = False
+        return {**result, **entry}
 
-@dataclasses.dataclass(frozen=True)
-class Numbers:
-    """What the solver's triangles (t,) and vertices (n,) are on the surface."""
+    def rows(self, layer: str) -> list[dict[str, Any]]:
+        """As of `Outcome`; they have no circles to be drawn, and what cannot be mapped names no elements."""
+        return [self._failure_row()] if self.failed or self.not_written else super().rows(layer)
 
-    triangle_face: np.ndarray
-    source_vertex: np.ndarray
-
-
-def _kinds(kinds: list[str]) -> list[str]:
-    return sorted(set(kinds))
+    def _row(self, one: PartsIsland) -> dict[str, Any]:
+        result = one.result
+        return {
+            "parts": len(result.parts), "angle_error": result.angle_error_stored_deg["mean"],
+            "flipped": result.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
+            "density": result.density_ratio_5_95, "cut_length": result.cut_length,
+            **({"cut_edges": np.flatnonzero(one.cuts).tolist()} if one.cuts.any() else {}),
+        }  # fmt: skip
 
 
 def cut_into_parts(
@@ -133,32 +127,26 @@ def cut_into_parts(
     """
     surface, price = task.surface, price_of(choice.evenness) if choice.seams == "add" else NO_CUTS
     arguments = {"price": price, **choice.solver_arguments()}
-    outcome = PartsOutcome(task, np.zeros(0, dtype=np.int32), np.zeros((0, 2), dtype=np.float32))
+    one = PartsIsland()
     slits = tube_slits(surface, cut_into_islands(surface))
-    try:
+    with failing_alone(koebe, [one]):
         if slits.any():
-            _map(koebe, outcome, surface, slits, arguments, progress, cancel)
-            assert outcome.cuts is not None
-            if not (inner_seams(surface) & ~outcome.cuts).any():
-                return outcome
-        _map(koebe, outcome, surface, np.zeros_like(slits), arguments, progress, cancel)
-    except koebe.Cancelled:
-        raise
-    except Exception as error:
-        outcome.error = foreseen(koebe, error)
-    return outcome
+            _map(koebe, one, surface, slits, arguments, progress, cancel)
+        if not slits.any() or (inner_seams(surface) & ~one.cuts).any():
+            _map(koebe, one, surface, np.zeros_like(slits), arguments, progress, cancel)
+    return PartsOutcome(task, [one])
 
 
 def _map(
     koebe: ModuleType,
-    outcome: PartsOutcome,
+    one: PartsIsland,
     surface: Surface,
     slits: np.ndarray,
     arguments: dict[str, Any],
     progress: Progress | None,
     cancel: Any,
 ) -> None:
-    """Fill the outcome. @param slits (E,) bool, seams that are cut only where a tube is opened."""
+    """Fill the result. @param slits (E,) bool, seams that are cut only where a tube is opened."""
     vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
     positions, sources, count = [], [], 0
     for island in cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~slits)):
@@ -170,15 +158,15 @@ def _map(
     corners = surface.triangle_corners[chosen]
     on_slit = np.flatnonzero(slits[surface.corner_edge] & np.repeat(surface.selected, surface.face_size))
     ends = np.stack([on_slit, next_corners(surface)[on_slit]], axis=1)
-    outcome.numbers = Numbers(surface.triangle_face[chosen], np.concatenate(sources))
+    one.numbers = Numbers(surface.triangle_face[chosen], np.concatenate(sources))
     result = koebe.parts(
-        np.concatenate(positions), vertex_of_corner[corners], polygon=outcome.numbers.triangle_face,
+        np.concatenate(positions), vertex_of_corner[corners], polygon=one.numbers.triangle_face,
         slits=vertex_of_corner[ends], progress=progress, cancel=cancel, **arguments,
     )  # fmt: skip
     if result.lost_area > arguments["most_lost"]:
-        outcome.result = result
+        one.result = result
         raise LostAreaError(result.lost_area, result.flipped_faces, "uniformize")
     uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
     uv[corners.ravel()] = result.uv.reshape(-1, 2)
-    outcome.result, outcome.corners = result, np.unique(corners)
-    outcome.uv, outcome.cuts = uv[outcome.corners], cut_edges(surface, uv)
+    one.result, one.corners = result, np.unique(corners)
+    one.uv, one.cuts = uv[one.corners], cut_edges(surface, uv)

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from .disk_outcomes import IslandOutcome, SurfaceOutcome
 from .errors import MapError
 from .mapping import check_area, failing_alone, judge_island, map_surfaces
 from .options import Options
-from .outcomes import IslandOutcome, Progress, SurfaceOutcome, Task, share_of
+from .outcomes import Outcome, Progress, Task, share_of
 from .surface import Surface
-from .wording import counted, warnings
+from .wording import counted
 
 if TYPE_CHECKING:
     import koebe
@@ -35,22 +36,23 @@ class Shape(Protocol):
 
 
 @dataclasses.dataclass
-class SequenceOutcome:
+class SequenceOutcome(Outcome):
     """What became of a surface in its shapes: a map of each, or nothing and the one that has none.
 
-    labels  of the shapes
-    maps    in the order of the shapes; the names of their tasks name the shapes
-    broken  the shape that could not be mapped
-    alike   the number of shapes that are one up to their places, and so have one map; 0 where they are not
+    islands  those of the shape at fault
+    labels   of the shapes
+    maps     in the order of the shapes; the names of their tasks name the shapes
+    broken   the shape that could not be mapped
+    alike    the number of shapes that are one up to their places, and so have one map; 0 where they are not
+    written  what holds the UVs of each shape: a UV layer, or if not `in_layers` something else
     """
 
-    task: Task
     labels: list[str]
     maps: list[SurfaceOutcome]
     broken: SurfaceOutcome | None = None
-    not_written: str | None = None
-    remarks: list[str] = dataclasses.field(default_factory=list)
     alike: int = 0
+    written: list[str] = dataclasses.field(default_factory=list)
+    in_layers: bool = True
 
     @property
     def name(self) -> str:
@@ -63,19 +65,17 @@ class SequenceOutcome:
         return [] if self.broken is not None or self.not_written else self.maps
 
     @property
-    def islands(self) -> list[IslandOutcome]:
-        """The islands of the shape at fault."""
-        return [] if self.broken is None else self.broken.islands
-
-    @property
-    def failed(self) -> list[IslandOutcome]:
-        """Those of them that have no map."""
-        return [] if self.broken is None else self.broken.failed
-
-    @property
     def converged(self) -> bool:
         """Whether every map reached the tolerance."""
         return all(one.converged for one in self.mapped)
+
+    @property
+    def is_good(self) -> bool:
+        return self.converged and not self.alike
+
+    def offending(self) -> list[tuple[str, np.ndarray]]:
+        """Nothing: what is shown is another shape."""
+        return []
 
     def line(self) -> str:
         """One line on all maps."""
@@ -85,7 +85,7 @@ class SequenceOutcome:
     def figures(self) -> str:
         """What came out, over all maps."""
         results = [one.result for made in self.maps for one in made.mapped]
-        sweeps, angles = [result.sweeps for result in results], [mean_angle_error(made) for made in self.maps]
+        sweeps, angles = [result.sweeps for result in results], [made.mean_angle_error for made in self.maps]
         words = [
             counted(len(self.maps), "shape"),
             counted(sum(len(one.result.loops) for one in self.maps[0].mapped), "loop"),
@@ -98,15 +98,36 @@ class SequenceOutcome:
             words.append(f"NOT CONVERGED: {named(late)}")
         return ", ".join(words)
 
-    def warnings(self) -> list[str]:
+    def said_warnings(self) -> list[str]:
         """What to watch out for, each said once, with the shapes that it holds for unless these are all."""
         found: dict[str, list[str]] = {}
         for label, made in zip(self.labels, self.maps, strict=True):
-            for text in {warning["text"]: None for one in made.mapped for warning in warnings(made.task, one)}:
+            for text in dict.fromkeys(made.said_warnings()):
                 found.setdefault(text, []).append(label)
         own = [f"nothing moves: its faces keep their form in all {self.alike} shapes, and one map is written"]
         return own * (self.alike > 0) + [
             text if len(labels) == len(self.labels) else f"{text} ({named(labels)})" for text, labels in found.items()
+        ]
+
+    def entries(self) -> list[dict[str, Any]]:
+        """One entry of the JSON report per shape and island; `shape` and `written` tell which, and where it is."""
+        if self.broken is not None:
+            return [{**one, "object": self.task.name} for one in self.broken.entries()]
+        return [
+            {**one, "object": self.task.name, "shape": label, "written": name, "alike": self.alike}
+            for label, name, made in zip(self.labels, self.written, self.maps, strict=True)
+            for one in made.entries()
+        ]
+
+    def rows(self, layer: str) -> list[dict[str, Any]]:
+        """What the report keeps of each shape and island; its layer is that of the shape, if it has one."""
+        if not self.mapped:
+            return [self._failure_row()]
+        said, layers = self.figures(), self.written if self.in_layers else [""] * len(self.written)
+        return [
+            {**row, "object_name": self.task.name, "shape": label, "note": "; ".join(filter(None, [said, row["note"]]))}
+            for label, layer, made in zip(self.labels, layers, self.maps, strict=True)
+            for row in made.rows(layer)
         ]
 
 
@@ -129,12 +150,6 @@ def _edge_lengths(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
 
 
-def mean_angle_error(made: SurfaceOutcome) -> float:
-    """Mean angle error of the islands of a shape, in degrees."""
-    sizes = [len(one.island.triangles) for one in made.mapped]
-    return sum(one.angle_error * size for one, size in zip(made.mapped, sizes, strict=True)) / sum(sizes)
-
-
 def named(labels: Sequence[str]) -> str:
     """The first of the shapes, and how many more there are."""
     more = [f"{len(labels) - NAMED} more"] if len(labels) > NAMED else []
@@ -154,7 +169,7 @@ def map_sequence(
     with the first shape that has no map. Raises `koebe.Cancelled`.
     """
     kept = _Kept(koebe)
-    outcome = SequenceOutcome(task, [shape.label for shape in shapes], [])
+    outcome = SequenceOutcome(task, [], [shape.label for shape in shapes], [])
     for number, shape in enumerate(shapes):
         of_shape = _of_shape(task, shape)
         part = share_of(progress, number, 1, len(shapes))
@@ -163,7 +178,7 @@ def map_sequence(
         else:
             made = _next_map(kept, outcome.maps[0], of_shape, options.most_lost, _saying(part, shape), cancel)
         if made.failed or not made.islands:
-            outcome.broken = made
+            outcome.broken, outcome.islands = made, made.islands
             break
         outcome.maps.append(made)
     return outcome

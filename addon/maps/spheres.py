@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .domain_outcomes import DomainIsland, DomainOutcome, checked_loops, islands_to_map, map_islands
+from .domain_outcomes import DomainIsland, DomainOutcome
 from .options import SphereChoice
-from .outcomes import LATER, Progress, Task
-from .surface import Surface
+from .outcomes import LATER, Task
 from .triangles import areas, density_ratio
 from .wording import counted
 
@@ -37,53 +36,39 @@ class SphereIsland(DomainIsland):
         """Faces of the surface with torn triangles."""
         return np.unique(self.island.triangle_face[self.torn])
 
+    def map(self, koebe: ModuleType, task: Task, choice: SphereChoice, loops: list[np.ndarray], **run: Any) -> None:
+        """As of `DomainIsland`."""
+        result = self._solve(koebe.sphere_map, choice, **run)
+        self.take_corners(task.surface, result.uv.astype(np.float32))
+        self.torn = np.asarray(result.layout["torn"], dtype=np.int64)
+        self.result = result
+
 
 class SphereOutcome(DomainOutcome):
     """What became of one surface: each island has the layout for itself."""
 
+    kind = SphereIsland
     choice: SphereChoice
 
-    def notes(self, one: SphereIsland) -> list[str]:
-        count = len(one.torn_faces)
-        text = f"{counted(count, 'face')} {WHERE_TORN[self.choice.layout]} torn in the UVs: none fit there"
-        return [text] if count else []
+    def notes(self) -> list[tuple[SphereIsland, str]]:
+        """Faces that fit nowhere."""
+        where = f"{WHERE_TORN[self.choice.layout]} torn in the UVs: none fit there"
+        found = [(one, len(one.torn_faces)) for one in self.mapped]
+        return [(one, f"{counted(count, 'face')} {where}") for one, count in found if count]
 
     def figures(self) -> list[str]:
         caps = sum(len(one.result.loops) for one in self.mapped)
         torn = sum(len(one.torn_faces) for one in self.mapped)
         return [self.choice.layout, counted(caps, "cap"), f"{torn} torn"]
 
+    def _adapt(self, one: SphereIsland, result: dict[str, Any]) -> None:
+        """All else is of the sphere; `layout` is of the UVs."""
+        for key in ("crossing", "torn", "flipped", "below_resolution"):
+            result["layout"][key] = one.faces(result["layout"][key])
 
-def map_spheres(
-    koebe: ModuleType, task: Task, choice: SphereChoice, progress: Progress | None = None, cancel: Any = None
-) -> SphereOutcome:
-    """Map each island of the selected faces of a surface to the sphere. Polygons stay whole.
+    def _row(self, one: SphereIsland) -> dict[str, Any]:
+        own = {"layout": self.choice.layout, "density": one.density_ratio, "torn_faces": one.torn_faces.tolist()}
+        return {**super()._row(one), **own}
 
-    Errors are those of their islands; `koebe.Cancelled` goes on.
-    """
-    outcome = SphereOutcome(task, choice, [SphereIsland(island) for island in islands_to_map(task.surface)])
-
-    def map_one(one: SphereIsland, own: Progress | None) -> None:
-        _map(koebe, task.surface, one, choice, own, cancel)
-
-    map_islands(koebe, outcome.islands, choice.most_lost, map_one, progress)
-    return outcome
-
-
-def _map(
-    koebe: ModuleType,
-    surface: Surface,
-    one: SphereIsland,
-    choice: SphereChoice,
-    progress: Progress | None,
-    cancel: Any,
-) -> None:
-    island = one.island
-    checked_loops(koebe, island, choice.domain)
-    result = koebe.sphere_map(
-        island.vertices, island.triangles, polygon=island.triangle_face, progress=progress, cancel=cancel,
-        **choice.solver_arguments(),
-    )  # fmt: skip
-    one.take_corners(surface, result.uv.astype(np.float32))
-    one.torn = np.asarray(result.layout["torn"], dtype=np.int64)
-    one.result = result
+    def _loop_row(self, one: SphereIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
+        return {"radius": of_loop["radius"], "name": f"{number + 1}"}

@@ -6,8 +6,8 @@ from types import ModuleType
 import numpy as np
 
 from .circle_domain import DomainError, domain_in
+from .disk_outcomes import IslandOutcome
 from .mirror import symmetric
-from .outcomes import IslandOutcome
 
 WORSE, NOISE = 1.05, 0.05  # times the angle error, and degrees beside: what symmetry may cost
 
@@ -19,7 +19,8 @@ def make_symmetric(koebe: ModuleType, one: IslandOutcome) -> None:
         return
     try:
         domain = domain_in(koebe, one.island, one.uv)
-        made = symmetric(domain.numbered([int(one.island.source_vertex[loop].min()) for loop in one.result.loops[1:]]))
+        keys = [int(one.island.source_vertex[loop].min()) for loop in one.result.loops[1:]]
+        made = symmetric(koebe, domain.numbered(keys))
     except DomainError as error:
         one.remark = f"not made symmetric: {error}"
         return

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .domain_outcomes import DomainIsland, DomainOutcome, checked_loops, islands_to_map, map_islands
+from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import MapError
 from .options import TileChoice
-from .outcomes import LATER, Progress, Task
-from .surface import Island, Surface
+from .outcomes import LATER, Task
+from .surface import Island
 from .tile_fit import FittedTile, fitted
 from .triangles import density_ratio, signed_areas
 from .wording import counted, own_warning
@@ -47,9 +47,23 @@ class TileIsland(DomainIsland):
         x, y = matrix @ np.array(loop["center"]) + offset
         return (float(x), float(y)), float(loop["radius"] * matrix[0, 0])
 
+    def map(self, koebe: ModuleType, task: Task, choice: TileChoice, loops: list[np.ndarray], **run: Any) -> None:
+        """As of `DomainIsland`."""
+        arguments: dict[str, Any] = {}
+        if choice.domain == "ring":
+            outer, inner = rims_of(self.island, loops, choice.rims, task.picked)
+            arguments = {"outer": outer, "inner": inner}
+        result = self._solve(getattr(koebe, f"{choice.domain}_map"), choice, **arguments, **run)
+        self.tile = fitted(result.uv, self.island.triangles, result.periods, choice.fit)
+        self.take_corners(task.surface, self.tile.uv)
+        self.result = result
+
 
 class TileOutcome(DomainOutcome):
     """What became of one surface: each island fills the UV square for itself."""
+
+    kind = TileIsland
+    choice: TileChoice
 
     def warnings(self, one: TileIsland) -> list[dict[str, Any]]:
         lost = len(np.setdiff1d(one.flipped, one.result.flipped_faces))
@@ -61,6 +75,36 @@ class TileOutcome(DomainOutcome):
         loops = counted(sum(len(result.loops) for result in results), "loop")
         return ["modulus " + modulus_text(results[0]), loops] if len(results) == 1 else [loops]
 
+    def _entry(self, index: int, one: TileIsland) -> dict[str, Any]:
+        entry = super()._entry(index, one)
+        return entry if one.result is None else {**entry, "fit": self.choice.fit}
+
+    def _adapt(self, one: TileIsland, result: dict[str, Any]) -> None:
+        """Loops, periods and angles are those of the tile as it is fitted."""
+        is_square, (matrix, offset) = self.choice.fit == "square", one.tile.move
+        for loop in result["loops"]:
+            if "slit" in loop:
+                loop["slit"] = (np.array(loop["slit"]) @ matrix.T + offset).tolist()
+            if "center" in loop and self.choice.domain == "torus":
+                if is_square:  # an ellipse
+                    del loop["center"], loop["radius"]
+                else:
+                    center, loop["radius"] = one.circle(loop, self.choice.fit)
+                    loop["center"] = list(center)
+        result["periods"] = one.tile.periods.tolist()
+        if is_square:
+            result.update(one.stored.report)
+
+    def _row(self, one: TileIsland) -> dict[str, Any]:
+        own = {"modulus": modulus_text(one.result), "periods": periods_text(one.tile)}
+        return {**super()._row(one), **own, "cut_length": one.result.cut_length}
+
+    def _loop_row(self, one: TileIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
+        center, radius = one.circle(of_loop, self.choice.fit)
+        holes_before = number + 1 - 2 * (self.choice.domain == "ring")
+        name = ("Rim", "Rim 2")[number] if of_loop["rim"] else f"{holes_before}"
+        return {"uv_center": center, "uv_radius": radius, "name": name}
+
 
 def modulus_text(result: "TileMap") -> str:
     """Of a torus the ratio of its periods, of a cylinder i times its height over its period."""
@@ -71,52 +115,6 @@ def modulus_text(result: "TileMap") -> str:
 def periods_text(tile: FittedTile) -> str:
     """The periods in UVs."""
     return " and ".join(f"({u:.4f}, {v:.4f})" for u, v in tile.periods)
-
-
-def map_tiles(
-    koebe: ModuleType,
-    task: Task,
-    choice: TileChoice,
-    picked: np.ndarray | None = None,
-    progress: Progress | None = None,
-    cancel: Any = None,
-) -> TileOutcome:
-    """Map each island of the selected faces of a surface to a tile. Polygons stay whole.
-
-    picked  (V,) bool, vertices by which the rims of rings are known, or None
-    Errors are those of their islands; `koebe.Cancelled` goes on.
-    """
-    outcome = TileOutcome(task, choice, [TileIsland(island) for island in islands_to_map(task.surface)])
-
-    def map_one(one: TileIsland, own: Progress | None) -> None:
-        _map(koebe, task.surface, one, choice, picked, own, cancel)
-
-    map_islands(koebe, outcome.islands, choice.most_lost, map_one, progress)
-    return outcome
-
-
-def _map(
-    koebe: ModuleType,
-    surface: Surface,
-    one: TileIsland,
-    choice: TileChoice,
-    picked: np.ndarray | None,
-    progress: Progress | None,
-    cancel: Any,
-) -> None:
-    island = one.island
-    loops = checked_loops(koebe, island, choice.domain)
-    arguments = choice.solver_arguments()
-    if choice.domain == "ring":
-        outer, inner = rims_of(island, loops, choice.rims, picked)
-        arguments.update(outer=outer, inner=inner)
-    function = getattr(koebe, f"{choice.domain}_map")
-    result = function(
-        island.vertices, island.triangles, polygon=island.triangle_face, progress=progress, cancel=cancel, **arguments
-    )
-    one.tile = fitted(result.uv, island.triangles, result.periods, choice.fit)
-    one.take_corners(surface, one.tile.uv)
-    one.result = result
 
 
 def rims_of(island: Island, loops: list[np.ndarray], rims: str, picked: np.ndarray | None) -> tuple[int, int]:

@@ -4,6 +4,7 @@
 import dataclasses
 import heapq
 from collections.abc import Sequence
+from types import ModuleType
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from .triangles import as_complex, as_points
 Tube = tuple[Island, np.ndarray, Sequence[np.ndarray], bool]
 
 
-def unroll(surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.ndarray] | None]:
+def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.ndarray] | None]:
     """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
 
     A tube is (island, uv, loops, is_piece): `uv` maps the island to the unit disk with a round hole; `loops` are its
@@ -31,7 +32,7 @@ def unroll(surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.nda
     vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
     seam, selected, opened = surface.seam.copy(), np.zeros_like(surface.selected), []
     for island, uv, loops, is_piece in tubes:
-        annulus = concentric(as_complex(uv), loops[1])
+        annulus = concentric(koebe, as_complex(uv), loops[1])
         log = np.log(np.abs(annulus)) + 1j * np.angle(annulus)
         vertex[island.corners] = island.corner_vertex
         edges, first, uses = np.unique(surface.corner_edge[island.corners], return_index=True, return_counts=True)
@@ -89,13 +90,11 @@ def _turned_like(sheet: Island, island: Island) -> Island:
     return dataclasses.replace(sheet, triangles=triangles)
 
 
-def concentric(z: np.ndarray, inner: np.ndarray) -> np.ndarray:
+def concentric(koebe: ModuleType, z: np.ndarray, inner: np.ndarray) -> np.ndarray:
     """Points of the unit disk after the automorphism that brings the circle through z[inner] around 0."""
-    points = z[inner]
-    system = np.column_stack([points.real, points.imag, np.ones(len(points))])
-    x, y, rest = np.linalg.lstsq(system, np.abs(points) ** 2, rcond=None)[0]  # circle fit, Kåsa 1976
-    center = 0.5 * complex(x, y)
-    radius, distance = np.sqrt(rest + abs(center) ** 2), abs(center)
+    place, radius, _ = koebe.fit_circle(as_points(z[inner]))
+    center = complex(*place)
+    distance = abs(center)
     near, far = distance - radius, distance + radius
     if distance < 1e-15:
         return z

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from .errors import elements_of, kind_of
-from .outcomes import Failed, Failures, IslandOutcome, Mapped, SurfaceOutcome, Task
 
 if TYPE_CHECKING:
     import koebe
@@ -25,39 +24,40 @@ REASONS = {
 }
 PINNED = "its pins are not kept: a map to a circle domain leaves nothing that a pin could hold"
 MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
+UNEVEN_TEXELS = "texels very uneven: Unwrap to Parts makes them even"
 UNEVEN = "its texels are very uneven: Unwrap to Parts makes them even"
 MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %: more than that cannot be painted on
 MOST_TOLD = 1000.0  # of such a ratio: a larger one tells no more
 FEW = 6  # reasons in one message, which has to fit on the screen
-# The kind of warning that the solver gives of its disk in 32 bits; it does not hold for the rectangle made of it.
-OF_THE_DISK = "below_resolution"
 
 
-def result_line(outcome: SurfaceOutcome) -> str:
-    """One line on a surface: loops, sweeps, roundness, angle error, flips, seconds."""
-    results = [one.result for one in outcome.mapped]
-    triangles = np.array([len(one.island.triangles) for one in outcome.mapped], dtype=float)
-    angle = sum(one.angle_error * t for one, t in zip(outcome.mapped, triangles)) / triangles.sum()
-    words = [
-        counted(sum(len(r.loops) for r in results), "loop"),
-        counted(max(r.sweeps for r in results), "sweep"),
-        f"roundness {max(float(np.max(r.roundness)) for r in results):.1e}",
-        f"angle error {angle:.2f}°",
-        counted(sum(len(one.flipped) for one in outcome.mapped), "flip"),
-        f"{sum(r.seconds['total'] for r in results):.2f} s",
-    ]
-    if len(results) > 1:
-        words.insert(0, counted(len(results), "island"))
-    if outcome.lost:
-        words.insert(0, f"LOST {max(100.0 * one.stored.lost_area for one in outcome.lost):.2g} % OF THE AREA")
-    if not outcome.converged:
-        words.append("NOT CONVERGED")
-    edges = sum(cut_edges(opening) for opening in outcome.openings)
-    if edges:
-        words.append(f"cut along {counted(edges, 'edge')}")
-    if any(too_uneven(one) for one in outcome.mapped):
-        words.append("texels very uneven: Unwrap to Parts makes them even")
-    return f"{outcome.name}: {', '.join(words)}"
+class Mapped(Protocol):
+    """An island with a map, and how even its texels are."""
+
+    @property
+    def result(self) -> Any: ...
+    @property
+    def density_ratio(self) -> float: ...
+
+
+class Failed(Protocol):
+    """Why something could not be mapped."""
+
+    @property
+    def error(self) -> Exception | None: ...
+
+
+class Failures(Protocol):
+    """What became of a surface, as far as it could not be mapped, or not be written."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def not_written(self) -> str | None: ...
+    @property
+    def islands(self) -> Sequence[Failed]: ...
+    @property
+    def failed(self) -> Sequence[Failed]: ...
 
 
 def cut_edges(opening: "Opening") -> int:
@@ -90,22 +90,6 @@ def cut_line(opening: "Opening") -> str:
     if len(opening.left_out):
         words.append(f"{counted(len(opening.left_out), 'face')} left out, degenerate or double")
     return "in the UVs: " + ", ".join(words)
-
-
-def notes(outcome: SurfaceOutcome) -> list[tuple[IslandOutcome, str]]:
-    """What was done to the mapped islands beside their maps, each said once: cuts, symmetry."""
-    found: list[tuple[IslandOutcome, str]] = []
-    said: set[int] = set()
-    for one in outcome.mapped:
-        if one.opening is not None and id(one.opening) not in said:
-            said.add(id(one.opening))
-            found.append((one, cut_line(one.opening)))
-        if one.symmetry is not None:
-            moved = f"moved by {one.symmetry.moved:.1e} at most"
-            found.append((one, f"made symmetric, {counted(one.symmetry.pairs, 'pair')} of vertices, {moved}"))
-        elif one.remark:
-            found.append((one, one.remark))
-    return found
 
 
 def density_text(ratio: float) -> str:
@@ -153,22 +137,6 @@ def explain(error: Exception | None) -> str:
         pairs=counted(count // 2, "edge"),
         vertices=counted(count, "vertex", "vertices"),
     )
-
-
-def warnings(task: Task, one: IslandOutcome) -> list[dict[str, Any]]:
-    """What to watch out for in a mapped island: kind, elements in the mesh's numbers (those of loops aside), text."""
-    native = [
-        in_mesh(one.island, warning)
-        for warning in one.result.warnings
-        if warning.kind != "lost_area" and not (one.unrolled and warning.kind == OF_THE_DISK)
-    ]
-    lost = own_warning("lost_area", one.lost, np.unique(one.sheet.triangle_face[one.flipped]) if one.lost else ())
-    return [*[lost] * bool(one.lost), *native, *own_warnings(task)]
-
-
-def own_warnings(task: Task) -> list[dict[str, Any]]:
-    """What to watch out for in all islands of a surface, beside what the solver warns of."""
-    return [own_warning("mirrored", MIRRORED)] * task.mirrored + [own_warning("pinned", PINNED)] * task.pinned
 
 
 def own_warning(kind: str, text: str, elements: Iterable[int] = ()) -> dict[str, Any]:

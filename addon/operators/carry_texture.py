@@ -59,7 +59,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
             note_group(run, report_of(context))
             shapes.carried.clear()
             for one in done:
-                run_report.record_moved(context, one.name, job.layer, one.shape.island, one)
+                run_report.record_moved(context, job.koebe, one.name, job.layer, one.shape.island, one)
                 entry = shapes.carried.add()
                 entry.name, entry.measured, entry.distance, entry.message = one.name, True, one.residual, one.message
             redraw(context)

@@ -13,6 +13,7 @@ from ..blender.targets import attempt, check_mesh, target_objects, with_own_mesh
 from ..blender.transaction import Transaction, transaction
 from ..maps import distortion
 from ..maps.wording import few, lines
+from .polls import has_targets
 
 KINDS = [
     ("none", "Off", "Take the colours off and show the materials again"),
@@ -39,10 +40,7 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
-            cls.poll_message_set("Select a mesh object, in Object Mode or in Edit Mode")
-            return False
-        return True
+        return has_targets(cls, context, "Select a mesh object, in Object Mode or in Edit Mode")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         with transaction() as run:

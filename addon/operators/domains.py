@@ -4,14 +4,9 @@ surfaces with handles cut open."""
 
 import bpy
 
-from ..blender import edit_mode
 from ..blender.targets import target_objects
-from ..blender.transaction import transaction
 from ..jobs.domain_job import DomainJob, SchottkyJob, SphereJob
 from ..jobs.tile_job import TileJob
-from ..maps import wording
-from ..maps.options import SchottkyChoice, SphereChoice
-from ..state import run_report
 from ..state.option_properties import (
     ACCURACY_NAMES,
     RingProperties,
@@ -22,10 +17,12 @@ from ..state.option_properties import (
     option_names,
     written_options_of,
 )
-from .modal_run import redraw
 from .run_operator import MapOperator
-from .select_from_report import select_offenders
 from .tooltip import tooltip
+
+JOBS: dict[str, type[DomainJob]] = {
+    "torus": TileJob, "ring": TileJob, "sphere": SphereJob, "schottky": SchottkyJob,
+}  # fmt: skip
 
 
 def shown(domain: str) -> tuple[str, ...]:
@@ -39,38 +36,8 @@ class DomainOperator(MapOperator):
     domain: str
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> DomainJob:
-        choice, options = choice_of(self.domain, self), written_options_of(self)
-        objects = target_objects(context)
-        if isinstance(choice, SphereChoice):
-            return SphereJob(objects, options, choice, selected_only, refused=[])
-        if isinstance(choice, SchottkyChoice):
-            return SchottkyJob(objects, options, choice, selected_only, refused=[])
-        return TileJob(objects, options, choice, selected_only, refused=[])
-
-    def _finish(self, context: bpy.types.Context, job: DomainJob) -> set[str]:
-        """Write what was computed, each object wholly or not at all, and say what became of it."""
-        with transaction() as run:
-            with edit_mode.left_if_faster(run, context):
-                job.write(run)
-            run_report.record_domains(run, context, job.outcomes, job.options.layer, job.refused)
-            selected = select_offenders(run, context, job)
-            redraw(context)
-            edit_mode.undo_all(context)
-            answer = self._say(job)
-            if selected and answer == {"CANCELLED"}:  # after which Blender makes no undo step
-                bpy.ops.ed.undo_push(message="Select What Is Wrong")
-            return answer
-
-    def _say(self, job: DomainJob) -> set[str]:
-        failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
-        results: list[tuple[str, bool, list[str], list[str]]] = []
-        for outcome in job.outcomes:
-            if outcome.mapped:
-                found = [warning["text"] for one in outcome.mapped for warning in outcome.warnings(one)]
-                warnings = [f"{outcome.name}: {text}" for text in [*found, *outcome.remarks]]
-                notes = [f"{outcome.name}: {text}" for one in outcome.mapped for text in outcome.notes(one)]
-                results.append((outcome.line(), outcome.converged, notes, warnings))
-        return self._tell(job, failures, results)
+        choice = choice_of(self.domain, self)
+        return JOBS[self.domain](target_objects(context), written_options_of(self), choice, selected_only, refused=[])
 
 
 class UV_OT_koebe_torus(DomainOperator, TorusProperties, bpy.types.Operator):
@@ -80,7 +47,6 @@ class UV_OT_koebe_torus(DomainOperator, TorusProperties, bpy.types.Operator):
     bl_idname = "uv.koebe_torus"
     bl_label = "Koebe Unwrap to Torus Tile"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
     domain = "torus"
     options_shown = shown("torus")
 
@@ -92,7 +58,6 @@ class UV_OT_koebe_ring(DomainOperator, RingProperties, bpy.types.Operator):
     bl_idname = "uv.koebe_ring"
     bl_label = "Koebe Unwrap to Cylinder"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
     domain = "ring"
     options_shown = shown("ring")
 
@@ -104,7 +69,6 @@ class UV_OT_koebe_sphere(DomainOperator, SphereProperties, bpy.types.Operator):
     bl_idname = "uv.koebe_sphere"
     bl_label = "Koebe Unwrap to Sphere"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
     domain = "sphere"
     options_shown = shown("sphere")
 
@@ -116,7 +80,6 @@ class UV_OT_koebe_schottky(DomainOperator, SchottkyProperties, bpy.types.Operato
     bl_idname = "uv.koebe_schottky"
     bl_label = "Koebe Unwrap Handles"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
     domain = "schottky"
     options_shown = shown("schottky")
 

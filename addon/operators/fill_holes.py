@@ -9,9 +9,8 @@ from ..blender import hole_filling
 from ..blender.filled_mesh import FillPlan
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
-from ..jobs import native_package
 from ..maps.wording import counted, few, lines
-from ..solver.errors import NativeError
+from .polls import has_targets, native_or_told
 from .tooltip import tooltip
 
 
@@ -37,16 +36,11 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
-            cls.poll_message_set("Select a mesh object")
-            return False
-        return True
+        return has_targets(cls, context, "Select a mesh object")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            koebe = native_package.load()
-        except NativeError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
+        koebe = native_or_told(self)
+        if koebe is None:
             return {"CANCELLED"}
         plans: list[FillPlan] = []
         with transaction() as run:

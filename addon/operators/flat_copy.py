@@ -15,6 +15,7 @@ from ..jobs.flat_job import Flat, read_flat
 from ..maps.flat_svg import flat_svg
 from ..maps.wording import few, lines
 from .modal_run import OperatorBase
+from .polls import has_targets
 from .tooltip import tooltip
 
 GAP = 0.05  # of a layout's width, between two objects
@@ -26,10 +27,7 @@ class FlatOperator(OperatorBase):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.mode != "OBJECT" or not target_objects(context):
-            cls.poll_message_set("Select a mapped mesh object, in Object Mode")
-            return False
-        return True
+        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
 
     def _read(self, context: bpy.types.Context, layer: str) -> tuple[list[Flat], list[str]]:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date

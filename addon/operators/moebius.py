@@ -24,6 +24,7 @@ from ..solver.errors import NativeError
 from ..state import moved_circles
 from ..state.run_report import report_of
 from .modal_run import redraw
+from .polls import has_targets
 from .tooltip import tooltip
 
 NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to take hold of a hole, to be no drag, to come to rest in the middle
@@ -79,10 +80,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
-            cls.poll_message_set("Select a mapped mesh object, in Object Mode or in Edit Mode")
-            return False
-        return True
+        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode or in Edit Mode")
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout

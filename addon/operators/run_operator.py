@@ -5,13 +5,17 @@ from typing import Any
 
 import bpy
 
+from ..blender import edit_mode
 from ..blender.errors import TransferError
 from ..blender.targets import target_objects
+from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
 from ..maps.options import OptionError
-from ..maps.wording import few, lines
+from ..maps.wording import failure_line, few, lines
 from ..solver.errors import NativeError
-from .modal_run import ModalRun
+from ..state import run_report
+from .modal_run import ModalRun, redraw
+from .select_from_report import select_offenders
 
 NEEDS = {  # options that matter with others alone
     "margin": lambda options: options.placement != "keep",
@@ -54,11 +58,12 @@ def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 class MapOperator(ModalRun):
-    """Mixed into operators that map the selected objects.
+    """Mixed into operators that map the selected objects. A kind of map says what its job is.
 
     options_shown  the names of the properties in the redo panel
     """
 
+    bl_options = {"REGISTER", "UNDO"}
     options_shown: tuple[str, ...]
 
     @classmethod
@@ -84,22 +89,38 @@ class MapOperator(ModalRun):
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return None
 
-    def _tell(self, job: Job, failures: list[str], results: list[tuple[str, bool, list[str], list[str]]]) -> set[str]:
-        """Say what became of the objects.
+    def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
+        """Write what was computed, each object wholly or not at all, and say what became of it."""
+        with transaction() as run:
+            self._write(run, context, job)
+            run_report.record(run, context, job.rows())
+            selected = select_offenders(run, context, job)
+            redraw(context)
+            edit_mode.undo_all(context)
+            answer = self._tell(job)
+            if selected and answer == {"CANCELLED"}:  # after which Blender makes no undo step
+                bpy.ops.ed.undo_push(message="Select What Is Wrong")
+            return answer
 
-        failures  why islands or objects have no new UVs, beside the objects that the job has refused
-        results   of each object that has: its line, whether it is good, what was done beside, what to watch out for
-        """
-        failures = [*failures, *(text for _, text in job.refused)]
+    def _write(self, run: Transaction, context: bpy.types.Context, job: Job) -> None:
+        with edit_mode.left_if_faster(run, context):
+            job.write(run)
+
+    def _tell(self, job: Job) -> set[str]:
+        """Say what became of the objects: of each that was mapped its line, what was done beside, what to watch out
+        for; then why islands or objects have no new UVs."""
+        failures = [failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
+        failures += [text for _, text in job.refused]
         if not job.mapped_any:
             self.report({"ERROR"}, lines("Koebe UV: nothing was mapped.", failures))
             return {"CANCELLED"}
-        for line, is_good, notes, warnings in results:
-            self.report({"INFO"} if is_good else {"WARNING"}, line)
-            for note in notes:
-                self.report({"INFO"}, note)
-            for warning in dict.fromkeys(warnings):
-                self.report({"WARNING"}, warning)
+        for outcome in job.outcomes:
+            if outcome.mapped:
+                self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.line())
+                for note in outcome.said_notes():
+                    self.report({"INFO"}, f"{outcome.name}: {note}")
+                for warning in dict.fromkeys([*outcome.said_warnings(), *outcome.remarks]):
+                    self.report({"WARNING"}, f"{outcome.name}: {warning}")
         if failures:
             self.report({"WARNING"}, "Koebe UV: not mapped. " + few(failures))
         return {"FINISHED"}

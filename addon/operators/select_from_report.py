@@ -11,7 +11,7 @@ from ..blender.mesh_object import MeshObject
 from ..blender.selection import edges_along, select_only
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
-from ..maps.offending_elements import EDGES, FACES, VERTICES, offending_elements
+from ..maps.offending_elements import EDGES, FACES, VERTICES
 from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object
 from .modal_run import OperatorBase
 from .tooltip import tooltip
@@ -74,28 +74,33 @@ class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
         return json.loads(entry.offenders)
 
 
-class UV_OT_koebe_select_flipped(ReportOperator, bpy.types.Operator):
+class FacesOperator(ReportOperator):
+    """Selects faces that the report names in a text of JSON."""
+
+    faces: str
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        return FACES, json.loads(getattr(entry, self.faces) or "[]")
+
+
+class UV_OT_koebe_select_flipped(FacesOperator, bpy.types.Operator):
     """Select, in Edit Mode, the faces of this island that are turned over in the UVs: their area there is zero
     or negative, so a texture shows mirrored or not at all"""
 
     bl_idname = "uv.koebe_select_flipped"
     bl_label = "Select Flipped Faces"
     bl_description = tooltip(__doc__)
-
-    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
-        return FACES, json.loads(entry.flipped_faces or "[]")
+    faces = "flipped_faces"
 
 
-class UV_OT_koebe_select_torn(ReportOperator, bpy.types.Operator):
+class UV_OT_koebe_select_torn(FacesOperator, bpy.types.Operator):
     """Select, in Edit Mode, the faces of this island that fit to no UVs of the sphere's layout, as they lie round a
     pole or round the middle of a side of the square"""
 
     bl_idname = "uv.koebe_select_torn"
     bl_label = "Select Torn Faces"
     bl_description = tooltip(__doc__)
-
-    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
-        return FACES, json.loads(entry.torn_faces or "[]")
+    faces = "torn_faces"
 
 
 class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
@@ -155,8 +160,7 @@ def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> 
     for target, outcome in zip(job.targets, job.outcomes, strict=True):
         obj = target.obj
         if obj is not None and obj.mode == "EDIT" and not outcome.not_written:
-            found = (offending_elements(outcome.task.surface, failure) for failure in outcome.failed)
-            chosen += [(obj, kind, elements) for kind, elements in found]
+            chosen += [(obj, *found) for found in outcome.offending()]
     if chosen:
         select_only(run, context, chosen)
     return bool(chosen)

@@ -7,11 +7,9 @@ import bpy
 
 from ..blender import edit_mode
 from ..blender.targets import target_objects
-from ..blender.transaction import transaction
+from ..blender.transaction import Transaction
 from ..jobs.sequence_job import SequenceJob
-from ..maps import wording
 from ..maps.options import SequenceChoice
-from ..state import run_report
 from ..state.option_properties import (
     ACCURACY_NAMES,
     RANGE_NAMES,
@@ -19,7 +17,6 @@ from ..state.option_properties import (
     SequenceProperties,
     sequence_options_of,
 )
-from .modal_run import redraw
 from .run_operator import MapOperator
 from .tooltip import tooltip
 
@@ -31,7 +28,6 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
     bl_idname = "uv.koebe_sequence"
     bl_label = "Koebe Unwrap Sequence"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
     options_shown = tuple(sorted(SEQUENCE_OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
 
     @classmethod
@@ -54,28 +50,12 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
     def _reading(self, context: bpy.types.Context, job: SequenceJob) -> Generator[float, None, None]:
         return job.read_shapes(context)
 
-    def _finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
-        """Write what was computed, all of it or nothing, and say what became of it."""
-        with transaction() as run:
-            in_object_mode = job.choice.target == "ATTRIBUTE"
-            back = edit_mode.leave(run, context) if in_object_mode else None
-            with edit_mode.left_if_faster(run, context):
-                job.write(run)
-            if back is not None:
-                back()
-            run_report.record_sequences(run, context, [(outcome, job.written(outcome)) for outcome in job.outcomes])
-            redraw(context)
-            edit_mode.undo_all(context)
-            return self._say(job)
-
-    def _say(self, job: SequenceJob) -> set[str]:
-        failures = [wording.failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
-        results: list[tuple[str, bool, list[str], list[str]]] = []
-        for outcome in job.outcomes:
-            if outcome.mapped:
-                warnings = [f"{outcome.name}: {text}" for text in [*outcome.warnings(), *outcome.remarks]]
-                results.append((outcome.line(), outcome.converged and not outcome.alike, [], warnings))
-        return self._tell(job, failures, results)
+    def _write(self, run: Transaction, context: bpy.types.Context, job: SequenceJob) -> None:
+        """Attributes are written in Object Mode."""
+        back = edit_mode.leave(run, context) if job.choice.target == "ATTRIBUTE" else None
+        super()._write(run, context, job)
+        if back is not None:
+            back()
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_sequence,))

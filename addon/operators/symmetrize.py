@@ -9,16 +9,15 @@ from ..blender.errors import TransferError
 from ..blender.noted_properties import note_group
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
-from ..jobs import native_package
 from ..jobs.moebius_job import MoebiusJob
 from ..maps.circle_domain import DomainError
 from ..maps.mirror import Symmetry, symmetric
 from ..maps.wording import few, lines
-from ..solver.errors import NativeError
 from ..state import moved_circles
 from ..state.run_report import report_of
 from .modal_run import redraw
 from .moebius import numbered
+from .polls import has_targets, native_or_told
 from .tooltip import tooltip
 
 Done = tuple[MoebiusJob, Symmetry]
@@ -37,17 +36,12 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.mode not in {"OBJECT", "EDIT_MESH"} or not target_objects(context):
-            cls.poll_message_set("Select a mapped mesh object, in Object Mode or in Edit Mode")
-            return False
-        return True
+        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode or in Edit Mode")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-        try:
-            koebe = native_package.load()
-        except NativeError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
+        koebe = native_or_told(self)
+        if koebe is None:
             return {"CANCELLED"}
         problems: list[str] = []
         done: list[Done] = []
@@ -64,7 +58,7 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
         found, refused = [], []
         for domain in job.domains:
             try:
-                found.append((job, symmetric(numbered(context, job, domain))))
+                found.append((job, symmetric(job.koebe, numbered(context, job, domain))))
             except DomainError as error:
                 refused.append(str(error))
         if not found:

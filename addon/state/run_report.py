@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The last run's report, island by island, kept with the window manager for the panel to show."""
 
-import contextlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable
+from types import ModuleType
 from typing import Any
 
 import bpy
@@ -14,24 +14,14 @@ from bpy.props import (
     FloatProperty,
     FloatVectorProperty,
     IntProperty,
-    PointerProperty,
     StringProperty,
 )
 
 from ..blender.noted_properties import note_group
 from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried
-from ..maps.circle_fit import fitted_circle
-from ..maps.domain_outcomes import DomainOutcome
-from ..maps.handles import SchottkyIsland, SchottkyOutcome
-from ..maps.offending_elements import offending_elements
-from ..maps.outcomes import IslandOutcome, SurfaceOutcome
-from ..maps.parts import PartsOutcome
-from ..maps.sequence import SequenceOutcome
-from ..maps.spheres import SphereIsland, SphereOutcome
 from ..maps.surface import Island
-from ..maps.tiles import TileIsland, TileOutcome, modulus_text, periods_text
-from ..maps.wording import cut_line, explain, failure_line, notes, too_uneven, warnings
+from .registering import on_window_manager
 
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
@@ -103,199 +93,28 @@ def report_of(context: bpy.types.Context) -> KoebeReport:
     return context.window_manager.koebe_uv
 
 
-def record(
-    run: Transaction,
-    context: bpy.types.Context,
-    outcomes: list[SurfaceOutcome],
-    layer: str,
-    refused: list[tuple[str, str]],
-) -> None:
-    """Replace the report: by outcomes that were written to a UV layer, and names and reasons of what was left out."""
-    with _new_report(run, context, refused) as report:
-        _record_maps(report, outcomes, layer)
-
-
-def _record_maps(report: KoebeReport, outcomes: list[SurfaceOutcome], layer: str) -> None:
-    for outcome in outcomes:
-        if outcome.not_written:
-            _record_failure(report, outcome.name, outcome.not_written)
-            continue
-        said_of: dict[int, list[str]] = {}
-        for one, text in notes(outcome):
-            said_of.setdefault(id(one), []).append(text)
-        for index, one in enumerate(outcome.islands):
-            entry = report.islands.add()
-            entry.object_name, entry.island, entry.layer = outcome.name, index, layer
-            if one.error is None:
-                _record_result(entry, outcome, one)
-                said = said_of.get(id(one), [])
-                entry.note, entry.uneven = "; ".join(said), too_uneven(one)
-                if one.opening is not None and said and said[0] == cut_line(one.opening):
-                    entry.cuts = json.dumps([
-                        path
-                        for kind, vertices in one.opening.cuts
-                        for path in ([[v] for v in vertices.tolist()] if kind == "bow_tie" else [vertices.tolist()])
-                    ])
-            else:
-                entry.message = explain(one.error)
-                kind, elements = offending_elements(outcome.task.surface, one)
-                entry.offenders = json.dumps([kind, elements.tolist()])
-
-
-@contextlib.contextmanager
-def _new_report(
-    run: Transaction, context: bpy.types.Context, refused: list[tuple[str, str]]
-) -> Iterator[KoebeReport]:
-    """An empty report to fill; what was left out is added to it in the end."""
+def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str, Any]]) -> None:
+    """Replace the report: by rows as of `Outcome.rows`, with the names above. Lists are kept as JSON."""
     report = report_of(context)
     note_group(run, report)
     report.islands.clear()
-    yield report
-    for name, text in refused:
-        _record_failure(report, name, text)
+    for row in rows:
+        entry = report.islands.add()
+        for of_loop in row.pop("loops", ()):
+            _fill(entry.loops.add(), of_loop)
+        _fill(entry, row)
     # What has to be looked at comes first.
     report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
 
 
-def record_sequences(
-    run: Transaction, context: bpy.types.Context, sequences: list[tuple[SequenceOutcome, list[str]]]
+def _fill(group: bpy.types.PropertyGroup, row: dict[str, Any]) -> None:
+    for name, value in row.items():
+        setattr(group, name, json.dumps(value) if isinstance(value, list) else value)
+
+
+def record_moved(
+    context: bpy.types.Context, koebe: ModuleType, name: str, layer: str, island: Island, placed: Carried
 ) -> None:
-    """Replace the report by the sequences of objects, each with the UV layers of its shapes, empty where they are none.
-
-    There is an entry for each shape and island.
-    """
-    with _new_report(run, context, []) as report:
-        for outcome, layers in sequences:
-            if not outcome.mapped:
-                _record_failure(report, outcome.task.name, failure_line(outcome))
-                continue
-            said = outcome.figures()
-            for label, layer, made in zip(outcome.labels, layers, outcome.maps, strict=True):
-                start = len(report.islands)
-                _record_maps(report, [made], layer)
-                for entry in report.islands[start:]:
-                    entry.object_name, entry.shape = outcome.task.name, label
-                    entry.note = "; ".join(filter(None, [said, entry.note]))
-
-
-def record_parts(
-    run: Transaction,
-    context: bpy.types.Context,
-    outcomes: list[PartsOutcome],
-    layer: str,
-    refused: list[tuple[str, str]],
-) -> None:
-    """Replace the report by the parts of objects, an entry for each object. They have no circles to be drawn."""
-    with _new_report(run, context, refused) as report:
-        for outcome in outcomes:
-            if outcome.failed or outcome.not_written:
-                offer = " ".join(getattr(outcome.error, "offer", ()))
-                _record_failure(report, outcome.name, failure_line(outcome), offer)
-            for result in outcome.mapped:
-                entry = report.islands.add()
-                entry.object_name, entry.layer, entry.parts = outcome.name, layer, len(result.parts)
-                entry.mapped = entry.converged = True
-                entry.angle_error, entry.flipped = result.angle_error_stored_deg["mean"], result.flipped
-                entry.converged = result.converged
-                entry.density, entry.cut_length = result.density_ratio_5_95, result.cut_length
-                entry.seconds = result.seconds
-                if outcome.cuts is not None and outcome.cuts.any():
-                    entry.cut_edges = json.dumps(np.flatnonzero(outcome.cuts).tolist())
-                entry.flipped_faces = json.dumps(outcome.flipped_faces.tolist())
-                entry.message = "; ".join([*(warning["text"] for warning in outcome.warnings()), *outcome.remarks])
-
-
-def record_domains(
-    run: Transaction,
-    context: bpy.types.Context,
-    outcomes: list[DomainOutcome],
-    layer: str,
-    refused: list[tuple[str, str]],
-) -> None:
-    """Replace the report by the other domains of objects, an entry for each island."""
-    with _new_report(run, context, refused) as report:
-        for outcome in outcomes:
-            if outcome.not_written:
-                _record_failure(report, outcome.name, outcome.not_written)
-                continue
-            for index, one in enumerate(outcome.islands):
-                entry = report.islands.add()
-                entry.object_name, entry.island, entry.layer = outcome.name, index, layer
-                if one.error is None:
-                    _record_domain(entry, outcome, one)
-                    continue
-                entry.message, entry.offer = explain(one.error), " ".join(getattr(one.error, "offer", ()))
-                kind, elements = offending_elements(outcome.task.surface, one)
-                entry.offenders = json.dumps([kind, elements.tolist()])
-
-
-def _record_domain(entry: KoebeIslandReport, outcome: DomainOutcome, one: Any) -> None:
-    result = one.result
-    entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
-    entry.domain = outcome.choice.domain
-    entry.angle_error, entry.seconds = one.angle_error, result.seconds["total"]
-    entry.flipped, entry.flipped_faces = len(one.flipped), json.dumps(one.flipped_faces.tolist())
-    entry.uneven, entry.cut_edges = too_uneven(one), json.dumps(np.flatnonzero(one.cuts).tolist())
-    entry.message = "; ".join([*(warning["text"] for warning in outcome.warnings(one)), *outcome.remarks])
-    entry.note = "; ".join(outcome.notes(one))
-    for of_loop in result.loops:
-        entry.loops.add().vertices = json.dumps(one.island.source_vertex[of_loop["vertices"]].tolist())
-    if isinstance(outcome, TileOutcome):
-        _record_tile(entry, outcome, one)
-    elif isinstance(outcome, SphereOutcome):
-        _record_sphere(entry, outcome, one)
-    elif isinstance(outcome, SchottkyOutcome):
-        _record_handles(entry, one)
-
-
-def _record_tile(entry: KoebeIslandReport, outcome: TileOutcome, one: TileIsland) -> None:
-    entry.modulus, entry.periods = modulus_text(one.result), periods_text(one.tile)
-    entry.cut_length = one.result.cut_length
-    for number, (loop, of_loop) in enumerate(zip(entry.loops, one.result.loops, strict=True)):
-        loop.uv_center, loop.uv_radius = one.circle(of_loop, outcome.choice.fit)
-        loop.name = ("Rim", "Rim 2")[number] if of_loop["rim"] else f"{number + 1 - 2 * (entry.domain == 'ring')}"
-
-
-def _record_sphere(entry: KoebeIslandReport, outcome: SphereOutcome, one: SphereIsland) -> None:
-    entry.layout, entry.density = outcome.choice.layout, one.density_ratio
-    entry.torn_faces = json.dumps(one.torn_faces.tolist())
-    for number, (loop, of_loop) in enumerate(zip(entry.loops, one.result.loops, strict=True)):
-        loop.radius, loop.name = of_loop["radius"], f"{number + 1}"
-
-
-def _record_handles(entry: KoebeIslandReport, one: SchottkyIsland) -> None:
-    entry.handles, entry.by_circles = len(one.result.handles), one.result.by_circles
-    entry.density = one.density_ratio
-    for number, (loop, (center, radius)) in enumerate(zip(entry.loops, one.circles, strict=True)):
-        loop.uv_center, loop.uv_radius = center, radius
-        loop.name = f"{number}" if number else "Rim"
-
-
-def _record_failure(report: KoebeReport, name: str, text: str, offer: str = "") -> None:
-    """The entry of an object that was left out as a whole."""
-    entry = report.islands.add()
-    entry.object_name, entry.message, entry.offer = name, text.removeprefix(f"{name}: "), offer
-
-
-def _record_result(entry: KoebeIslandReport, outcome: SurfaceOutcome, one: IslandOutcome) -> None:
-    result = one.result
-    entry.mapped, entry.converged, entry.sweeps = True, result.converged, result.sweeps
-    entry.angle_error = one.angle_error
-    entry.roundness = float(result.roundness.max())
-    entry.flipped, entry.seconds = len(one.flipped), result.seconds["total"]
-    entry.flipped_faces = json.dumps(np.unique(one.sheet.triangle_face[one.flipped]).tolist())
-    entry.message = "; ".join([*(warning["text"] for warning in warnings(outcome.task, one)), *outcome.remarks])
-    for vertices, center, uv_radius, radius, roundness in zip(
-        result.loops, *one.circles(), result.radii, result.roundness, strict=True
-    ):
-        loop = entry.loops.add()
-        loop.uv_center = center
-        loop.uv_radius = 0.0 if one.unrolled else float(uv_radius)
-        loop.vertices = json.dumps(one.island.source_vertex[vertices].tolist())
-        loop.radius, loop.roundness = float(radius), float(roundness)
-
-
-def record_moved(context: bpy.types.Context, name: str, layer: str, island: Island, placed: Carried) -> None:
     """Bring the entry of an object of one island up to date with new UVs of the same loops; note the report before.
 
     placed  has uv (n, 2) of the island's vertices, angle_error in degrees and flipped (k,) triangles
@@ -308,7 +127,7 @@ def record_moved(context: bpy.types.Context, name: str, layer: str, island: Isla
         entry.flipped_faces = json.dumps(np.unique(island.triangle_face[placed.flipped]).tolist())
         for loop in entry.loops:
             rim = [number[v] for v in json.loads(loop.vertices) if v in number]
-            center, radius, _ = fitted_circle(placed.uv[rim].astype(np.float64))
+            center, radius, _ = koebe.fit_circle(placed.uv[rim].astype(np.float64))
             loop.uv_center, loop.uv_radius = center, radius
 
 
@@ -326,18 +145,4 @@ def entries_of_object(context: bpy.types.Context) -> list[KoebeIslandReport]:
     return [entry for entry in report_of(context).islands if active and entry.object_name == active.object_name]
 
 
-CLASSES = (KoebeLoopReport, KoebeIslandReport, KoebeReport)
-
-
-def register() -> None:
-    """Register the report and hang it on the window manager, which no undo changes."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.WindowManager.koebe_uv = PointerProperty(type=KoebeReport)
-
-
-def unregister() -> None:
-    """Undo `register`."""
-    del bpy.types.WindowManager.koebe_uv
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = on_window_manager("koebe_uv", KoebeLoopReport, KoebeIslandReport, KoebeReport)

@@ -2,7 +2,9 @@
 """What was found of shapes, kept with the window manager for the panel to show."""
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
+
+from .registering import on_window_manager
 
 
 class KoebeModuleNumber(bpy.types.PropertyGroup):
@@ -33,18 +35,4 @@ def shapes_of(context: bpy.types.Context) -> KoebeShapes:
     return context.window_manager.koebe_shapes
 
 
-CLASSES = (KoebeModuleNumber, KoebeShape, KoebeShapes)
-
-
-def register() -> None:
-    """Register the report and hang it on the window manager."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.WindowManager.koebe_shapes = PointerProperty(type=KoebeShapes)
-
-
-def unregister() -> None:
-    """Undo `register`."""
-    del bpy.types.WindowManager.koebe_shapes
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = on_window_manager("koebe_shapes", KoebeModuleNumber, KoebeShape, KoebeShapes)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
+#include "core/api.h"
 #include "core/types.h"
 
 #include <vector>
@@ -26,7 +27,7 @@ Circle fit_circle_paper(const VectorXcd& points);
 /// start (Kasa 1976), then Gauss-Newton on the distances. Exact for points of a circle, however they are spaced.
 /// Points of a line, within an eighth of a turn, or fewer than three, fall back to fit_circle_paper: a loop that has
 /// collapsed for want of flux is no part of a large circle.
-Circle fit_circle_least_squares(const VectorXcd& points);
+KOEBE_API Circle fit_circle_least_squares(const VectorXcd& points);
 
 /// How far the image of a loop is from a circle, dimensionless, by two measures.
 struct Roundness {

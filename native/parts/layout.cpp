@@ -258,7 +258,7 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
         whole.seam = std::move(seam);
         parts = parts_by_coarse_surface(whole, prices, context, effort);
     }
-    const Mirror mirror = is_large ? Mirror{} : find_mirror(whole);
+    const Mirror mirror = is_large ? Mirror{} : find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
     const bool is_symmetric = make_symmetric(whole, prices, mirror, parts, context, effort);
     if (!is_large) {
         const std::vector<PartPointer> before = parts;

@@ -1,4 +1,4 @@
-#include "surface_binding.h"
+#include "bindings.h"
 
 #include "native_call.h"
 #include "pipeline/surface_solver.h"

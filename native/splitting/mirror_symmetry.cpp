@@ -15,106 +15,8 @@
 namespace koebe {
 namespace {
 
-constexpr double tolerance = 1e-5;  // of the root of the area
-constexpr double worth = 1.5;       // of what the parts cost: symmetric ones may cost so much,
-constexpr double little = 0.03;     // or so much more: the whole area 3 % off in texel density, which nobody sees
-
-/// Points of the unit cube by cells as wide as the tolerance.
-class Cells {
-public:
-    explicit Cells(const Vertices& points) : points_(points)
-    {
-        for (Eigen::Index i = 0; i < points.rows(); ++i)
-            cells_[key(cell(points.row(i)))].push_back(static_cast<Index>(i));
-    }
-    /// The point within the tolerance; -1: none or several.
-    Index at(const Eigen::RowVector3d& place) const
-    {
-        const std::array<long, 3> middle = cell(place);
-        Index found = -1;
-        for (long x = -1; x <= 1; ++x)
-            for (long y = -1; y <= 1; ++y)
-                for (long z = -1; z <= 1; ++z) {
-                    const auto it = cells_.find(key({middle[0] + x, middle[1] + y, middle[2] + z}));
-                    if (it == cells_.end()) continue;
-                    for (const Index i : it->second) {
-                        if ((points_.row(i) - place).norm() > tolerance) continue;
-                        if (found >= 0) return -1;
-                        found = i;
-                    }
-                }
-        return found;
-    }
-
-private:
-    static std::array<long, 3> cell(const Eigen::RowVector3d& place)
-    {
-        std::array<long, 3> result{};
-        for (int k = 0; k < 3; ++k) result[k] = std::lround(std::clamp(place[k] / tolerance, -1e15, 1e15));
-        return result;
-    }
-    static std::uint64_t key(const std::array<long, 3>& at)
-    {
-        std::uint64_t hash = 0;
-        for (const long x : at) hash = (hash ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15ULL;
-        return hash;
-    }
-    const Vertices& points_;
-    std::unordered_map<std::uint64_t, std::vector<Index>> cells_;
-};
-
-std::vector<Index> numbered_groups(const CutSurface& whole, Index& count)
-{
-    std::vector<Index> group(static_cast<std::size_t>(whole.areas.size()));
-    std::unordered_map<Index, Index> number;
-    for (std::size_t f = 0; f < group.size(); ++f)
-        group[f] = number
-                       .try_emplace(whole.polygon.empty() ? static_cast<Index>(f) : whole.polygon[f],
-                                    static_cast<Index>(number.size()))
-                       .first->second;
-    count = static_cast<Index>(number.size());
-    return group;
-}
-
-/// The middle of each polygon's vertices, each once: another diagonal changes nothing.
-Vertices middles_of(const CutSurface& whole, const std::vector<Index>& group, Index count)
-{
-    std::vector<std::vector<Index>> corners(count);
-    for (std::size_t f = 0; f < group.size(); ++f)
-        for (int k = 0; k < 3; ++k)
-            corners[group[f]].push_back(whole.surface.triangles(static_cast<Eigen::Index>(f), k));
-    Vertices middles = Vertices::Zero(count, 3);
-    for (Index g = 0; g < count; ++g) {
-        std::ranges::sort(corners[g]);
-        corners[g].erase(std::unique(corners[g].begin(), corners[g].end()), corners[g].end());
-        for (const Index v : corners[g])
-            middles.row(g) += whole.vertices.row(v) / static_cast<double>(corners[g].size());
-    }
-    return middles;
-}
-
-struct Plane {
-    Eigen::RowVector3d normal;
-    double offset;
-};
-
-/// The normal of a mirror is an axis of the spread of the polygons' middles, where no two are alike.
-std::vector<Plane> candidates(const Vertices& middles)
-{
-    const Eigen::RowVector3d low = middles.colwise().minCoeff(), high = middles.colwise().maxCoeff();
-    std::vector<Plane> planes;
-    for (int k = 0; k < 3; ++k) planes.push_back({Eigen::RowVector3d::Unit(k), 0.5 * (low[k] + high[k])});
-    const Eigen::RowVector3d center = middles.colwise().mean();
-    const Vertices from_center = middles.rowwise() - center;
-    const Eigen::Matrix3d spread = from_center.transpose() * from_center;
-    if (!spread.allFinite()) return planes;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    for (int k = 0; k < 3; ++k) {
-        const Eigen::RowVector3d normal = axes.eigenvectors().col(k).transpose();
-        planes.push_back({normal, normal.dot(center)});
-    }
-    return planes;
-}
+constexpr double worth = 1.5;    // of what the parts cost: symmetric ones may cost so much,
+constexpr double little = 0.03;  // or so much more: the whole area 3 % off in texel density, which nobody sees
 
 double border_of(const CutSurface& whole, const std::vector<PartPointer>& parts)
 {
@@ -174,31 +76,6 @@ std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mi
 }
 
 }  // namespace
-
-Mirror find_mirror(const CutSurface& whole)
-{
-    Mirror mirror;
-    Index count = 0;
-    mirror.group = numbered_groups(whole, count);
-    const Vertices middles = middles_of(whole, mirror.group, count);
-    const Cells cells(middles);
-    for (const Plane& plane : candidates(middles)) {
-        std::vector<Index> image(count, -1);
-        std::vector<double> side(count);
-        bool all = true;
-        for (Index g = 0; g < count && all; ++g) {
-            side[g] = plane.normal.dot(middles.row(g)) - plane.offset;
-            image[g] = cells.at(middles.row(g) - 2.0 * side[g] * plane.normal);
-            all = image[g] >= 0;
-        }
-        for (Index g = 0; g < count && all; ++g) all = image[image[g]] == g;
-        if (!all) continue;
-        mirror.image = std::move(image);
-        mirror.side = std::move(side);
-        break;
-    }
-    return mirror;
-}
 
 bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
                     std::vector<PartPointer>& parts, ExecutionContext& context, SplitEffort& effort)

@@ -118,7 +118,7 @@ def test_the_unit_disks_automorphism_makes_the_annulus_concentric(addon):
     turn = np.cos(angles) + 1j * np.sin(angles)
     z = np.concatenate([turn, 0.3 * turn])
     moved = (z - (0.4 + 0.2j)) / (1 - np.conj(0.4 + 0.2j) * z)
-    found = addon("maps.tube").concentric(moved, np.arange(40, 80))
+    found = addon("maps.tube").concentric(addon("jobs.native_package").load(), moved, np.arange(40, 80))
     assert np.abs(found[:40]) == pytest.approx(1) and np.abs(found[40:]) == pytest.approx(0.3)
 
 

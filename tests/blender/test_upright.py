@@ -90,7 +90,7 @@ def test_the_reported_circles_are_those_of_the_uvs(addon):
     job = addon("jobs.map_job").Job([obj], addon("maps.options").Options())
     job.compute()
     job.write()
-    ((entry,),) = [addon("maps.json_report").entries(outcome) for outcome in job.outcomes]
+    ((entry,),) = [outcome.entries() for outcome in job.outcomes]
     for loop in entry["loops"]:
         center, radius, _ = scenes.fit_circle(vertex_uv(obj)[loop["vertices"]])
         assert (1 + np.array(loop["center"])) / 2 == pytest.approx(center, abs=1e-6)

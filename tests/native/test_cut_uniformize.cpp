@@ -122,20 +122,27 @@ TEST(CutUniformize, pieces_lie_side_by_side_by_their_area)
 
 TEST(CutUniformize, disks_are_packed_apart_within_the_square)
 {
-    std::vector<double> radii;
-    for (int i = 0; i < 60; ++i) radii.push_back(1.0 + (i * 7) % 13);
-    const std::vector<Circle> disks = pack_disks(radii);
-    double area = 0.0;
-    for (std::size_t i = 0; i < disks.size(); ++i) {
-        EXPECT_NEAR(disks[i].radius / disks[0].radius, radii[i] / radii[0], 1e-12);
-        EXPECT_LE(std::abs(disks[i].center.real()) + disks[i].radius, 1.0);
-        EXPECT_LE(std::abs(disks[i].center.imag()) + disks[i].radius, 1.0);
-        for (std::size_t j = 0; j < i; ++j)
-            EXPECT_GT(std::abs(disks[i].center - disks[j].center), disks[i].radius + disks[j].radius);
-        area += 4.0 * disks[i].radius * disks[i].radius;
+    for (const std::size_t count : {2U, 5U, 16U, 17U, 60U, 400U}) {
+        std::vector<double> radii;
+        for (std::size_t i = 0; i < count; ++i) radii.push_back(1.0 + static_cast<double>((i * 7) % 13));
+        const std::vector<Circle> disks = pack_disks(radii, 0.02);
+        const double margin = std::min(0.02, 0.5 / static_cast<double>(count)) - 1e-9;
+        double area = 0.0;
+        for (std::size_t i = 0; i < disks.size(); ++i) {
+            const double border = disks[i].radius + 0.5 * margin;
+            EXPECT_NEAR(disks[i].radius / disks[0].radius, radii[i] / radii[0], 1e-12);
+            for (const double x : {disks[i].center.real(), disks[i].center.imag()}) {
+                EXPECT_GE(x, border);
+                EXPECT_LE(x, 1.0 - border);
+            }
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_GT(std::abs(disks[i].center - disks[j].center), disks[i].radius + disks[j].radius + margin);
+            area += 4.0 * disks[i].radius * disks[i].radius;
+        }
+        EXPECT_GT(area, count < 60 ? 0.58 : 0.7) << count;
     }
-    EXPECT_GT(area, 0.7 * 4.0);
-    EXPECT_EQ(pack_disks({3.0})[0].radius, 1.0);
+    EXPECT_EQ(pack_disks({3.0}, 0.02)[0].radius, 0.5);
+    EXPECT_THROW(pack_disks({1.0, 0.0}, 0.02), InputError);
 }
 
 TEST(CutUniformize, warnings_name_the_faces_of_the_input)

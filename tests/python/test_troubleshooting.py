@@ -21,7 +21,7 @@ NOT_FROM_BLENDER = (
     "the order must name", "center and balance exclude", "a circle domain has one circle", "the first circle must be",
     "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "partners change",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
-    "landmark", "the price must be positive", "an importance", "importance is of the balance",
+    "landmark", "the price must be positive", "an importance", "importance is of the balance", "disks to pack need",
 )  # fmt: skip
 OPTION_ERRORS = "maps/options.py", "batch.py"  # the panel's fields cannot take such values
 

@@ -4,20 +4,19 @@
 #include "cli/commands/map_run.h"
 #include "io/corner_uvs.h"
 
-#include <utility>
-
 namespace koebe::cli {
 
 /// The kind of a map whose result is a CornerMapReport; what it draws and its first words are left out.
-/// @param compute (const Vertices&, const Triangles&, polygon of each triangle, ExecutionContext&) -> Result
-template <typename Result, typename Compute>
-MapKind<Result> corner_map_kind(const MapRequest& request, Compute compute)
+template <typename Result, typename Options>
+MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen,
+                                Result (*map)(const Vertices&, const Triangles&, const Options&, ExecutionContext&))
 {
     MapKind<Result> kind;
-    kind.compute = [compute = std::move(compute)](const MeshInput& input, ExecutionContext& context) {
-        Result result = with_filed_faces(input, [&] {
-            return compute(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, context);
-        });
+    kind.compute = [&chosen, map](const MeshInput& input, ExecutionContext& context) {
+        Options options = chosen;
+        options.polygon = input.triangulation.face;
+        Result result = with_filed_faces(
+            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
         result.turned = filed_faces(input.triangulation, result.turned);
         add_input_warnings(input, result.warnings);
         return result;

@@ -20,12 +20,7 @@ struct Request : MapRequest {
 
 int run(const Request& request)
 {
-    auto kind = corner_map_kind<PartsResult>(
-        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
-            PartsOptions options = request.parts;
-            options.polygon = polygon;
-            return parts_of(vertices, triangles, options, context);
-        });
+    auto kind = corner_map_kind<PartsResult, PartsOptions>(request, request.parts, parts_of);
     kind.many_pieces = true;
     kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
         PartsResult result = compute(input, context);

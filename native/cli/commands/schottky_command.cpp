@@ -24,12 +24,7 @@ struct SchottkyRequest : MapRequest {
 int run_schottky(const SchottkyRequest& request)
 {
     if (request.ends_with_input) end_with_input();
-    auto kind = corner_map_kind<SchottkyResult>(
-        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
-            SchottkyOptions options = request.schottky;
-            options.polygon = polygon;
-            return schottky_map(vertices, triangles, options, context);
-        });
+    auto kind = corner_map_kind<SchottkyResult, SchottkyOptions>(request, request.schottky, schottky_map);
     kind.draw = [](const MeshInput&, const SchottkyResult& result) { return schottky_svg(result); };
     kind.first_words = [](const SchottkyResult& result) {
         return counted(result.handles.size(), "handle") + ", " + counted(result.holes.size(), "loop") + ", " +

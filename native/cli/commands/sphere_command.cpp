@@ -31,12 +31,7 @@ PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
 int run_sphere(const SphereRequest& request)
 {
     if (request.ends_with_input) end_with_input();
-    auto kind = corner_map_kind<SphereResult>(
-        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
-            SphereOptions options = request.sphere_options;
-            options.polygon = polygon;
-            return sphere_map(vertices, triangles, options, context);
-        });
+    auto kind = corner_map_kind<SphereResult, SphereOptions>(request, request.sphere_options, sphere_map);
     kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
         SphereResult result = compute(input, context);
         for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::torn, &SphereLayoutReport::flipped,

@@ -34,12 +34,7 @@ std::string first_words(const TileResult& result)
 int run(const Request& request, TileFunction map)
 {
     if (request.ends_with_input) end_with_input();
-    auto kind = corner_map_kind<TileResult>(
-        request, [&](const auto& vertices, const auto& triangles, const auto& polygon, ExecutionContext& context) {
-            TileOptions options = request.tile;
-            options.polygon = polygon;
-            return map(vertices, triangles, options, context);
-        });
+    auto kind = corner_map_kind(request, request.tile, map);
     kind.draw = [](const MeshInput&, const TileResult& result) { return tile_svg(result); };
     kind.first_words = first_words;
     return run_map_of(request, kind);

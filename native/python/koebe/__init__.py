@@ -18,6 +18,7 @@ from ._cut_result import CutResult
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
+from ._layout import fit_circle, mirror_image, pack_disks
 from ._load import load
 from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
 from ._parts import PartsResult, parts
@@ -79,13 +80,16 @@ __all__ = [
     "distortion",
     "family",
     "fill_holes",
+    "fit_circle",
     "harmonic_map",
     "load",
     "match_loops",
+    "mirror_image",
     "module_distance",
     "module_error",
     "module_names",
     "open_surface",
+    "pack_disks",
     "parts",
     "plot",
     "ring_map",

@@ -1,11 +1,14 @@
 """What the maps to canonical domains other than the disk have in common."""
 
 import copy
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
+from ._input import polygons_of, surface_of
+from ._options import callback, filled, token
 from ._result import MapReport, Seconds, Source, Warning
 
 
@@ -40,6 +43,15 @@ class DomainMap(MapReport):
         """(F,) which faces have UVs that can be drawn."""
         return np.ones(len(self.uv), bool)
 
+    def _counts(self) -> list[str]:
+        """What it is made of, in words."""
+        return [f"{len(self.loops)} loops"]
+
+    def __repr__(self) -> str:
+        counts = ", ".join([f"{self.faces} faces", *self._counts()])
+        error = f"angle error {self.angle_error_deg['mean']:.3g} deg"
+        return f"<koebe.{type(self).__name__} {counts}, {error}, {self.flipped} flipped>"
+
     @property
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
         """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
@@ -53,3 +65,29 @@ class DomainMap(MapReport):
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
         return copy.deepcopy(self._report)
+
+
+Made = TypeVar("Made", bound=DomainMap)
+
+
+def domain_map(
+    made: type[Made],
+    function: Callable[..., Any],
+    of: str,
+    options: Any,
+    given: Mapping[str, Any],
+    surface: tuple[Any, Any],
+) -> Made:
+    """The result of a native function.
+
+    of       its map in the table of options
+    options  native ones, which are set
+    given    all keywords of the caller
+    Raises OptionError and InputError, and what the function raises.
+    """
+    options, said = filled(of, options, given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
+    source = surface_of(*surface)
+    options.polygon = polygons_of(given["polygon"], source)
+    native = function(source.vertices, source.triangles, options, progress, cancel)
+    return made({**native.report(), "options": said}, native, source)

@@ -4,10 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._domain_map import DomainMap
-from ._input import polygons_of, surface_of
+from ._domain_map import DomainMap, domain_map
 from ._native import _koebe
-from ._options import callback, filled, takes, token
+from ._options import takes
 from ._result import Source
 from ._signatures import SchottkyOptions
 
@@ -62,11 +61,8 @@ class SchottkyMap(DomainMap):
             ),
         )
 
-    def __repr__(self) -> str:
-        return (
-            f"<koebe.SchottkyMap {self.faces} faces, {len(self.handles)} handles, {len(self.loops)} loops, "
-            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
-        )
+    def _counts(self) -> list[str]:
+        return [f"{len(self.handles)} handles", *super()._counts()]
 
 
 @takes("schottky", SchottkyOptions, polygon=None, progress=None, cancel=None)
@@ -84,9 +80,4 @@ def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[Schottky
     Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
     SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    options, said = filled("schottky", _koebe.SchottkyOptions(), given)
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(given["polygon"], source)
-    native = _koebe.schottky_map(source.vertices, source.triangles, options, progress, cancel)
-    return SchottkyMap({**native.report(), "options": said}, native, source)
+    return domain_map(SchottkyMap, _koebe.schottky_map, "schottky", _koebe.SchottkyOptions(), given, (vertices, triangles))

@@ -4,10 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._domain_map import DomainMap
-from ._input import polygons_of, surface_of
+from ._domain_map import DomainMap, domain_map
 from ._native import _koebe
-from ._options import callback, filled, takes, token
+from ._options import takes
 from ._result import Source
 from ._signatures import SphereOptions
 
@@ -61,12 +60,6 @@ class SphereMap(DomainMap):
         drawn[self.layout["torn"]] = False
         return drawn
 
-    def __repr__(self) -> str:
-        return (
-            f"<koebe.SphereMap {self.faces} faces, {len(self.loops)} loops, "
-            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
-        )
-
 
 @takes("sphere", SphereOptions, polygon=None, progress=None, cancel=None)
 def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOptions]") -> SphereMap:
@@ -83,9 +76,4 @@ def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOpti
     Raises InputError (OptionError for an option), TopologyError (genus: handles), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    options, said = filled("sphere", _koebe.SphereOptions(), given)
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(given["polygon"], source)
-    native = _koebe.sphere_map(source.vertices, source.triangles, options, progress, cancel)
-    return SphereMap({**native.report(options.layout), "options": said}, native, source)
+    return domain_map(SphereMap, _koebe.sphere_map, "sphere", _koebe.SphereOptions(), given, (vertices, triangles))

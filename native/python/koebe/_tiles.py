@@ -4,10 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._domain_map import DomainMap
-from ._input import polygons_of, surface_of
+from ._domain_map import DomainMap, domain_map
 from ._native import _koebe
-from ._options import callback, filled, takes, token
+from ._options import takes
 from ._result import Source
 from ._signatures import RingOptions, TorusOptions
 
@@ -42,11 +41,8 @@ class TileMap(DomainMap):
         self._set_arrays(periods=np.array(report["periods"]))
         self.modulus = complex(*report["modulus"])
 
-    def __repr__(self) -> str:
-        return (
-            f"<koebe.TileMap {self.faces} faces, {len(self.loops)} loops, modulus {self.modulus:.4g}, "
-            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
-        )
+    def _counts(self) -> list[str]:
+        return [*super()._counts(), f"modulus {self.modulus:.4g}"]
 
 
 @takes("torus", TorusOptions, polygon=None, progress=None, cancel=None)
@@ -61,12 +57,7 @@ def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOption
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    options, said = filled("torus", _koebe.TileOptions(), given)
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(given["polygon"], source)
-    native = _koebe.torus_map(source.vertices, source.triangles, options, progress, cancel)
-    return TileMap({**native.report(), "options": said}, native, source)
+    return domain_map(TileMap, _koebe.torus_map, "torus", _koebe.TileOptions(), given, (vertices, triangles))
 
 
 @takes("ring", RingOptions, polygon=None, progress=None, cancel=None)
@@ -83,9 +74,4 @@ def ring_map(vertices: Any, triangles: Any = None, **given: "Unpack[RingOptions]
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
     not one to one has converged = False, and a warning says why.
     """
-    options, said = filled("ring", _koebe.TileOptions(), given)
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
-    options.polygon = polygons_of(given["polygon"], source)
-    native = _koebe.ring_map(source.vertices, source.triangles, options, progress, cancel)
-    return TileMap({**native.report(), "options": said}, native, source)
+    return domain_map(TileMap, _koebe.ring_map, "ring", _koebe.TileOptions(), given, (vertices, triangles))

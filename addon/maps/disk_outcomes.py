@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What became of a surface whose islands were mapped to circle domains."""
+
+import dataclasses
+import functools
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .mirror import Symmetry
+from .opening import Opening
+from .outcomes import LATER, Outcome, in_numbers
+from .packing import Placement
+from .rounding import RESOLUTION, rounded
+from .stored import Stored
+from .surface import Island
+from .triangles import as_complex, as_points, density_ratio, longest_edges, signed_areas
+from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, few, in_mesh, own_warning, too_uneven
+
+if TYPE_CHECKING:
+    from koebe import UniformizeResult
+
+# The kind of warning that the solver gives of its disk in 32 bits; it does not hold for the rectangle made of it.
+OF_THE_DISK = "below_resolution"
+
+
+@dataclasses.dataclass
+class IslandOutcome:
+    """What became of one island: a result of `koebe.uniformize`, its shape and its place, or an error.
+
+    sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
+    shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
+    turn        complex number of modulus 1 by which the shape is turned about 0
+    distortion  `koebe.distortion` of the shape, where it is not that of the result
+    stored      what the UVs hold of the map
+    lost        what to say first where more is lost in the UVs than may be, or empty
+    places      the vertices that were asked for, by the solver's names: center, point
+    opening     what was cut to get this piece, with others, or None
+    symmetry    the island made symmetric, or None
+    remark      why something that was asked for was not done with it, or empty
+    """
+
+    island: Island
+    result: "UniformizeResult" = LATER
+    error: Exception | None = None
+    sheet: Island = LATER
+    shape: np.ndarray = LATER
+    turn: complex = 1.0
+    distortion: dict[str, Any] | None = None
+    stored: Stored = LATER
+    lost: str = ""
+    placement: Placement = LATER
+    places: dict[str, Any] = dataclasses.field(default_factory=dict)
+    opening: Opening | None = None
+    symmetry: Symmetry | None = None
+    remark: str = ""
+
+    @property
+    def unrolled(self) -> bool:
+        """Whether it is a rectangle: then its circles are not in the UVs."""
+        return self.sheet is not self.island
+
+    @property
+    def angle_error(self) -> float:
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs, once these are there."""
+        if self.stored is not None:
+            return self.stored.angle_error
+        return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
+
+    @functools.cached_property
+    def density_ratio(self) -> float:
+        """Texel density (a length over a length) at 95 % of the area over that at 5 %."""
+        return density_ratio(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)))
+
+    def turned(self, points: np.ndarray) -> np.ndarray:
+        """Points (n, 2) of the shape after the turn."""
+        if self.turn == 1.0:
+            return points
+        return as_points(self.turn * as_complex(points))
+
+    @functools.cached_property
+    def flat(self) -> np.ndarray:
+        """The sheet's vertices (n, 2) after the turn, in the unit disk."""
+        return self.turned(self.shape)
+
+    @functools.cached_property
+    def _rounded(self) -> tuple[np.ndarray, np.ndarray]:
+        return rounded(self.placement.apply(self.flat), self.sheet.triangles)
+
+    @property
+    def uv(self) -> np.ndarray:
+        """UV coordinates (n, 2) of the sheet's vertices, in 32 bits as Blender keeps them."""
+        return self._rounded[0] if self.symmetry is None else self.symmetry.image.uv
+
+    @property
+    def flipped(self) -> np.ndarray:
+        """The triangles (k,) of the sheet whose signed area in the UVs is not positive."""
+        return self._rounded[1] if self.symmetry is None else self.symmetry.image.flipped
+
+    @property
+    def flipped_faces(self) -> np.ndarray:
+        """Faces of the surface with such triangles."""
+        return np.unique(self.sheet.triangle_face[self.flipped])
+
+    def circles(self) -> tuple[np.ndarray, np.ndarray]:
+        """Centres (k, 2) and radii (k,) of the loops' circles in the UVs; of a rectangle they mean nothing."""
+        if self.symmetry is not None:
+            domain, loops = self.symmetry.image.domain, self.symmetry.image.loops
+            centers = domain.placed(np.array([loop.center for loop in loops]))
+            return centers, domain.scale * np.array([loop.radius for loop in loops])
+        return self.placement.apply(self.turned(self.result.centers)), self.placement.scale * self.result.radii
+
+
+class SurfaceOutcome(Outcome):
+    """What became of one surface, each island a circle domain."""
+
+    islands: list[IslandOutcome]
+
+    @property
+    def lost(self) -> list[IslandOutcome]:
+        """The mapped islands of which more is lost in the UVs than may be."""
+        return [outcome for outcome in self.mapped if outcome.lost]
+
+    @property
+    def is_good(self) -> bool:
+        return self.converged and not self.lost
+
+    @property
+    def mean_angle_error(self) -> float:
+        """Mean angle error of the mapped islands, in degrees."""
+        sizes = [len(one.island.triangles) for one in self.mapped]
+        return sum(one.angle_error * size for one, size in zip(self.mapped, sizes, strict=True)) / sum(sizes)
+
+    def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
+        """Corners (m,) of the mapped islands and their UV coordinates (m, 2) in 32 bits."""
+        corners = [outcome.sheet.corners for outcome in self.mapped]
+        uv = [outcome.uv.take(outcome.sheet.corner_vertex, axis=0) for outcome in self.mapped]
+        openings = self.openings
+        if len(uv) == 1 and not openings:
+            return corners[0], uv[0]
+        return _with_copied(np.concatenate(corners), np.concatenate(uv), openings)
+
+    @property
+    def openings(self) -> list[Opening]:
+        """What was cut, for each island that was."""
+        return list({id(one.opening): one.opening for one in self.islands if one.opening is not None}.values())
+
+    def line(self) -> str:
+        """One line: loops, sweeps, roundness, angle error, flips, seconds."""
+        results = [one.result for one in self.mapped]
+        words = [
+            counted(sum(len(r.loops) for r in results), "loop"),
+            counted(max(r.sweeps for r in results), "sweep"),
+            f"roundness {max(float(np.max(r.roundness)) for r in results):.1e}",
+            f"angle error {self.mean_angle_error:.2f}°",
+            counted(sum(len(one.flipped) for one in self.mapped), "flip"),
+            f"{sum(r.seconds['total'] for r in results):.2f} s",
+        ]
+        if len(results) > 1:
+            words.insert(0, counted(len(results), "island"))
+        if self.lost:
+            words.insert(0, f"LOST {max(100.0 * one.stored.lost_area for one in self.lost):.2g} % OF THE AREA")
+        if not self.converged:
+            words.append("NOT CONVERGED")
+        edges = sum(cut_edges(opening) for opening in self.openings)
+        if edges:
+            words.append(f"cut along {counted(edges, 'edge')}")
+        if any(too_uneven(one) for one in self.mapped):
+            words.append(UNEVEN_TEXELS)
+        return f"{self.name}: {', '.join(words)}"
+
+    def warnings(self, one: IslandOutcome) -> list[dict[str, Any]]:
+        native = [
+            in_mesh(one.island, warning)
+            for warning in one.result.warnings
+            if warning.kind != "lost_area" and not (one.unrolled and warning.kind == OF_THE_DISK)
+        ]
+        lost = own_warning("lost_area", one.lost, one.flipped_faces if one.lost else ())
+        return [*[lost] * bool(one.lost), *native, *self._own_warnings()]
+
+    def notes(self) -> list[tuple[IslandOutcome, str]]:
+        """What was done to the mapped islands beside their maps, each said once: cuts, symmetry."""
+        found: list[tuple[IslandOutcome, str]] = []
+        said: set[int] = set()
+        for one in self.mapped:
+            if one.opening is not None and id(one.opening) not in said:
+                said.add(id(one.opening))
+                found.append((one, cut_line(one.opening)))
+            if one.symmetry is not None:
+                moved = f"moved by {one.symmetry.moved:.1e} at most"
+                found.append((one, f"made symmetric, {counted(one.symmetry.pairs, 'pair')} of vertices, {moved}"))
+            elif one.remark:
+                found.append((one, one.remark))
+        return found
+
+    def said_notes(self) -> list[str]:
+        """The notes as one."""
+        said = few(super().said_notes(), "; ")
+        return [said] if said else []
+
+    def entries(self) -> list[dict[str, Any]]:
+        """As of `Outcome`. A piece of an island that was cut has the number of the cut, and the first of these has what
+        was done."""
+        numbers = {id(opening): number for number, opening in enumerate(self.openings)}
+        said: set[int] = set()
+        result = super().entries()
+        for one, entry in zip(self.islands, result, strict=True):
+            if one.opening is not None:
+                entry["opening"] = numbers[id(one.opening)]
+                if id(one.opening) not in said:
+                    entry.update(_cuts(one.opening))
+                said.add(id(one.opening))
+        return result
+
+    def _entry(self, index: int, one: IslandOutcome) -> dict[str, Any]:
+        entry = self._head(index, one, len(one.island.faces))
+        if one.error is not None:
+            return entry
+        result = one.result.to_dict()
+        source = one.island.source_vertex
+        for name in {"center", "point"} & result.keys():
+            result[name] = int(source[result[name]])
+        in_numbers(result["loops"], source, "vertices", "off_circle")
+        if one.symmetry is not None:
+            for loop, made in zip(result["loops"], one.symmetry.image.loops, strict=True):
+                loop["center"], loop["radius"] = [made.center.real, made.center.imag], made.radius
+            result["symmetric"] = True
+        elif not one.unrolled:
+            for loop in result["loops"]:
+                loop["center"] = one.turned(np.array([loop["center"]]))[0].tolist()
+        if one.remark:
+            result["remark"] = one.remark
+        result.update(one.distortion or {})
+        result.update(one.stored.figures())
+        result["unrolled"] = one.unrolled
+        result["warnings"] = self.warnings(one)
+        result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded
+        result["below_resolution"] = _below_resolution(one)
+        return {**result, **entry, "placement": one.placement.to_dict()}
+
+    def _row(self, one: IslandOutcome) -> dict[str, Any]:
+        result = one.result
+        return {
+            "sweeps": result.sweeps, "angle_error": one.angle_error, "roundness": float(result.roundness.max()),
+            "flipped": len(one.flipped), "flipped_faces": one.flipped_faces.tolist(),
+            "seconds": result.seconds["total"], "uneven": too_uneven(one),
+            "loops": [
+                {
+                    "uv_center": center, "uv_radius": 0.0 if one.unrolled else float(uv_radius),
+                    "vertices": one.island.source_vertex[vertices].tolist(),
+                    "radius": float(radius), "roundness": float(roundness),
+                }
+                for vertices, center, uv_radius, radius, roundness in zip(
+                    result.loops, *one.circles(), result.radii, result.roundness, strict=True
+                )
+            ],
+        }  # fmt: skip
+
+    def rows(self, layer: str) -> list[dict[str, Any]]:
+        """As of `Outcome`. The first mapped piece of an island that was cut has its cuts."""
+        result, said = super().rows(layer), set[int]()
+        for one, row in zip([] if self.not_written else self.islands, result):
+            if one.error is None and one.opening is not None and id(one.opening) not in said:
+                said.add(id(one.opening))
+                row["cuts"] = _paths(one.opening)
+        return result
+
+
+def _cuts(opening: Opening) -> dict[str, Any]:
+    """What was cut, in the mesh's numbers."""
+    return {
+        "cuts": [{"kind": kind, "elements": vertices.tolist()} for kind, vertices in opening.cuts],
+        "handles_cut": opening.handles,
+        "turned": opening.turned.tolist(),
+        "left_out": opening.left_out.tolist(),
+        "cut_text": cut_line(opening),
+    }
+
+
+def _paths(opening: Opening) -> list[list[int]]:
+    """Vertices along each cut; those of bow ties one by one."""
+    return [
+        path
+        for kind, vertices in opening.cuts
+        for path in ([[v] for v in vertices.tolist()] if kind == "bow_tie" else [vertices.tolist()])
+    ]
+
+
+def _below_resolution(one: IslandOutcome) -> int:
+    """Flipped triangles whose longest edge in the UVs is too short to be drawn."""
+    corners = one.uv[one.sheet.triangles[one.flipped]].astype(np.float64)
+    return int(np.count_nonzero(longest_edges(corners) < RESOLUTION))
+
+
+def _with_copied(corners: np.ndarray, uv: np.ndarray, openings: list[Opening]) -> tuple[np.ndarray, np.ndarray]:
+    """The corners and those that take their places, as far as these are mapped."""
+    copied = [opening.copied for opening in openings if len(opening.copied[0])]
+    if not copied:
+        return corners, uv
+    here, there = (np.concatenate(each) for each in zip(*copied))
+    row = np.full(int(max(corners.max(), there.max())) + 1, -1, dtype=np.int64)
+    row[corners] = np.arange(len(corners))
+    known = row[there] >= 0
+    return np.concatenate([corners, here[known]]), np.concatenate([uv, uv[row[there[known]]]])

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What operators ask before they run: objects, a mode, the native package."""
+
+from collections.abc import Container
+from types import ModuleType
+
+import bpy
+
+from ..blender.targets import target_objects
+from ..jobs import native_package
+from ..solver.errors import NativeError
+
+BOTH = ("OBJECT", "EDIT_MESH")
+
+
+def has_targets(
+    cls: type[bpy.types.Operator], context: bpy.types.Context, hint: str, modes: Container[str] = BOTH
+) -> bool:
+    """Whether there is an object to work on, in one of the modes; else it says what to do."""
+    if context.mode in modes and target_objects(context):
+        return True
+    cls.poll_message_set(hint)
+    return False
+
+
+def native_or_told(operator: bpy.types.Operator) -> ModuleType | None:
+    """The native package, or None where there is none and the user was told why."""
+    try:
+        return native_package.load()
+    except NativeError as error:
+        operator.report({"ERROR"}, f"Koebe UV: {error}")
+        return None

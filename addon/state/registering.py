@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hangs what is kept on the window manager, which no undo changes."""
+
+from collections.abc import Callable
+
+import bpy
+from bpy.props import PointerProperty
+
+
+def on_window_manager(
+    name: str, *classes: type[bpy.types.PropertyGroup]
+) -> tuple[Callable[[], None], Callable[[], None]]:
+    """Functions that register classes of properties, the last one hung there by this name, and that undo it."""
+
+    def register() -> None:
+        for cls in classes:
+            bpy.utils.register_class(cls)
+        setattr(bpy.types.WindowManager, name, PointerProperty(type=classes[-1]))
+
+    def unregister() -> None:
+        delattr(bpy.types.WindowManager, name)
+        for cls in reversed(classes):
+            bpy.utils.unregister_class(cls)
+
+    return register, unregister

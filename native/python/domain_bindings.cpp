@@ -1,0 +1,85 @@
+// Maps to domains that are no disk, and to parts.
+#include "array_conversion.h"
+#include "bindings.h"
+#include "native_call.h"
+#include "option_binding.h"
+#include "report_object.h"
+
+#include "parts/parts.h"
+#include "report/parts_json.h"
+#include "report/schottky_json.h"
+#include "report/sphere_json.h"
+#include "report/tile_json.h"
+
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace koebe::python {
+namespace {
+
+/// The result of a map whose UVs are of corners; more is added to it.
+template <class Result>
+py::class_<Result, MapReport> bind_result(py::module_& m, const char* name)
+{
+    return py::class_<Result, MapReport>(m, name).def_property_readonly("uv", [](const Result& r) { return r.uv; });
+}
+
+template <class Options, class Result>
+void bind_map(py::module_& m, const char* name,
+              Result (*map)(const Vertices&, const Triangles&, const Options&, ExecutionContext&))
+{
+    m.def(name, [map](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                      const Options& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel,
+                           [&](ExecutionContext& context) { return map(vertices, triangles, options, context); });
+    });
+}
+
+template <class Result>
+py::object report_of(const Result& result)
+{
+    return to_object(to_json(result));
+}
+
+}  // namespace
+
+void bind_domains(py::module_& m)
+{
+    bind_result<PartsResult>(m, "PartsResult")
+        .def_property_readonly("part", [](const PartsResult& r) { return array_of(r.part); })
+        .def("report", &report_of<PartsResult>);
+    bind_options<PartsOptions>(m, "PartsOptions");
+    bind_map<PartsOptions, PartsResult>(m, "parts", parts_of);
+
+    py::enum_<RingHoles>(m, "RingHoles")
+        .value("circles", RingHoles::circles)
+        .value("concentric", RingHoles::concentric)
+        .value("radial", RingHoles::radial);
+    bind_options<TileOptions>(m, "TileOptions");
+    bind_result<TileResult>(m, "TileResult").def("report", &report_of<TileResult>);
+    bind_map<TileOptions, TileResult>(m, "torus_map", torus_map);
+    bind_map<TileOptions, TileResult>(m, "ring_map", ring_map);
+
+    py::enum_<SphereLayout>(m, "SphereLayout")
+        .value("equirectangular", SphereLayout::equirectangular)
+        .value("octahedral", SphereLayout::octahedral);
+    bind_options<SphereOptions>(m, "SphereOptions");
+    bind_result<SphereResult>(m, "SphereResult")
+        .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
+        .def("report", &report_of<SphereResult>);
+    bind_map<SphereOptions, SphereResult>(m, "sphere_map", sphere_map);
+
+    py::enum_<SchottkyNormalization>(m, "SchottkyNormalization")
+        .value("area", SchottkyNormalization::area)
+        .value("circles", SchottkyNormalization::circles);
+    bind_options<SchottkyOptions>(m, "SchottkyOptions");
+    bind_result<SchottkyResult>(m, "SchottkyResult").def("report", &report_of<SchottkyResult>);
+    bind_map<SchottkyOptions, SchottkyResult>(m, "schottky_map", schottky_map);
+}
+
+}  // namespace koebe::python

@@ -1,0 +1,45 @@
+"""Mirror images, disks in a square and circles through points: what lays maps out."""
+
+from typing import Any
+
+import numpy as np
+
+from ._arrays import as_points
+from ._input import polygons_of, surface_of
+from ._native import _koebe
+from .errors import InputError
+
+
+def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -> np.ndarray | None:
+    """The vertex (V,) that is the mirror image of each, int32, or None if the surface is no mirror image of itself.
+
+    Tried are planes across x, y and z, then across the main axes, through the middle of the surface: every polygon must
+    have another one, or itself, as its image, corner by corner, to 1e-4 of the diagonal of the box round the surface.
+    A plane that most of the surface lies in is none. The image of a vertex without a face is -1.
+
+    polygon      (F,) integers: triangles of one number are one polygon, and their diagonals do not count
+    """
+    source = surface_of(vertices, triangles)
+    found = _koebe.mirror_image(source.vertices, source.triangles, polygons_of(polygon, source))
+    return found if len(found) else None
+
+
+def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray]:
+    """Centres (n, 2) and radii (n,) of disks in these proportions, as large as they are found to fit the unit square.
+
+    margin       between two disks, and half of it to the border; of many disks less, such that they have room
+    One disk fills the square. Raises InputError for radii that are not positive.
+    """
+    sizes = np.asarray(radii, dtype=np.float64)
+    if sizes.ndim != 1 or not 0.0 <= margin < 0.5:
+        raise InputError("disks to pack need a list of radii, and a margin in [0, 0.5)")
+    return _koebe.pack_disks(sizes, float(margin))
+
+
+def fit_circle(points: Any) -> tuple[np.ndarray, float, float]:
+    """Centre (2,) and radius of the circle of least squared distance to points (n, 2), and the most these are off.
+
+    Points of a line, or of less than an eighth of a turn, have the circle round their mean.
+    """
+    center, radius, off = _koebe.fit_circle(as_points(points, "points", 2))
+    return np.array([center.real, center.imag]), radius, off

@@ -1,0 +1,18 @@
+// The struct of a map's options as a Python class.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace koebe::python {
+
+/// Each option by its name.
+template <typename Options>
+pybind11::class_<Options> bind_options(pybind11::module_& m, const char* name)
+{
+    pybind11::class_<Options> bound(m, name);
+    bound.def(pybind11::init<>());
+    Options::each_option([&](const char* option, auto member) { bound.def_readwrite(option, member); });
+    return bound;
+}
+
+}  // namespace koebe::python

@@ -1,0 +1,147 @@
+// What circles and surfaces tell of shapes.
+#include "array_conversion.h"
+#include "bindings.h"
+#include "native_call.h"
+#include "report_object.h"
+
+#include "circles/circle_fit.h"
+#include "linear/dense_spd.h"
+#include "opened/disk_packing.h"
+#include "pipeline/uniformize.h"
+#include "report/json.h"
+#include "shape/conformal_module.h"
+#include "shape/domain_alignment.h"
+#include "shape/loop_matching.h"
+#include "shape/module_error.h"
+#include "surface/mirror.h"
+#include "transfer/correspondence.h"
+#include "transfer/surface_point.h"
+
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace koebe::python {
+
+void bind_shapes(py::module_& m)
+{
+    py::class_<MappedSurface>(m, "MappedSurface")
+        .def(py::init([](const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
+                         const std::vector<VertexLoop>& loops, const std::vector<std::vector<Index>>& off_circle,
+                         const PlanarPoints& centers, const VectorXd& radii, const std::vector<bool>& own) {
+            MappedSurface surface{vertices, triangles, uv, {}};
+            const std::vector<Circle> circles = circles_of(centers, radii);
+            for (std::size_t k = 0; k < loops.size(); ++k)
+                surface.loops.push_back({.vertices = loops[k],
+                                         .circle = circles[k],
+                                         .roundness = {},
+                                         .off_circle = off_circle[k],
+                                         .shrunk = !own[k]});
+            return surface;
+        }));
+    m.def("conformal_module", [](const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& order) {
+        return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); },
+                        true);
+    });
+    m.def("module_names", &module_names);
+    m.def("module_error", &module_error);
+    m.def("refined_circles", [](const MappedSurface& surface, const UniformizeOptions& options) {
+        return arrays_of(without_gil(py::none(), {}, [&](ExecutionContext& context) {
+            return refined_circles(surface.vertices, surface.triangles, surface.loops, options, context);
+        }));
+    });
+    m.def("require_own_circles", [](const std::vector<bool>& own) {
+        std::vector<LoopReport> loops(own.size());
+        for (std::size_t k = 0; k < own.size(); ++k) loops[k].shrunk = !own[k];
+        require_own_circles(loops);
+    });
+    m.def("canonical_order", [](const PlanarPoints& centers, const VectorXd& radii, bool any_outer) {
+        return detached(
+            [circles = circles_of(centers, radii), any_outer] { return canonical_order(circles, any_outer); });
+    });
+    m.def("match_loops", [](const PlanarPoints& centers_a, const VectorXd& radii_a, const PlanarPoints& centers_b,
+                            const VectorXd& radii_b, bool any_outer) {
+        return detached([a = circles_of(centers_a, radii_a), b = circles_of(centers_b, radii_b), any_outer] {
+            LoopMatch match = match_loops(a, b, any_outer);
+            return std::make_tuple(std::move(match.order_a), std::move(match.order_b), match.distance);
+        });
+    });
+
+    py::class_<DomainAlignment>(m, "DomainAlignment",
+                                "An automorphism of the unit disk that lays one circle domain "
+                                "over another: z -> turn (z - a) / (1 - conj(a) z).")
+        .def_property_readonly("a", [](const DomainAlignment& d) { return d.map.a; })
+        .def_property_readonly("turn", [](const DomainAlignment& d) { return d.map.turn; })
+        .def_readonly("match", &DomainAlignment::match)
+        .def_readonly("residual", &DomainAlignment::residual)
+        .def_readonly("largest", &DomainAlignment::largest)
+        .def_readonly("worst", &DomainAlignment::worst)
+        .def_readonly("misses", &DomainAlignment::misses)
+        .def_readonly("converged", &DomainAlignment::converged)
+        .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
+            return planar(d.map(complex(points)));
+        });
+    [[maybe_unused]] const auto point = py::class_<SurfacePoint>(m, "SurfacePoint");
+    m.def("surface_points", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                               const std::vector<Index>& numbers, const Eigen::Ref<const Vertices>& positions) {
+        std::vector<NamedPoint> points;
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            points.push_back({numbers[i], positions.row(static_cast<Eigen::Index>(i))});
+        return detached([all = Vertices(vertices), faces = Triangles(triangles), points] {
+            return surface_points(all, faces, points);
+        });
+    });
+    m.def("correspond",
+          [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes,
+             const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target) {
+              std::vector<Landmark> landmarks;
+              for (std::size_t i = 0; i < on_source.size(); ++i) landmarks.push_back({on_target[i], on_source[i]});
+              const CorrespondenceOptions options{.match = match, .fit_holes = fit_holes, .landmarks = landmarks};
+              Correspondence found = without_gil(py::none(), {}, [&](ExecutionContext& context) {
+                  return run_detachable<Correspondence>(context, [source, target, options](ExecutionContext& own) {
+                      const SerialDenseKernels serial;
+                      return correspond(source, target, options, own);
+                  });
+              });
+              py::dict parts;
+              parts["alignment"] = found.alignment;
+              parts["fitted"] = found.fitted;
+              parts["uv"] = found.uv;
+              parts["beltrami"] = py::dict(py::arg("mean") = found.beltrami.mean, py::arg("max") = found.beltrami.max);
+              parts["flipped"] = found.folded;
+              parts["faces"] = found.places.face;
+              parts["weights"] = found.places.weights;
+              parts["distances"] = found.places.distance;
+              parts["points"] = found.points;
+              parts["warnings"] = to_object(to_json(found.warnings));
+              return parts;
+          });
+    m.def("align_domains",
+          [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
+             const VectorXd& target_radii, const std::vector<int>& match) {
+              return detached([source = circles_of(source_centers, source_radii),
+                               target = circles_of(target_centers, target_radii),
+                               match] { return align_domains(source, target, match); });
+          });
+    m.def("mirror_image", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                             const std::vector<Index>& polygon) {
+        return array_of(detached([points = Vertices(vertices), faces = Triangles(triangles), polygon] {
+                            return find_mirror(points, faces, polygon);
+                        }).vertex);
+    });
+    m.def("pack_disks", [](const std::vector<double>& radii, double margin) {
+        return arrays_of(detached([radii, margin] { return pack_disks(radii, margin); }));
+    });
+    m.def("fit_circle", [](const Eigen::Ref<const PlanarPoints>& points) {
+        const VectorXcd all = complex(points);
+        const Circle circle = fit_circle_least_squares(all);
+        const double off = ((all.array() - circle.center).abs() - circle.radius).abs().maxCoeff();
+        return py::make_tuple(circle.center, circle.radius, off);
+    });
+}
+
+}  // namespace koebe::python

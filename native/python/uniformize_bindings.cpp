@@ -1,0 +1,117 @@
+// Maps to circle domains, and what is cut for them.
+#include "array_conversion.h"
+#include "bindings.h"
+#include "native_call.h"
+#include "option_binding.h"
+#include "report_object.h"
+
+#include "opened/cut_uniformize.h"
+#include "opened/cut_warnings.h"
+#include "pipeline/uniformize.h"
+#include "report/cut_json.h"
+#include "report/json.h"
+
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace koebe::python {
+namespace {
+
+/// Pieces, cuts and faces left out, as tuples, and the number of handles.
+py::tuple opened_tuple(const OpenedSurface& opened)
+{
+    py::list pieces, cuts, left_out;
+    for (const SurfacePiece& piece : opened.pieces)
+        pieces.append(py::make_tuple(piece.vertices, piece.triangles, array_of(piece.source_vertex),
+                                     array_of(piece.source_face),
+                                     py::array_t<char>(piece.turned.size(), piece.turned.data())));
+    for (const SurfaceCut& cut : opened.cuts)
+        cuts.append(py::make_tuple(to_string(cut.kind), array_of(cut.vertices), cut_text(cut)));
+    for (const LeftOutFace& out : opened.left_out) left_out.append(py::make_tuple(out.face, out.like, out.degenerate));
+    return py::make_tuple(pieces, cuts, left_out, opened.handles);
+}
+
+}  // namespace
+
+void bind_uniformize(py::module_& m)
+{
+    py::enum_<Method>(m, "Method")
+        .value("gk", Method::gk)
+        .value("ck", Method::ck)
+        .value("against-outer", Method::against_outer);
+    py::enum_<Engine>(m, "Engine").value("condensed", Engine::condensed).value("mesh", Engine::mesh);
+    py::enum_<OuterLoop>(m, "OuterLoop")
+        .value("automatic", OuterLoop::automatic)
+        .value("longest", OuterLoop::longest)
+        .value("vertex", OuterLoop::vertex);
+    py::enum_<Balance>(m, "Balance").value("none", Balance::none).value("area", Balance::area);
+
+    py::enum_<AnnulusBackend>(m, "AnnulusBackend")
+        .value("harmonic", AnnulusBackend::harmonic)
+        .value("yamabe", AnnulusBackend::yamabe);
+
+    using Metric = KoebeMeshOptions::Metric;
+    py::enum_<Metric>(m, "Metric")
+        .value("first", Metric::first)
+        .value("planar", Metric::planar)
+        .value("reflected", Metric::reflected);
+    py::enum_<Partners>(m, "Partners").value("fixed", Partners::fixed).value("changing", Partners::changing);
+
+    py::class_<CancelToken>(m, "CancelToken", "A flag that any thread may raise to stop a computation.")
+        .def(py::init<>())
+        .def("cancel", &CancelToken::cancel)
+        .def_property_readonly("cancelled", &CancelToken::cancelled);
+
+    bind_options<KoebeMeshOptions>(m, "KoebeMeshOptions");
+    bind_options<UniformizeOptions>(m, "UniformizeOptions")
+        .def_readonly("mesh", &UniformizeOptions::mesh)
+        .def_readwrite("outer_vertex", &UniformizeOptions::outer_vertex);
+
+    py::dict warning_elements;
+    for (int k = 0; k <= static_cast<int>(WarningKind::not_mapped); ++k)
+        warning_elements[to_string(static_cast<WarningKind>(k))] = to_string(elements_of(static_cast<WarningKind>(k)));
+    m.attr("warning_elements") = warning_elements;
+    py::class_<MapReport>(m, "MapReport").def_property_readonly("flipped_faces", [](const MapReport& r) {
+        return array_of(r.distortion.flipped);
+    });
+    py::class_<UniformizeResult, MapReport>(m, "UniformizeResult")
+        .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
+        .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; })
+        .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
+
+    py::class_<CutUniformizeResult, MapReport>(m, "CutUniformizeResult")
+        .def_property_readonly("uv", [](const CutUniformizeResult& r) { return r.uv; })
+        .def("report", [](const CutUniformizeResult& r) { return to_object(to_json(r)); });
+
+    m.def("uniformize", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                           const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return uniformize(vertices, triangles, options, context);
+        });
+    });
+    m.def("uniformize_with_cuts",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             const std::vector<Index>& polygon, const UniformizeOptions& options, const py::object& progress,
+             const CancelToken& cancel) {
+              return without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return uniformize_with_cuts(vertices, triangles, polygon, options, context);
+              });
+          });
+    m.def("open_surface", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                             const std::vector<Index>& polygon, const py::object& progress, const CancelToken& cancel) {
+        return opened_tuple(without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return run_detachable<OpenedSurface>(context,
+                                                 [points = Vertices(vertices), faces = Triangles(triangles),
+                                                  options = OpenOptions{.polygon = polygon}](ExecutionContext& own) {
+                                                     return open_surface(points, faces, options, own);
+                                                 });
+        }));
+    });
+}
+
+}  // namespace koebe::python
