@@ -80,4 +80,5 @@ def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[Schottky
     Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
     SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning says why.
     """
-    return domain_map(SchottkyMap, _koebe.schottky_map, "schottky", _koebe.SchottkyOptions(), given, (vertices, triangles))
+    options = _koebe.SchottkyOptions()
+    return domain_map(SchottkyMap, _koebe.schottky_map, "schottky", options, given, (vertices, triangles))
