@@ -350,7 +350,7 @@ FlatMap unrolled(const PeriodicSurface& domain, const RoundRing& ring, double he
 TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                          ExecutionContext& context)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     const Stopwatch total;
     Stopwatch stage;
     StageSeconds seconds;

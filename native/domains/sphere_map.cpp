@@ -316,7 +316,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
 {
     const Vertices& vertices = mesh.vertices;
     const Triangles& triangles = mesh.triangles;
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     const Stopwatch total;
     Stopwatch stage;
     SphereResult result;

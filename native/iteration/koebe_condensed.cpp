@@ -97,7 +97,7 @@ CondensedLaplacian condense(const SparseMatrix& laplacian, const std::vector<Ver
         !all && grounds_outer_loop(loops, boundary.size(), vertex_count) ? static_cast<Index>(loops[0].size()) : 0;
     const std::size_t most = most_condensed.value_or(static_cast<std::size_t>(all ? longest : most_kept(vertex_count)));
     if (loops.size() > 1 && boundary.size() - grounded > most) return CondensedLaplacian(laplacian, loops);
-    return CondensedLaplacian(laplacian, boundary, Ordering::amd, grounded);
+    return CondensedLaplacian(laplacian, boundary, grounded);
 }
 
 KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const CondensedLaplacian& surface,

@@ -194,14 +194,14 @@ struct CondensedLaplacian::Impl {
 };
 
 CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary,
-                                       Ordering ordering, Index grounded)
+                                       Index grounded)
     : impl_(std::make_unique<Impl>())
 {
     impl_->vertex_count = static_cast<Index>(laplacian.rows());
     impl_->ground.assign(boundary.begin(), boundary.begin() + grounded);
     impl_->kept.assign(boundary.begin() + grounded, boundary.end());
     impl_->take_ground_columns(laplacian);
-    impl_->cholesky = std::make_unique<SparseCholesky>(impl_->shifted(laplacian), ordering, impl_->kept);
+    impl_->cholesky = std::make_unique<SparseCholesky>(impl_->shifted(laplacian), impl_->kept);
 }
 
 CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
@@ -211,7 +211,7 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
     impl_->loops = loops;
     for (const std::vector<Index>& loop : loops) impl_->ground.insert(impl_->ground.end(), loop.begin(), loop.end());
     impl_->take_ground_columns(laplacian);
-    impl_->cholesky = std::make_unique<SparseCholesky>(with_room_for_disks(laplacian, loops), Ordering::amd, loops[1],
+    impl_->cholesky = std::make_unique<SparseCholesky>(with_room_for_disks(laplacian, loops), loops[1],
                                                        std::vector(loops.begin() + 1, loops.end()));
     impl_->take_stiffness();
 }

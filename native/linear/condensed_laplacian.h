@@ -29,12 +29,10 @@ class CondensedLaplacian {
 public:
     /// @param laplacian (V, V) cotan Laplacian, both triangles stored
     /// @param boundary all boundary vertices; unused vertices must have been given a positive diagonal or be left out
-    /// of
-    ///        the matrix
+    ///        of the matrix
     /// @param grounded so many of them, from the first on, are grounded; sigma() has the others, in their order
     /// @throws SolverError if K_II is not positive definite
-    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering,
-                       Index grounded = 0);
+    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Index grounded = 0);
 
     /// Without a Sigma, to be filled. @param loops the whole boundary, two loops or more
     /// @throws SolverError if K is not positive definite where no disk reaches; if K_II is not elsewhere, extend() and

@@ -1,7 +1,5 @@
 #include "linear/factor_numbers.h"
 
-#include "linear/kernel_buffer.h"
-
 #include <algorithm>
 #include <numeric>
 
@@ -72,7 +70,6 @@ void FactorNumbers::take(const SparseMatrix& matrix)
     const bool known = has_pattern_of(matrix);
     if (!known) take_pattern(matrix);
     if (places_.begin.empty() && (known || !has_both_)) find_places();
-    const KernelBuffer buffer;
     factorize_piece(matrix, layout_, whole_, l_.size(), static_cast<double*>(l_.factor->x), {},
                     places_.begin.empty() ? nullptr : &places_);
 }

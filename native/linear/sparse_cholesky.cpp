@@ -40,7 +40,7 @@ struct SparseCholesky::Impl {
         return both;
     }
 
-    void analyze(const SparseMatrix& matrix, Ordering ordering);
+    void analyze(const SparseMatrix& matrix);
     void take_trailing() { trailing = l.trailing_block(static_cast<Index>(last.size())); }
     Index inner_count() const { return l.size() - static_cast<Index>(last.size()); }
     Index place_in_trailing(std::size_t b) const { return l.rank[last[b]] - inner_count(); }
@@ -51,12 +51,11 @@ struct SparseCholesky::Impl {
     MatrixXd back_substitution_to(const std::vector<Index>& wanted, MatrixXd y) const;
 };
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
-                               Index split_rows)
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last, Index split_rows)
     : impl_(std::make_unique<Impl>())
 {
     impl_->last = last;
-    if (SupernodalFactor& l = impl_->l; ordering == Ordering::amd && matrix.rows() > split_rows) {
+    if (SupernodalFactor& l = impl_->l; matrix.rows() > split_rows) {
         l.split = SplitFactor::analyze(impl_->full(matrix), last,
                                        std::max(split_rows, static_cast<Index>(matrix.rows() / pieces_of_large)));
         if (l.split) {
@@ -66,31 +65,29 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, co
             return;
         }
     }
-    impl_->analyze(matrix, ordering);
+    impl_->analyze(matrix);
     refactorize(matrix);
 }
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last,
                                const std::vector<std::vector<Index>>& changing)
     : impl_(std::make_unique<Impl>())
 {
     impl_->last = last;
-    impl_->analyze(matrix, ordering);
+    impl_->analyze(matrix);
     impl_->fronts = std::make_unique<MultifrontalFactor>(impl_->l, matrix, changing);
 }
 
-void SparseCholesky::Impl::analyze(const SparseMatrix& matrix, Ordering ordering)
+void SparseCholesky::Impl::analyze(const SparseMatrix& matrix)
 {
     cholmod_sparse lower = view(matrix, -1);
     // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
     // postorder A_II by itself and forbid any further change.
     for (const bool forced : {false, true}) {
         std::vector<Index> order;
-        if (!last.empty()) order = elimination_order(matrix, last, ordering, forced, l.common);
+        if (!last.empty()) order = elimination_order(matrix, last, forced, l.common);
         l.common->nmethods = 1;
-        l.common->method[0].ordering = !last.empty()               ? CHOLMOD_GIVEN
-                                       : ordering == Ordering::amd ? CHOLMOD_AMD
-                                                                   : CHOLMOD_METIS;
+        l.common->method[0].ordering = last.empty() ? CHOLMOD_AMD : CHOLMOD_GIVEN;
         l.common->postorder = forced ? 0 : 1;
         l.factor =
             own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, l.common.get()), l.common);

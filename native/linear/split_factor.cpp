@@ -3,7 +3,6 @@
 #include "core/thread_share.h"
 #include "linear/dissection.h"
 #include "linear/front.h"
-#include "linear/kernel_buffer.h"
 
 #include <algorithm>
 #include <numeric>
@@ -170,17 +169,14 @@ void SplitFactor::factorize(const SparseMatrix& matrix)
     RestPool pool;
     std::vector<LowerMatrix> rests(parts_.size());
     each_beside(piece_count_, [&](std::size_t p) {
-        const KernelBuffer buffer;
         rests[p] = pool.take(static_cast<Index>(parts_[p].interface.size()));
         factorize_piece(matrix, layout_, parts_[p], tops_, values_.data(), rests[p]);
     });
     constexpr std::size_t few = 2;  // are taken one after the other, on all threads each
     for (const std::vector<std::size_t>& round : rounds_)
         if (round.size() > few)
-            each_beside(round.size(), [&](std::size_t i) {
-                const KernelBuffer buffer;
-                factorize_separator(matrix, parts_[round[i]], rests, pool);
-            });
+            each_beside(round.size(),
+                        [&](std::size_t i) { factorize_separator(matrix, parts_[round[i]], rests, pool); });
         else
             for (const std::size_t p : round) factorize_separator(matrix, parts_[p], rests, pool);
 }
@@ -223,7 +219,6 @@ void SplitFactor::solve_lower(MatrixXd& x) const
     const Index count = static_cast<Index>(x.cols()), top_count = static_cast<Index>(layout_.order.size()) - tops_;
     std::vector<MatrixXd> arrived(piece_count_);
     each_beside(piece_count_, [&](std::size_t p) {
-        const KernelBuffer buffer;
         arrived[p] = MatrixXd::Zero(top_count, count);
         solve_lower(parts_[p], x, arrived[p]);
     });
@@ -256,10 +251,7 @@ void SplitFactor::solve_lower(const SplitPart& part, MatrixXd& x, MatrixXd& inte
 void SplitFactor::solve_upper(MatrixXd& x) const
 {
     for (std::size_t p = parts_.size(); p-- > piece_count_;) solve_upper(parts_[p], x);
-    each_beside(piece_count_, [&](std::size_t p) {
-        const KernelBuffer buffer;
-        solve_upper(parts_[p], x);
-    });
+    each_beside(piece_count_, [&](std::size_t p) { solve_upper(parts_[p], x); });
 }
 
 void SplitFactor::solve_upper(const SplitPart& part, MatrixXd& x) const
