@@ -27,7 +27,8 @@ STAGES = ("topology", "metric", "factor", "iterate", "finish")
 
 def run(mesh: str, engine: str = "condensed", method: str = "gk", runs: int = RUNS) -> dict:
     """Medians over the pairs of one mesh."""
-    process = subprocess.run([BENCH, mesh, str(runs), engine, method], capture_output=True, text=True)
+    one_thread = {**os.environ, "OMP_NUM_THREADS": "1"}  # in the reference: CHOLMOD opens threads around supernodes
+    process = subprocess.run([BENCH, mesh, str(runs), engine, method], capture_output=True, text=True, env=one_thread)
     if process.returncode:
         raise SystemExit(f"{mesh}: {process.stderr.strip()}")
     pairs = json.loads(process.stdout)

@@ -27,6 +27,5 @@ for platform in "$@"; do
         -Dpybind11_include="$packages/pybind11/include" \
         -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
     cmake --build "$folder"
-    rm -f dist/koebe-*-py3-none-"$tag".whl
-    "$venv/bin/python" scripts/bundle_wheel.py "$folder" "$tag" dist
+    "$venv/bin/python" scripts/pack_wheel.py bundle "$folder" "py3-none-$tag" dist
 done

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Install the Debian packages that are missing.
-# Usage: scripts/install.sh build|blender|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
+# Usage: scripts/install.sh build|blender|bench|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
 set -euo pipefail
 
 declare -A groups=(
     # compilers, libraries, and Python with NumPy, pytest and Hypothesis
     [build]="build-essential cmake ninja-build ccache
-        libopenmesh-dev libeigen3-dev libsuitesparse-dev libopenblas-pthread-dev libcgal-dev liblemon-dev libfast-float-dev
+        libopenmesh-dev libeigen3-dev libsuitesparse-dev libcgal-dev liblemon-dev libfast-float-dev
         libstb-dev nlohmann-json3-dev libcli11-dev libuv1-dev libsodium-dev libgtest-dev libbenchmark-dev
         python3-dev python3-venv python3-numpy python3-pytest python3-hypothesis ca-certificates"
+    # what `make bench` compares with
+    [bench]="libopenblas-pthread-dev"
     # what scripts/fetch_sources.sh fetches with
     [dist]="dpkg-dev maven default-jre-headless"
     # the form of C++, and what can be said of it without running it

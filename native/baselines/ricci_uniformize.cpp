@@ -102,7 +102,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
                                   .max_updates = options.common.max_sweeps,
                                   .newton = {}};
     const RicciFlowResult flow = [&] {
-        const SerialDenseKernels serial;
+        fix_product_blocks();
         return ricci_flow(metric, input.surface.vertex_count, input.loops, flow_options, context);
     }();
     result.converged = flow.outcome.converged;

@@ -1,9 +1,5 @@
-# Dense kernels, compiled once for each set of instructions, the same bits from all: koebe_kernels. With KOEBE_BUNDLE they
-# are CHOLMOD's, too, by their names in BLAS and LAPACK.
+# Dense kernels, compiled once for each set of instructions, the same bits from all: koebe_kernels.
 add_library(koebe_kernels STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/native/bundle/kernels/chosen_kernels.cpp)
-if(KOEBE_BUNDLE)
-  target_sources(koebe_kernels PRIVATE ${PROJECT_SOURCE_DIR}/native/bundle/kernels/blas_symbols.cpp)
-endif()
 target_include_directories(koebe_kernels PRIVATE ${PROJECT_SOURCE_DIR}/native)
 function(koebe_kernels_for set)
   add_library(koebe_kernels_${set} OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/native/bundle/kernels/dense_kernels.cpp)

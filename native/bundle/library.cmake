@@ -1,7 +1,7 @@
 # The shared library of the wheels: everything inside, only KOEBE_API seen, no system library but the C library's.
 target_sources(koebe_core PRIVATE bundle/exception_memory.cpp)
-target_link_libraries(koebe_core PRIVATE koebe_cholmod)
-target_compile_definitions(koebe_core PUBLIC KOEBE_SHARED PRIVATE KOEBE_OWN_KERNELS)
+target_link_libraries(koebe_core PRIVATE koebe_kernels)
+target_compile_definitions(koebe_core PUBLIC KOEBE_SHARED)
 set_target_properties(koebe_core PROPERTIES
   OUTPUT_NAME koebe
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe

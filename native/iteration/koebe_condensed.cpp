@@ -102,7 +102,7 @@ std::unique_ptr<BoundarySolver> condense(const SparseMatrix& laplacian, const st
     const std::size_t most = most_condensed.value_or(static_cast<std::size_t>(all ? longest : most_kept(vertex_count)));
     if (loops.size() > 1 && boundary.size() - grounded > most)
         return std::make_unique<FilledLaplacian>(laplacian, loops);
-    return std::make_unique<CondensedLaplacian>(laplacian, boundary, Ordering::amd, grounded);
+    return std::make_unique<CondensedLaplacian>(laplacian, boundary, grounded);
 }
 
 KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surface,

@@ -2,7 +2,6 @@
 
 #include "execution/thread_share.h"
 #include "linear/dense_spd.h"
-#include "linear/kernel_buffer.h"
 
 #include <utility>
 
@@ -78,7 +77,6 @@ std::vector<VectorXd> SparseState::fluxes_against_outer()
     std::vector<MatrixXd> blocks = factor().inverse_blocks(inner_loops_);
     std::vector<VectorXd> result(blocks.size());
     each_beside(blocks.size(), [&](std::size_t k) {
-        const KernelBuffer buffer;
         result[k] = spd_solve(std::move(blocks[k]), VectorXd::Ones(static_cast<Eigen::Index>(inner_loops_[k].size())));
     });
     return result;

@@ -59,10 +59,10 @@ MatrixXd reordered(const MatrixXd& rows, const std::vector<Index>& row)
 }  // namespace
 
 CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary,
-                                       Ordering ordering, Index grounded)
+                                       Index grounded)
     : ground_(laplacian, {boundary.begin(), boundary.begin() + grounded}),
       kept_(boundary.begin() + grounded, boundary.end()),
-      cholesky_(shifted(laplacian), ordering, kept_)
+      cholesky_(shifted(laplacian), kept_)
 {
 }
 

@@ -23,8 +23,7 @@ public:
     ///        of the matrix
     /// @param grounded so many of them, from the first on, are grounded; sigma() has the others, in their order
     /// @throws SolverError if K_II is not positive definite
-    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Ordering ordering,
-                       Index grounded = 0);
+    CondensedLaplacian(const SparseMatrix& laplacian, const std::vector<Index>& boundary, Index grounded = 0);
 
     void renew(const SparseMatrix& laplacian) override;
     bool reorder_boundary(const std::vector<Index>& boundary) override;

@@ -6,13 +6,6 @@
 #include <algorithm>
 #include <string>
 
-#if !defined(KOEBE_OWN_KERNELS)
-extern "C" {
-void openblas_set_num_threads(int threads);
-int openblas_get_num_threads();
-}
-#endif
-
 namespace koebe {
 
 using namespace detail;
@@ -103,23 +96,12 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
     return product;
 }
 
-namespace {
-
-void fix_product_blocks() { Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20); }
-
-}  // namespace
-
-#if defined(KOEBE_OWN_KERNELS)  // which know no threads
-OneDenseThread::OneDenseThread() : before_(1) { fix_product_blocks(); }
-OneDenseThread::~OneDenseThread() = default;
-#else
-OneDenseThread::OneDenseThread() : before_(openblas_get_num_threads())
+void fix_product_blocks()
 {
-    openblas_set_num_threads(1);
-    fix_product_blocks();
+    [[maybe_unused]] static const bool once = [] {
+        Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20);
+        return true;
+    }();
 }
-
-OneDenseThread::~OneDenseThread() { openblas_set_num_threads(before_); }
-#endif
 
 }  // namespace koebe

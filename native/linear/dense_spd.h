@@ -1,10 +1,8 @@
-// Dense matrices on LAPACK and BLAS, most of them symmetric positive definite.
+// Dense matrices, most of them symmetric positive definite.
 #pragma once
 
 #include "core/api.h"
-#include "core/process_setting.h"
 #include "core/types.h"
-#include "linear/kernel_buffer.h"
 
 namespace koebe {
 
@@ -24,27 +22,8 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& a);
 /// The product L L' of a lower triangular matrix (its strict upper part is not read).
 MatrixXd lower_times_transpose(const MatrixXd& lower);
 
-/// OpenBLAS on one thread; and Eigen's products in blocks of one size, which it takes from the processor's caches else:
-/// sums would have another order on another processor.
-class KOEBE_API OneDenseThread {
-public:
-    OneDenseThread();
-    ~OneDenseThread();
-    OneDenseThread(const OneDenseThread&) = delete;
-    OneDenseThread& operator=(const OneDenseThread&) = delete;
-
-private:
-    int before_;
-};
-
-/// For its lifetime the dense kernels run on one thread each, in the whole process; the last one to go restores what
-/// was before. With two threads OpenBLAS adds in another order, and the last digits of a map would depend on the
-/// machine. Its threads wait for each other actively, too: what idle cores gain, busy ones lose many times over
-/// (Blender redraws, another job runs).
-/// @throws std::bad_alloc
-class SerialDenseKernels {
-    KernelBuffer buffer_;
-    ProcessSetting<OneDenseThread> one_thread_;
-};
+/// Eigen's products in blocks of one size from now on, which it takes from the processor's caches else: sums would have
+/// another order on another processor. Every call that computes begins with it.
+KOEBE_API void fix_product_blocks();
 
 }  // namespace koebe

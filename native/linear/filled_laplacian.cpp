@@ -60,8 +60,7 @@ std::vector<Index> joined(const std::vector<std::vector<Index>>& loops)
 FilledLaplacian::FilledLaplacian(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
     : loops_(loops),
       boundary_(laplacian, joined(loops)),
-      cholesky_(with_room_for_disks(laplacian, loops), Ordering::amd, loops[1],
-                std::vector(loops.begin() + 1, loops.end()))
+      cholesky_(with_room_for_disks(laplacian, loops), loops[1], std::vector(loops.begin() + 1, loops.end()))
 {
     take_stiffness(laplacian);
 }

@@ -64,22 +64,21 @@ struct SparseCholesky::Impl {
     MatrixXd back_substitution_to(const std::vector<Index>& wanted, MatrixXd y) const;
 };
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
-                               Index split_rows)
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last, Index split_rows)
 {
     const Index size = static_cast<Index>(matrix.rows());
-    const bool large = ordering == Ordering::amd && size > split_rows;
+    const bool large = size > split_rows;
     SparseMatrix room;
     const SparseMatrix& given = large ? both_triangles(matrix, room) : matrix;
     std::optional<Analysis> pieces;
     if (large) pieces = analyze_in_pieces(given, last, std::max(split_rows, size / pieces_of_large));
-    impl_ = Impl::of(pieces ? *std::move(pieces) : analyze(given, last, ordering), last);
+    impl_ = Impl::of(pieces ? *std::move(pieces) : analyze(given, last), last);
     impl_->take(given);
 }
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last,
                                const std::vector<std::vector<Index>>& changing)
-    : impl_(Impl::of(analyze(matrix, last, ordering), last))
+    : impl_(Impl::of(analyze(matrix, last), last))
 {
     impl_->fronts = std::make_unique<MultifrontalFactor>(impl_->l, matrix, changing);
 }

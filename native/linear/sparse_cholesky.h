@@ -9,8 +9,6 @@
 
 namespace koebe {
 
-enum class Ordering { amd, metis };
-
 /// Factor A = L L' of a symmetric positive definite matrix; supernodal, so that dense kernels do the work.
 ///
 /// Some rows B can be kept to the end. Then the trailing block gives the Schur complement A_BB - A_BI A_II^-1 A_IB =
@@ -21,12 +19,11 @@ public:
     /// @param last the rows B
     /// @param split_rows a larger matrix is cut into pieces that are factored side by side (factor/analysis.h)
     /// @throws SolverError if the matrix is not positive definite
-    explicit SparseCholesky(const SparseMatrix& matrix, Ordering ordering = Ordering::amd,
-                            const std::vector<Index>& last = {}, Index split_rows = 50000);
+    explicit SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last = {}, Index split_rows = 50000);
 
     /// Prepares the factors of A + blocks on some sets of rows, A = matrix; there is none before refactorize(blocks).
     /// @param changing the sets; A has an entry, if only an explicit 0, between any two rows of one
-    SparseCholesky(const SparseMatrix& matrix, Ordering ordering, const std::vector<Index>& last,
+    SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last,
                    const std::vector<std::vector<Index>>& changing);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;

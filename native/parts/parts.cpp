@@ -139,7 +139,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     const auto begin = std::chrono::steady_clock::now();
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
     require_memory_for_faces(triangles.rows());
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     PartsLayout layout = parts_layout(vertices, triangles, options, context);
     const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report is true of it
 

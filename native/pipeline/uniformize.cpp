@@ -141,7 +141,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     result.engine = options.engine;
     result.center = options.center;
     result.point = options.point;
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     const ThreadShare threads(options.threads);
     Stopwatch total, stage;
 

@@ -103,7 +103,7 @@ void bind_shapes(py::module_& m)
               const CorrespondenceOptions options{.match = match, .fit_holes = fit_holes, .landmarks = landmarks};
               Correspondence found = without_gil(py::none(), {}, [&](ExecutionContext& context) {
                   return run_detachable<Correspondence>(context, [source, target, options](ExecutionContext& own) {
-                      const SerialDenseKernels serial;
+                      fix_product_blocks();
                       return correspond(source, target, options, own);
                   });
               });

@@ -88,7 +88,7 @@ void bind_steps(py::module_& m)
                              bool uniform) {
         return detached(
             [positions = Vertices(vertices), faces = Triangles(triangles), fixed, given = complex(values), uniform] {
-                const SerialDenseKernels serial;
+                fix_product_blocks();
                 const EdgeLengths lengths =
                     uniform ? EdgeLengths::Ones(faces.rows(), 3) : edge_lengths(positions, faces);
                 return planar(harmonic_map(faces, lengths, static_cast<Index>(positions.rows()), fixed, given));
@@ -97,7 +97,7 @@ void bind_steps(py::module_& m)
     });
     m.def("disk_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles)] {
-            const SerialDenseKernels serial;
+            fix_product_blocks();
             const Surface surface = surface_with_loops(positions, faces, 1);
             return planar(disk_map(surface.triangles, edge_lengths(positions, surface.triangles), surface.vertex_count,
                                    surface.loops[0])
@@ -107,7 +107,7 @@ void bind_steps(py::module_& m)
     m.def("annulus_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                             AnnulusBackend backend) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles), backend] {
-            const SerialDenseKernels serial;
+            fix_product_blocks();
             return annulus_by(backend, positions, faces);
         });
     });

@@ -194,7 +194,7 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
     const SparseMatrix laplacian =
         cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), map.cut.surface.vertex_count);
     seconds.metric += stage.lap();
-    CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut), Ordering::amd);
+    CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut));
     seconds.factor += stage.lap();
     context.begin_stage("iterate", from + 0.6 * (until - from), until);
     GluedState state(surface, map.cut.loops);
@@ -366,7 +366,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
 SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                                  ExecutionContext& context)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     SchottkyResult result = map_split(vertices, triangles, options, most_levels, context);
     const auto take_if_better = [&](const SchottkyOptions& other, int finer) {
         if (result.converged) return;

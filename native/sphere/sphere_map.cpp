@@ -287,7 +287,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
 {
     const Vertices& vertices = mesh.vertices;
     const Triangles& triangles = mesh.triangles;
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     MapClock clock;
     SphereResult result;
     context.begin_stage("topology", 0.0, 0.1);

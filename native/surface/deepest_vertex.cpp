@@ -21,7 +21,7 @@ Index deepest_vertex(const Triangles& triangles, const EdgeLengths& lengths, con
     SparseMatrix laplacian = cotan_laplacian(triangles, half_cotangents(lengths), vertex_count);
     for (const Index v : boundary) laplacian.coeffRef(v, v) = 1.0;  // a vertex of no face has no entry
     laplacian.makeCompressed();
-    CondensedLaplacian surface(laplacian, boundary, Ordering::amd, static_cast<Index>(boundary.size()));
+    CondensedLaplacian surface(laplacian, boundary, static_cast<Index>(boundary.size()));
     const VectorXd torsion = surface.solve_interior(vertex_areas(triangles, lengths, vertex_count)).values;
     Index deepest = -1;
     for (Index v = 0; v < vertex_count; ++v)

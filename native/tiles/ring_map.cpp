@@ -343,7 +343,7 @@ FlatMap unrolled(const PeriodicSurface& domain, const RoundRing& ring, double he
 TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                          ExecutionContext& context)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     MapClock clock;
     context.begin_stage("topology", 0.0, 0.1);
     PeriodicSurface domain = periodic_ring(vertices, triangles, options.outer, options.inner);

@@ -11,7 +11,7 @@ namespace {
 TileResult torus_map_here(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                           ExecutionContext& context)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     MapClock clock;
     context.begin_stage("topology", 0.0, 0.1);
     PeriodicSurface domain = periodic_torus(vertices, triangles);

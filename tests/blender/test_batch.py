@@ -71,6 +71,7 @@ def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
     }
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("domain, options", [
     ("torus", {}), ("torus", {"fit": "square"}), ("ring", {"holes": "radial", "fit": "period"}),
 ], ids=str)  # fmt: skip
@@ -94,6 +95,7 @@ def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
         assert entry["periods"][0] == [1.0, 0.0]
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("layout", balls.LAYOUTS)
 def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
     obj = balls.add_ball(holes=((3, 4),))
@@ -110,6 +112,7 @@ def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
     assert entry["flipped"] == flipped and len(entry["loops"]) == 1 and 0 < entry["loops"][0]["radius"] < 1
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("normalization", ["area", "circles"])
 def test_handles_are_those_of_the_operator(batch, tmp_path, normalization):
     obj = handles.add_plate(holes=handles.HOLE)
@@ -127,6 +130,7 @@ def test_handles_are_those_of_the_operator(batch, tmp_path, normalization):
     assert (len(entry["handles"]), len(entry["loops"])) == (2, 1)
 
 
+@pytest.mark.alike
 def test_parts_are_those_of_the_operator(batch, tmp_path):
     obj = scenes.add_cube("Cube")
     done = batch("--output", "out.blend", "--report", "out.json", "--parts", "--evenness", "0.2", "--layer", "Own",
@@ -145,6 +149,7 @@ def test_parts_are_those_of_the_operator(batch, tmp_path):
     assert entry["object"] == "Cube" and entry["flipped"] == 0 and entry["angle_error_deg"]["mean"] < 60.0
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("words, said", [
     ("--importance Weight --balance none", "--importance: it weighs the balance: take --balance area"),
     ("--symmetry auto --center 3", "--symmetry: it excludes"),
@@ -167,6 +172,7 @@ def test_wrong_usage_names_flags_and_limits(addon, words, said):
     assert raised.value.code == ends.USAGE and said in raised.value.reason
 
 
+@pytest.mark.alike
 def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):
     tori.add_torus()
     done = batch("--output", "out.blend", "--report", "out.json", "--domain", "ring")
@@ -176,6 +182,7 @@ def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):
     assert entry["error"]["name"] == "DomainError"
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("options", [{"tube": "unroll"}, {"upright": False}], ids=str)
 def test_shapes_are_those_of_the_operator(batch, tmp_path, options):
     obj = add_tube()
@@ -212,6 +219,7 @@ def test_only_the_named_objects_and_no_checker(batch, tmp_path):
     assert len(bpy.data.materials) == 0
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -229,12 +237,14 @@ def test_wrong_usage_is_2_and_leaves_nothing(batch, tmp_path, arguments):
     assert outputs(tmp_path) == []
 
 
+@pytest.mark.alike
 def test_no_input_is_2(batch, tmp_path):
     done = batch("--output", "out.blend", source="")
     assert done.returncode == 2 and "IN.blend" in done.stderr
     assert outputs(tmp_path) == []
 
 
+@pytest.mark.alike
 def test_a_bad_mesh_is_3_with_its_reason_and_no_blend(batch, tmp_path):
     scenes.add_panel("Good")
     scenes.add_cube("Bad")
@@ -247,6 +257,7 @@ def test_a_bad_mesh_is_3_with_its_reason_and_no_blend(batch, tmp_path):
     assert "error" not in entries["Good"]
 
 
+@pytest.mark.alike
 def test_not_converged_is_4_and_written(batch, tmp_path):
     scenes.add_panel()
     done = batch("--output", "out.blend", "--report", "out.json", "--max-sweeps", "1", "--tolerance", "1e-14")
@@ -258,6 +269,7 @@ def test_not_converged_is_4_and_written(batch, tmp_path):
     assert "Koebe" in bpy.data.objects["Panel"].data.uv_layers
 
 
+@pytest.mark.alike
 def test_what_is_lost_is_4_with_its_share_and_keeps_its_layer(batch, tmp_path):
     points, faces = tori.with_finger(*map(np.asarray, handles.plate_arrays()), 30, length=60)
     scenes.add_object("Limb", points, faces)
@@ -327,6 +339,7 @@ def test_a_file_that_is_no_blend(batch, tmp_path):
     assert outputs(tmp_path) == []
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("target", ["attribute", "layers"])
 def test_sequences_are_those_of_the_operator(batch, tmp_path, target):
     add_waving()
@@ -348,6 +361,7 @@ def test_sequences_are_those_of_the_operator(batch, tmp_path, target):
     ]  # fmt: skip
 
 
+@pytest.mark.alike
 def test_a_sequence_that_is_refused_writes_nothing(batch, tmp_path):
     obj = add_waving()
     obj.modifiers.new("Finer", "SUBSURF")

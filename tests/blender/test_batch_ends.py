@@ -74,6 +74,7 @@ def test_a_compressed_input_is_as_good(addon_name, koebe, tmp_path):
     assert "Koebe" in bpy.data.objects["Panel"].data.uv_layers
 
 
+@pytest.mark.alike
 def test_two_inputs_are_2(addon_name, tmp_path):
     saved(tmp_path / "in.blend")
     code, out, err = processes.run_batch(addon_name, tmp_path, "in.blend", "--output", "out.blend")
@@ -83,6 +84,7 @@ def test_two_inputs_are_2(addon_name, tmp_path):
 # ---------------------------------------------------------------- the objects
 
 
+@pytest.mark.alike
 def test_a_report_is_written_where_nothing_could_be_mapped(batch, tmp_path):
     scenes.add_object("Wire", [(0, 0, 0), (1, 0, 0)], [])
     code, out, err = batch("--output", "out.blend", "--report", "out.json")
@@ -91,6 +93,7 @@ def test_a_report_is_written_where_nothing_could_be_mapped(batch, tmp_path):
     assert content["exit_code"] == 3 and content["output"] is None and "no faces" in entries["Wire"]["error"]["reason"]
 
 
+@pytest.mark.alike
 def test_a_report_is_written_on_a_scene_without_meshes(batch, tmp_path):
     code, out, err = batch("--output", "out.blend", "--report", "out.json")
     assert code == 3 and "no mesh objects" in err
@@ -140,6 +143,7 @@ def test_names_of_all_kinds(batch, tmp_path):
     assert {obj.name for obj in bpy.data.objects if obj.data.uv_layers} == set(names)
 
 
+@pytest.mark.alike
 def test_a_missing_name_is_2_with_a_hint_where_commas_are_in_the_way(batch):
     scenes.add_panel("B, not C", **SMALL)
     code, out, err = batch("--output", "out.blend", "--objects", "B, not C")
@@ -148,6 +152,7 @@ def test_a_missing_name_is_2_with_a_hint_where_commas_are_in_the_way(batch):
     assert code == 2 and ["x" * 230 in line for line in processes.own_lines(err)] == [True], err
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("outer", [99999, 0, 2**31 - 1])
 def test_an_outer_vertex_that_is_on_no_face_is_2(batch, tmp_path, outer):
     vertices, faces = scenes.panel_arrays(**SMALL)
@@ -158,6 +163,7 @@ def test_an_outer_vertex_that_is_on_no_face_is_2(batch, tmp_path, outer):
     assert outputs(tmp_path) == []
 
 
+@pytest.mark.alike
 def test_an_outer_vertex_that_is_on_no_boundary_is_3(batch, tmp_path):
     scenes.add_panel(**SMALL)
     code, out, err = batch("--output", "out.blend", "--outer", "0", "--report", "out.json")
@@ -168,6 +174,7 @@ def test_an_outer_vertex_that_is_on_no_boundary_is_3(batch, tmp_path):
 # ---------------------------------------------------------------- streams, faults and signals
 
 
+@pytest.mark.alike
 def test_what_is_printed_does_not_change_what_is_done(batch, tmp_path):
     """Names that the terminal's encoding does not have, a full device, a closed pipe."""
     scenes.add_panel("Küche 🍳", **SMALL)
@@ -182,6 +189,7 @@ def test_what_is_printed_does_not_change_what_is_done(batch, tmp_path):
     assert outputs(tmp_path) == ["ascii.blend", "closed.blend", "full.blend", "strict.blend"]
 
 
+@pytest.mark.alike
 def test_a_fault_is_1_and_no_memory_is_3(batch, tmp_path):
     scenes.add_panel(**SMALL)
     fault = "def compute(job):\n    raise {}\nbatch.compute = compute"
@@ -191,6 +199,7 @@ def test_a_fault_is_1_and_no_memory_is_3(batch, tmp_path):
     assert code == 3 and "memory" in err and "Traceback" not in err and outputs(tmp_path) == ["out.json"]
 
 
+@pytest.mark.alike
 def test_what_cannot_be_written_after_all_is_3_with_a_report(batch, tmp_path):
     scenes.add_panel(**SMALL)
     patch = """
@@ -203,6 +212,7 @@ batch.Job.write = write
     assert read_report(tmp_path)[0]["error"] == {"name": "TransferError", "reason": "Panel: it has gone"}
 
 
+@pytest.mark.alike
 def test_no_native_module_is_1_with_a_report(batch, tmp_path):
     scenes.add_panel(**SMALL)
     patch = """
@@ -225,6 +235,7 @@ MOMENTS = {
 }
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize(
     ("moment", "number"),
     [*((moment, signal.SIGINT) for moment in MOMENTS), ("saved", signal.SIGTERM), ("saved", signal.SIGHUP)],
@@ -238,6 +249,7 @@ def test_a_signal_at_any_moment_is_130_and_nothing_is_written(batch, tmp_path, m
     assert outputs(tmp_path) == ["out.blend"] and (tmp_path / "out.blend").read_text() == "older"
 
 
+@pytest.mark.alike
 def test_a_signal_between_the_two_files_lets_both_be_written(batch, tmp_path):
     scenes.add_panel(**SMALL)
     patch = "def act():\n    os.kill(os.getpid(), signal.SIGTERM)\nafter(batch.Target, 'put', act)"
@@ -250,6 +262,7 @@ OBEYS = "while not job.cancel_token.cancelled:\n        time.sleep(0.01)"
 DOES_NOT_OBEY = "batch.PATIENCE_SECONDS = 0.1\n    while True:\n        time.sleep(0.01)"
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("conduct", [OBEYS, DOES_NOT_OBEY], ids=["obeys", "does not obey"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda number: number.name)
 def test_a_signal_ends_a_computation_that_takes_for_ever(addon_name, koebe, tmp_path, conduct, number):

@@ -9,6 +9,8 @@ import processes
 import pytest
 import scenes
 
+pytestmark = pytest.mark.alike
+
 SMALL = {"size": 10, "holes": ((0.1, 0.4, 0.4, 0.7),)}
 
 

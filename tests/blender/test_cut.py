@@ -89,6 +89,7 @@ def islands_of(obj):
     return np.abs(scenes.signed_areas(obj.data, "Koebe"))
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("kind", ANY)
 def test_any_mesh_gets_uvs_and_its_mesh_stays(kind):
     obj = ANY[kind]()
@@ -106,6 +107,7 @@ def test_any_mesh_gets_uvs_and_its_mesh_stays(kind):
     assert all("uv" in name or "attribute Koebe" in name or name == "file: report" for name in changed), changed
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("kind", ["turned", "klein", "moebius", "torus"])
 def test_triangles_of_an_island_have_one_direction(kind):
     """Over each edge that the UVs do not cut, both triangles lie on their own side of it."""
@@ -145,6 +147,7 @@ def test_the_cuts_are_where_the_uvs_differ_and_can_be_selected():
     assert edges
 
 
+@pytest.mark.alike
 def test_a_surface_that_has_a_map_is_mapped_as_before_to_the_bit():
     one, other = scenes.add_panel("One"), scenes.add_panel("Other")
     scenes.select(one)
@@ -208,6 +211,7 @@ def test_a_tube_with_turned_faces_is_unrolled():
     assert (areas != 0.0).all() and (areas < 0).any() and (areas > 0).any()
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("options", [{"outer": "longest"}, {"placement": "together"}, {"method": "ck"},
                                      {"engine": "mesh"}, {"balance": "none"}, {"upright": False}])  # fmt: skip
 def test_the_other_options_work_with_it(options):
@@ -226,6 +230,7 @@ def test_the_cursor_is_the_centre_of_one_piece_only():
     bpy.context.scene.cursor.location = (0.0, 0.0, 0.0)
 
 
+@pytest.mark.alike
 def test_a_soup_of_faces_ends_soon():
     random = np.random.default_rng(5)
     vertices = random.normal(size=(60, 3))
@@ -238,6 +243,7 @@ def test_a_soup_of_faces_ends_soon():
     assert np.isfinite(uv).all()
 
 
+@pytest.mark.alike
 def test_random_meshes_are_mapped_one_to_one_or_refused():
     """Panels, spheres and tori with faces taken, doubled, turned, glued: UVs without flips or a reason."""
     random = np.random.default_rng(17)

@@ -46,6 +46,7 @@ CASES = {
 }
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
 @pytest.mark.parametrize("case", CASES)
 def test_it_is_what_the_package_makes_of_it(koebe, case, polygons):
@@ -74,6 +75,7 @@ def test_it_is_what_the_package_makes_of_it(koebe, case, polygons):
     }
 
 
+@pytest.mark.alike
 def test_the_normalization_is_another_map():
     """Of a surface whose even map has no room for equal circles."""
     obj = add_plate(windows=((4, 2), (5, 5)), holes=block(2, 0, 3), n=8, m=10, triangles=True)
@@ -306,6 +308,7 @@ def assert_is_cut_open(outcome, one):
         assert np.abs(areas).sum() / 2 <= np.pi / 4 + 1e-6
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "8"))))
 def test_wild_surfaces_are_cut_open_or_refused(addon, seed):
     random = np.random.default_rng(seed)

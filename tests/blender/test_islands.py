@@ -33,6 +33,7 @@ def enclosing(points):
     return np.array(center), radius
 
 
+@pytest.mark.alike
 def test_islands_do_not_overlap_and_keep_their_margin():
     obj = add_seamed_panel()
     bpy.ops.uv.koebe_uniformize(margin=0.05)
@@ -43,6 +44,7 @@ def test_islands_do_not_overlap_and_keep_their_margin():
     assert (scenes.signed_areas(obj.data, "Koebe") > 0).all()
 
 
+@pytest.mark.alike
 def test_the_seams_themselves_stay():
     obj = add_seamed_panel()
     before = scenes.mesh_state(obj.data)
@@ -50,6 +52,7 @@ def test_the_seams_themselves_stay():
     assert scenes.mesh_state(obj.data, but_layer="Koebe") == before
 
 
+@pytest.mark.alike
 def test_islands_in_place_keep_position_size_and_rotation():
     obj = add_seamed_panel()
     bpy.ops.uv.koebe_uniformize()
@@ -70,6 +73,7 @@ def test_in_place_goes_by_the_active_layer_if_the_own_one_is_new_in_edit_mode_to
     assert np.abs(scenes.corner_uv(obj.data, "Koebe") - expected).max() < 1e-5
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("empty_layer", [False, True])
 def test_in_place_without_a_place_packs(empty_layer):
     obj = add_seamed_panel()
@@ -83,6 +87,7 @@ def test_in_place_without_a_place_packs(empty_layer):
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), packed)
 
 
+@pytest.mark.alike
 def test_objects_together_share_the_square_in_proportion_to_their_size():
     one, two = scenes.add_panel("One"), scenes.add_panel("Two")
     two.scale = (2, 2, 2)
@@ -108,6 +113,7 @@ def test_only_selected_islands_change_and_the_others_stay_bit_for_bit():
     assert np.hypot(*(after[corner_inside] - 0.5).T).max() == pytest.approx(0.5, abs=1e-6)
 
 
+@pytest.mark.alike
 def test_a_seamed_tube_opens():
     """A tube cut lengthwise is a disk; the seam's vertices have two UVs each."""
     around, rings = 24, 12
@@ -127,6 +133,7 @@ def test_a_seamed_tube_opens():
     assert np.hypot(*(uv - 0.5).T).max() == pytest.approx(0.5, abs=1e-6)
 
 
+@pytest.mark.alike
 def test_parts_that_touch_in_a_vertex_only_are_islands():
     obj = scenes.add_object("Bow", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 0, 0), (-1, -1, 0)], [(0, 1, 2), (0, 3, 4)])
     scenes.select(obj)

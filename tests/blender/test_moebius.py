@@ -46,6 +46,7 @@ def assert_report_is_true(obj):
         assert np.abs(away - loop.uv_radius).max() < 2e-6
 
 
+@pytest.mark.alike
 def test_a_point_comes_into_the_middle_and_circles_stay_circles():
     obj = mapped()
     bpy.context.view_layer.update()
@@ -60,6 +61,7 @@ def test_a_point_comes_into_the_middle_and_circles_stay_circles():
     assert report().moved == "moved by hand" and report().flipped == 0
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("rim", [1, 2, 3])
 def test_a_hole_becomes_the_rim(rim):
     obj = mapped()
@@ -76,12 +78,14 @@ def test_a_hole_becomes_the_rim(rim):
     scenes.assert_circle_domain(obj)
 
 
+@pytest.mark.alike
 def test_a_hole_comes_into_the_middle_by_its_number_in_the_report():
     mapped()
     assert bpy.ops.uv.koebe_moebius(hole=2) == {"FINISHED"}
     assert np.abs(np.array(report().loops[2].uv_center) - 0.5).max() < 1e-6
 
 
+@pytest.mark.alike
 def test_without_a_change_every_bit_stays():
     obj = mapped()
     before = uv_of(obj)
@@ -158,6 +162,7 @@ def test_uvs_that_are_no_circles_are_refused():
         bpy.ops.uv.koebe_moebius(center=(0.1, 0.0))
 
 
+@pytest.mark.alike
 def test_what_32_bits_cannot_tell_apart_is_said():
     mapped()
     assert bpy.ops.uv.koebe_moebius(center=(0.999999, 0.0)) == {"FINISHED"}
@@ -182,6 +187,7 @@ def test_frames_while_dragging_and_esc_restore_every_bit(addon, koebe):
     assert fingerprint.differences(before, fingerprint.fingerprint()) == []
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("run", [
     lambda: bpy.ops.uv.koebe_moebius(rim=1), lambda: bpy.ops.uv.koebe_moebius(rotation=1.0),
     lambda: bpy.ops.uv.koebe_symmetrize(), lambda: bpy.ops.object.koebe_flat_copy(),

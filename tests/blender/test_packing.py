@@ -5,6 +5,8 @@ import cmath
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.alike
+
 
 @pytest.fixture
 def packing(addon):

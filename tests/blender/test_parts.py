@@ -38,6 +38,7 @@ MODELS = {
 }
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("model", MODELS)
 def test_any_model_gets_uvs_without_flips_in_the_square(model):
     obj = MODELS[model]()
@@ -53,6 +54,7 @@ def test_any_model_gets_uvs_without_flips_in_the_square(model):
     assert all("uv" in name or "attribute Koebe" in name or name == "file: report" for name in changed), changed
 
 
+@pytest.mark.alike
 def test_a_sphere_is_evener_than_one_map_can_be():
     obj = MODELS["sphere"]()
     scenes.select(obj)
@@ -61,6 +63,7 @@ def test_a_sphere_is_evener_than_one_map_can_be():
     assert entry.density < 4.0 and entry.cut_length > 0.5
 
 
+@pytest.mark.alike
 def test_the_dial_makes_more_parts():
     obj = MODELS["monkey"]()
     scenes.select(obj)
@@ -71,6 +74,7 @@ def test_the_dial_makes_more_parts():
     assert counts[0] < counts[1]
 
 
+@pytest.mark.alike
 def test_polygons_stay_whole():
     obj = MODELS["torus"]()
     scenes.select(obj)
@@ -82,6 +86,7 @@ def test_polygons_stay_whole():
     assert max(sizes) < 20.0 * np.median(sizes), "a quadrilateral is torn apart"
 
 
+@pytest.mark.alike
 def test_seams_stay_cuts():
     """A flat square, cut along its middle, though one part would do: the two sides lie apart."""
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=10, y_subdivisions=10)
@@ -171,6 +176,7 @@ def last_run():
     return entry
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 @pytest.mark.parametrize("model", [*MODELS, "finger"])
 def test_cuts_become_seams_and_the_next_run_cuts_along_them(model, mode):
@@ -194,6 +200,7 @@ def test_cuts_become_seams_and_the_next_run_cuts_along_them(model, mode):
         assert (signed_areas(obj) > 0.0).all()
 
 
+@pytest.mark.alike
 def test_a_finger_keeps_its_parts_and_its_slit_over_runs():
     obj = add_finger()
     unwrap(write_seams=True)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import scenes
 
+pytestmark = pytest.mark.alike
+
 
 def vertex_uv(obj):
     """UVs (V, 2) of the vertices of a mesh without seams."""

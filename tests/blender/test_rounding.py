@@ -5,6 +5,8 @@ import cmath
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.alike
+
 
 def fan_along_the_rim(n=60, step=2e-4):
     """A strip of triangles, each of three neighbours on the unit circle `step` apart and one inside."""

@@ -50,6 +50,7 @@ def set_uv(obj, uv, layer="Koebe"):
 # ---------------------------------------------------------------- comparing
 
 
+@pytest.mark.alike
 def test_the_same_shape_is_near_and_another_far_and_nothing_is_changed():
     one, moved, other = scenes.add_panel("One"), scenes.add_panel("Moved"), scenes.add_panel("Other", holes=OTHER_HOLES)
     moved.location, moved.rotation_euler, moved.scale = (4, 5, 6), (1.0, 0.3, -0.7), (2.5, 2.5, 2.5)
@@ -62,6 +63,7 @@ def test_the_same_shape_is_near_and_another_far_and_nothing_is_changed():
     assert found["Moved"] < 1e-5 and found["Other"] > 0.01
 
 
+@pytest.mark.alike
 def test_the_module_is_that_of_the_native_package(koebe):
     obj = scenes.add_panel()
     bpy.ops.uv.koebe_compare_shapes()
@@ -73,6 +75,7 @@ def test_the_module_is_that_of_the_native_package(koebe):
     assert values == pytest.approx(koebe.conformal_module(result).tolist(), abs=1e-6)
 
 
+@pytest.mark.alike
 def test_what_has_no_distance_says_why():
     one, two = scenes.add_panel("One"), scenes.add_panel("Two", holes=scenes.HOLES[:2])
     closed = scenes.add_cube("Closed")
@@ -89,6 +92,7 @@ def test_what_has_no_distance_says_why():
 # ---------------------------------------------------------------- carrying
 
 
+@pytest.mark.alike
 def test_the_same_surface_gets_the_same_uvs():
     source, target = pair()
     target.location, target.scale = (5, 0, 1), (2, 2, 2)
@@ -100,6 +104,7 @@ def test_the_same_surface_gets_the_same_uvs():
     assert target.data.uv_layers.active.name == "Koebe" and shapes().carried[0].distance < SAME
 
 
+@pytest.mark.alike
 def test_on_a_balanced_source_it_is_the_same_up_to_the_meshs_resolution():
     apart = []
     for size in (26, 52):
@@ -111,6 +116,7 @@ def test_on_a_balanced_source_it_is_the_same_up_to_the_meshs_resolution():
     assert apart[0] < 1e-2 and apart[1] < apart[0] / 2.0
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("fit_holes", [False, True])
 def test_the_reported_residual_is_how_far_the_holes_are_apart(fit_holes):
     source, target = pair(target_holes=OTHER_HOLES)
@@ -125,6 +131,7 @@ def test_the_reported_residual_is_how_far_the_holes_are_apart(fit_holes):
     assert (scenes.signed_areas(target.data, "Koebe") > 0.0).all()
 
 
+@pytest.mark.alike
 def test_aligned_holes_are_circles_and_no_turn_would_fit_better():
     source, target = pair(target_holes=OTHER_HOLES)
     bpy.ops.uv.koebe_carry_texture()
@@ -138,6 +145,7 @@ def test_aligned_holes_are_circles_and_no_turn_would_fit_better():
     assert squares(0.0) <= min(squares(0.01), squares(-0.01))
 
 
+@pytest.mark.alike
 def test_the_source_may_lie_anywhere_in_its_layer_with_any_loop_outside():
     source, target = pair(52)
     x, y, radius = circles(source)[1]
@@ -151,6 +159,7 @@ def test_the_source_may_lie_anywhere_in_its_layer_with_any_loop_outside():
     assert shapes().carried[0].distance < 1e-3
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("holes", [(), scenes.HOLES[:1]])
 def test_with_fewer_than_two_holes_up_stays_up(holes):
     source, target = pair(holes=holes, balance="none" if holes else "area")
@@ -159,6 +168,7 @@ def test_with_fewer_than_two_holes_up_stays_up(holes):
     assert np.abs(scenes.corner_uv(target.data, "Koebe") - scenes.corner_uv(source.data, "Koebe")).max() < SAME
 
 
+@pytest.mark.alike
 def test_a_mesh_with_other_triangles_is_fitted_too():
     source, target = pair(target_size=40)
     bpy.ops.uv.koebe_carry_texture()

@@ -33,6 +33,7 @@ def of_the_package(koebe, obj, layout):
     return uv, ball, polygon
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("holes", [(), HOLES], ids=["closed", "holes"])
 @pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
@@ -68,6 +69,7 @@ def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
     assert are_continued(ends[~np.isin(faces, torn).any(axis=1)], layout).all()
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_a_face_without_three_corners_apart_is_no_obstacle(layout):
     """The smallest closed surfaces: a cube, and a tetrahedron."""
@@ -99,6 +101,7 @@ def colors(matrix, uv):
     return np.stack([np.floor(at).sum(axis=1) % 2, np.floor(at / 4).sum(axis=1) % 2], axis=1)
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("size", [8.0, 20.0, 32.0, 50.0])
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("holes", [(), HOLES, ((0, -1), (0, 9))], ids=["closed", "holes", "poles"])
@@ -361,6 +364,7 @@ def assert_is_a_layout(outcome, one, layout):
         assert len(torn) <= (2 if layout == "equirectangular" else 4) or len(one.island.faces) < 12
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))))
 def test_wild_surfaces_become_spheres_or_are_refused(addon, seed):
     random = np.random.default_rng(seed)

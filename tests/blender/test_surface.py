@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from scenes import panel_arrays
 
+pytestmark = pytest.mark.alike
+
 
 @pytest.fixture
 def surface(addon):

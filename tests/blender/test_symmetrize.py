@@ -11,6 +11,8 @@ import scenes
 import states
 from test_moebius import assert_report_is_true, report, uv_of
 
+pytestmark = pytest.mark.alike
+
 
 def by_place(obj):
     """Positions (C, 3) and UVs (C, 2) of the corners."""

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 import scenes
 
+pytestmark = pytest.mark.alike
+
 HOLES = ((0.03, 0.20, 0.35, 0.65), (0.31, 0.49, 0.35, 0.65))  # left and right alike
 
 

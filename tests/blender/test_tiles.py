@@ -55,6 +55,7 @@ def of_the_package(koebe, obj, function, **options):
 HOLES = (*block(2, 3), *block(9, 7, 3))
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("holes", [(), HOLES], ids=["closed", "holes"])
 @pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
 def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
@@ -78,6 +79,7 @@ def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
     assert len(entry.loops) == len(scenes.boundary_loops(obj.data))
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("how", ["circles", "concentric", "radial"])
 @pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
 def test_a_cylinder_is_what_the_package_makes_of_it(koebe, how, polygons):
@@ -99,6 +101,7 @@ def test_a_cylinder_is_what_the_package_makes_of_it(koebe, how, polygons):
     assert [loop.name for loop in entry.loops] == ["Rim", "Rim 2", "1", "2"]
 
 
+@pytest.mark.alike
 def test_the_lower_rim_is_below():
     obj = add_tube()
     for turned in (False, True):
@@ -109,6 +112,7 @@ def test_the_lower_rim_is_below():
         assert np.corrcoef(uv[:, 1], heights)[0, 1] > 0.9
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("fit", ["inside", "period", "square"])
 @pytest.mark.parametrize("holes", [(), HOLES], ids=["whole", "holes"])
 @pytest.mark.parametrize("kind", ["torus", "ring"])
@@ -131,6 +135,7 @@ def test_periods_are_exact_however_it_fits(kind, holes, fit):
     assert math.gcd(*along) == one
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("fit", ["inside", "period", "square"])
 def test_only_the_unit_square_is_not_conformal(fit):
     obj = add_torus()
@@ -467,6 +472,7 @@ def test_what_is_chosen_in_the_panel_is_kept_and_reset():
     assert (settings.fit, settings.holes, settings.rims) == ("inside", "circles", "auto")
 
 
+@pytest.mark.alike
 def test_tube_arrays_are_what_the_tests_think():
     assert len(tube_arrays()[1]) == 16 * 12 and len(torus_arrays()[0]) == 16 * 12
 
@@ -520,6 +526,7 @@ def assert_is_a_tile(outcome, one, choice):
     assert set(one.result.flipped_faces) == set(one.flipped) or choice.fit != "inside"
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))))
 def test_wild_surfaces_become_tiles_or_are_refused(addon, seed):
     random = np.random.default_rng(seed)

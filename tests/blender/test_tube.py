@@ -30,6 +30,7 @@ def uvs_of_vertices(obj):
     return [np.unique(uv[vertex == v], axis=0) for v in range(len(obj.data.vertices))]
 
 
+@pytest.mark.alike
 def test_a_cylinder_unrolls_to_its_own_rectangle():
     """Around 2π to 3: the longer side fills the square, up is up, rings are level."""
     obj = add_tube()
@@ -43,6 +44,7 @@ def test_a_cylinder_unrolls_to_its_own_rectangle():
     assert (scenes.signed_areas(obj.data, "Koebe") > 0).all()
 
 
+@pytest.mark.alike
 def test_a_long_tube_is_warned_of_as_a_ring_and_not_as_a_rectangle():
     """A ring ends at e^-40, far below what 32 bits tell."""
     add_tube(radius=lambda z: 0.075, rings=200)
@@ -52,6 +54,7 @@ def test_a_long_tube_is_warned_of_as_a_ring_and_not_as_a_rectangle():
         assert ("resolution" in entry.message) == (entry.flipped > 0) == warned
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("balance", ["none", "area"])
 def test_the_cut_is_one_path_and_its_sides_are_a_turn_apart(balance):
     obj = add_tube(radius=lambda z: 1 + 0.4 * np.sin(2 * z), tilt=0.3)
@@ -69,6 +72,7 @@ def test_the_cut_is_one_path_and_its_sides_are_a_turn_apart(balance):
     assert not any(edge.use_seam for edge in obj.data.edges)
 
 
+@pytest.mark.alike
 def test_borders_are_straight_and_level():
     obj = add_tube(radius=lambda z: 1 + 0.4 * np.sin(2 * z), tilt=0.3)
     bpy.ops.uv.koebe_uniformize(tube="unroll")
@@ -77,6 +81,7 @@ def test_borders_are_straight_and_level():
         assert np.ptp(np.concatenate([uvs[v] for v in border])[:, 1]) < 1e-6
 
 
+@pytest.mark.alike
 def test_the_angle_error_stays():
     add_tube(rings=60, height=4, radius=lambda z: 1 + 0.3 * np.sin(2 * z))
     bpy.ops.uv.koebe_uniformize()
@@ -87,6 +92,7 @@ def test_the_angle_error_stays():
     assert 0 < sheet.angle_error < 1.2 * before
 
 
+@pytest.mark.alike
 def test_a_long_tube_keeps_its_texels():
     """exp(-2π·4) of the rim would be left of the inner circle of an annulus."""
     obj = add_tube(rings=200, height=8 * np.pi)
@@ -95,6 +101,7 @@ def test_a_long_tube_keeps_its_texels():
     assert areas.min() > 0 and areas.max() < 1.1 * areas.min()
 
 
+@pytest.mark.alike
 def test_other_islands_are_disks_all_the_same():
     obj = scenes.add_panel()
     bpy.ops.uv.koebe_uniformize(tube="unroll")
@@ -112,6 +119,7 @@ def test_selected_faces_unroll_and_the_others_stay():
     assert not uv[4 * 8 * AROUND :].any()
 
 
+@pytest.mark.alike
 def test_the_unit_disks_automorphism_makes_the_annulus_concentric(addon):
     """A Moebius map of an annulus around 0 and back."""
     angles = 2.0 * np.pi * np.arange(40) / 40
@@ -142,6 +150,7 @@ def add_tube_with_ear(triangles):
     return obj
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("triangles", [1, 2, 3])
 def test_an_ear_on_the_rim_is_no_end_for_the_cut(triangles):
     obj, healthy = add_tube_with_ear(triangles), scenes.add_panel("Healthy")
@@ -156,6 +165,7 @@ def test_an_ear_on_the_rim_is_no_end_for_the_cut(triangles):
     assert max(cut) < 25 * AROUND  # none of the ear's
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("name", ["face_surprised", "perforated_panel"])
 def test_any_part_of_a_sample_unrolls_or_says_why(name):
     """Random selections have flaps, chords and points where they touch; a healthy object beside them is mapped."""

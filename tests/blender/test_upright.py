@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 import scenes
 
+pytestmark = pytest.mark.alike
+
 AROUND, RINGS = 48, 8
 
 

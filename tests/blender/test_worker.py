@@ -6,6 +6,8 @@ import threading
 
 import pytest
 
+pytestmark = pytest.mark.alike
+
 
 def test_result_waits_and_progress_is_seen(addon):
     may_end = threading.Event()

@@ -28,12 +28,10 @@ struct Sample {
 
 }  // namespace
 
-class CondensedLaplacianTest : public testing::TestWithParam<Ordering> {};
-
-TEST_P(CondensedLaplacianTest, sigma_is_the_schur_complement)
+TEST(CondensedLaplacian, sigma_is_the_schur_complement)
 {
     const Sample sample(600);
-    CondensedLaplacian condensed(sample.laplacian, sample.boundary, GetParam());
+    CondensedLaplacian condensed(sample.laplacian, sample.boundary);
     std::vector<char> on_boundary(sample.plane.rows(), 0);
     for (const Index v : sample.boundary) on_boundary[v] = 1;
     std::vector<Index> inside;
@@ -45,10 +43,10 @@ TEST_P(CondensedLaplacianTest, sigma_is_the_schur_complement)
     EXPECT_LT((condensed.sigma() - schur).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-TEST_P(CondensedLaplacianTest, extension_of_linear_boundary_values_is_linear)
+TEST(CondensedLaplacian, extension_of_linear_boundary_values_is_linear)
 {
     const Sample sample;
-    CondensedLaplacian condensed(sample.laplacian, sample.boundary, GetParam());
+    CondensedLaplacian condensed(sample.laplacian, sample.boundary);
     const MatrixXd linear = sample.plane.leftCols<2>();
     const MatrixXd values = linear(sample.boundary, Eigen::all);
     EXPECT_LT((condensed.extend(values) - linear).cwiseAbs().maxCoeff(), 1e-11);
@@ -58,10 +56,10 @@ TEST_P(CondensedLaplacianTest, extension_of_linear_boundary_values_is_linear)
     EXPECT_LT((energy - expected).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-TEST_P(CondensedLaplacianTest, what_a_source_gives_arrives_at_the_boundary)
+TEST(CondensedLaplacian, what_a_source_gives_arrives_at_the_boundary)
 {
     const Sample sample;
-    CondensedLaplacian condensed(sample.laplacian, sample.boundary, GetParam());
+    CondensedLaplacian condensed(sample.laplacian, sample.boundary);
     VectorXd load = VectorXd::Random(sample.plane.rows());
     for (const Index v : sample.boundary) load[v] = 0.0;
     const InteriorSolution solution = condensed.solve_interior(load);
@@ -74,12 +72,10 @@ TEST_P(CondensedLaplacianTest, what_a_source_gives_arrives_at_the_boundary)
         ASSERT_NEAR(solution.boundary_flux[i], -residual[sample.boundary[i]], 1e-10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Orderings, CondensedLaplacianTest, testing::Values(Ordering::amd, Ordering::metis));
-
 TEST(FilledLaplacian, has_the_disks_and_without_them_what_every_other_has)
 {
     const Sample sample;
-    CondensedLaplacian with_sigma(sample.laplacian, sample.boundary, Ordering::amd);
+    CondensedLaplacian with_sigma(sample.laplacian, sample.boundary);
     FilledLaplacian filled(sample.laplacian, sample.domain.loops);
     EXPECT_EQ(filled.boundary_size(), with_sigma.boundary_size());
     const MatrixXd values = MatrixXd::Random(filled.boundary_size(), 2);
@@ -150,7 +146,7 @@ TEST(CondensedLaplacianOrder, an_interior_in_two_parts_keeps_the_boundary_last)
     std::vector<Index> boundary;
     for (Index v = 0; v < n * 5; ++v)
         if (v / 5 == 0 || v / 5 == n - 1 || v / 5 == n / 2 || v % 5 == 0 || v % 5 == 4) boundary.push_back(v);
-    CondensedLaplacian condensed(laplacian, boundary, Ordering::amd);
+    CondensedLaplacian condensed(laplacian, boundary);
     const MatrixXd linear = vertices.leftCols<2>();
     EXPECT_LT((condensed.extend(linear(boundary, Eigen::all)) - linear).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT((condensed.sigma() * VectorXd::Ones(boundary.size())).cwiseAbs().maxCoeff(), 1e-12);

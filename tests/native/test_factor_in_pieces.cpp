@@ -3,8 +3,8 @@
 #include "core/errors.h"
 #include "execution/thread_share.h"
 #include "linear/dense_spd.h"
-#include "linear/factor/dissection.h"
 #include "linear/factor/analysis.h"
+#include "linear/factor/dissection.h"
 #include "linear/sparse_cholesky.h"
 
 #include <Eigen/Dense>
@@ -138,14 +138,12 @@ TEST(Dissection, pieces_have_no_entry_between_them_and_every_row_is_somewhere_on
 
 TEST(FactorInPieces, gives_what_the_whole_factor_gives)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     for (const Case& c : cases()) {
         const Index size = static_cast<Index>(c.matrix.rows());
-        const std::vector<MatrixXd> whole =
-            answers(SparseCholesky(c.matrix, Ordering::amd, c.last, never), size, c.last);
+        const std::vector<MatrixXd> whole = answers(SparseCholesky(c.matrix, c.last, never), size, c.last);
         for (const Index most : {400, 60}) {
-            const std::vector<MatrixXd> split =
-                answers(SparseCholesky(c.matrix, Ordering::amd, c.last, most), size, c.last);
+            const std::vector<MatrixXd> split = answers(SparseCholesky(c.matrix, c.last, most), size, c.last);
             ASSERT_EQ(split.size(), whole.size());
             for (std::size_t i = 0; i < whole.size(); ++i)
                 EXPECT_LT(difference(split[i], whole[i]), 1e-11) << c.name << ", answer " << i;
@@ -155,12 +153,12 @@ TEST(FactorInPieces, gives_what_the_whole_factor_gives)
 
 TEST(FactorInPieces, is_the_same_on_any_number_of_threads)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     for (const Case& c : cases()) {
         const Index size = static_cast<Index>(c.matrix.rows());
         const auto on = [&](int threads) {
             const ThreadShare share(threads);
-            return answers(SparseCholesky(c.matrix, Ordering::amd, c.last, 60), size, c.last);
+            return answers(SparseCholesky(c.matrix, c.last, 60), size, c.last);
         };
         const std::vector<MatrixXd> one = on(1);
         for (const int threads : {2, 3, 5}) {
@@ -172,10 +170,10 @@ TEST(FactorInPieces, is_the_same_on_any_number_of_threads)
 
 TEST(FactorInPieces, takes_other_numbers_in_the_same_pattern)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     for (const Case& c : cases()) {
         const ThreadShare share(2);
-        SparseCholesky factor(c.matrix, Ordering::amd, c.last, piece_rows);
+        SparseCholesky factor(c.matrix, c.last, piece_rows);
         const SparseMatrix other = 3.0 * c.matrix;
         factor.refactorize(other);
         const VectorXd f = some_numbers(other.rows());
@@ -186,23 +184,23 @@ TEST(FactorInPieces, takes_other_numbers_in_the_same_pattern)
 
 TEST(FactorInPieces, a_matrix_that_does_not_come_apart_is_factored_whole)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     SparseMatrix dense = (MatrixXd::Constant(200, 200, -1e-3) + MatrixXd::Identity(200, 200)).sparseView();
     EXPECT_FALSE(analyze_in_pieces(dense, {}, 50).has_value());
     const VectorXd f = some_numbers(200);
-    EXPECT_LT(VectorXd(dense * SparseCholesky(dense, Ordering::amd, {}, 50).solve(f) - f).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT(VectorXd(dense * SparseCholesky(dense, {}, 50).solve(f) - f).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(FactorInPieces, a_matrix_that_is_not_positive_definite_is_an_error)
 {
-    const SerialDenseKernels serial;
+    fix_product_blocks();
     for (const Index bad : {0, columns * rows / 2, columns * rows - 1}) {
         SparseMatrix matrix = grid_laplacian();
         matrix.coeffRef(bad, bad) = -1.0;
         for (const int threads : {1, 2}) {
             const ThreadShare share(threads);
             ASSERT_TRUE(analyze_in_pieces(matrix, {}, piece_rows).has_value());
-            EXPECT_THROW(SparseCholesky(matrix, Ordering::amd, {}, piece_rows), SolverError);
+            EXPECT_THROW(SparseCholesky(matrix, {}, piece_rows), SolverError);
         }
     }
 }

@@ -17,7 +17,7 @@ struct Balanced {
     explicit Balanced(CircleDomain d)
         : domain(std::move(d)),
           laplacian(plane_laplacian(domain)),
-          condensed(laplacian, order(domain), Ordering::amd),
+          condensed(laplacian, order(domain)),
           circles(domain.circles),
           boundary(lift(domain.points, Lift::plane)(order(domain), {0, 1}))
     {

@@ -48,7 +48,7 @@ TEST(SparseCholesky, selected_blocks_are_those_of_the_inverse)
     const SparseMatrix matrix = grid_with_cliques(cliques);
     const MatrixXd inverse = MatrixXd(matrix).inverse();
     for (const std::vector<Index>& last : {std::vector<Index>{}, cliques[1]}) {
-        const SparseCholesky cholesky(matrix, Ordering::amd, last);
+        const SparseCholesky cholesky(matrix, last);
         const std::vector<MatrixXd> blocks = cholesky.inverse_blocks(cliques);
         ASSERT_EQ(blocks.size(), cliques.size());
         for (std::size_t k = 0; k < cliques.size(); ++k)
@@ -60,7 +60,7 @@ TEST(SparseCholesky, rows_kept_last_give_their_schur_complement_and_extension)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
     const std::vector<Index>& last = cliques[0];
-    const SparseCholesky cholesky(matrix, Ordering::amd, last);
+    const SparseCholesky cholesky(matrix, last);
     const MatrixXd schur = MatrixXd(MatrixXd(matrix).inverse()(last, last)).inverse();
     EXPECT_LT((cholesky.last_schur() - schur).cwiseAbs().maxCoeff(), 1e-11);
 
@@ -102,12 +102,12 @@ TEST(SparseCholesky, renewed_factor_is_that_of_the_other_matrix)
     const SparseMatrix first = grid_with_cliques(cliques);
     const MatrixXd f = MatrixXd::Random(first.rows(), 2);
     for (const std::vector<Index>& last : {std::vector<Index>{}, cliques[0]}) {
-        SparseCholesky cholesky(first, Ordering::amd, last);
+        SparseCholesky cholesky(first, last);
         SparseMatrix other = first;
         const auto expect_factor_of_other = [&] {
             cholesky.refactorize(other);
             EXPECT_LT((other * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
-            const SparseCholesky fresh(other, Ordering::amd, last);
+            const SparseCholesky fresh(other, last);
             EXPECT_LT((cholesky.last_schur() - fresh.last_schur()).norm(), 1e-12 * first.norm());
         };
         for (const double scale : {3.0, 0.2}) {
@@ -130,7 +130,7 @@ TEST(SparseCholesky, renewed_factor_is_that_of_the_other_matrix)
 TEST(SparseCholesky, renewal_by_a_matrix_that_is_not_positive_definite_is_told_and_forgotten)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
-    SparseCholesky cholesky(matrix, Ordering::amd, cliques[0]);
+    SparseCholesky cholesky(matrix, cliques[0]);
     SparseMatrix indefinite = matrix;
     indefinite.coeffRef(77, 77) = -1.0;
     EXPECT_THROW(cholesky.refactorize(indefinite), SolverError);
@@ -142,7 +142,7 @@ TEST(SparseCholesky, renewal_by_a_matrix_that_is_not_positive_definite_is_told_a
 TEST(SparseCholesky, blocks_that_change_leave_nothing_of_the_ones_before)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
-    SparseCholesky cholesky(matrix, Ordering::amd, cliques[0], cliques);
+    SparseCholesky cholesky(matrix, cliques[0], cliques);
     const MatrixXd f = MatrixXd::Random(matrix.rows(), 2);
     for (const double scale : {0.5, 100.0, 0.0}) {
         const std::vector<MatrixXd> blocks = blocks_on_cliques(scale);
@@ -158,7 +158,7 @@ TEST(SparseCholesky, blocks_that_change_leave_nothing_of_the_ones_before)
 TEST(SparseCholesky, a_change_that_is_not_positive_definite_is_told_and_forgotten)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
-    SparseCholesky cholesky(matrix, Ordering::amd, {}, cliques);
+    SparseCholesky cholesky(matrix, {}, cliques);
     EXPECT_THROW(cholesky.refactorize(blocks_on_cliques(-100.0)), SolverError);
     const std::vector<MatrixXd> blocks = blocks_on_cliques(1.0);
     cholesky.refactorize(blocks);
@@ -170,7 +170,7 @@ TEST(SparseCholesky, rows_that_are_wanted_are_those_of_the_whole_solution)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
     const std::vector<Index> wanted{528, 0, 77, 300};
-    const SparseCholesky cholesky(matrix, Ordering::amd, cliques[0]);
+    const SparseCholesky cholesky(matrix, cliques[0]);
     for (const Index columns : {1, 2, 3}) {
         MatrixXd f = MatrixXd::Zero(matrix.rows(), columns);
         f.row(10).setLinSpaced(1.0, 2.0);

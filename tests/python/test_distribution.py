@@ -67,9 +67,10 @@ def bundle(folder, *names):
 def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch):
     build = bundle(tmp_path / "build", "libkoebe.so", "bin/koebe", "_koebe.cpython-311-x86_64-linux-gnu.so",
                    "_koebe.cpython-313-x86_64-linux-gnu.so")  # fmt: skip
-    packer = script("bundle_wheel")
+    packer = script("pack_wheel")
     for out in ("one", "two"):
-        monkeypatch.setattr(sys, "argv", ["", str(build), "manylinux_2_28_x86_64", str(tmp_path / out)])
+        tag = "py3-none-manylinux_2_28_x86_64"
+        monkeypatch.setattr(sys, "argv", ["", "bundle", str(build), tag, str(tmp_path / out)])
         packer.main()
     (wheel,), (again,) = ((tmp_path / out).glob("*.whl") for out in ("one", "two"))
     assert wheel.name.endswith("-py3-none-manylinux_2_28_x86_64.whl")
@@ -88,14 +89,29 @@ def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch)
 
 
 def test_what_is_no_bundle_makes_no_wheel(tmp_path, monkeypatch):
-    packer = script("bundle_wheel")
+    packer = script("pack_wheel")
     for number, names in enumerate([
         ("libkoebe.so", "bin/koebe"), ("_koebe.cpython-311-darwin.so", "bin/koebe"),
         ("libkoebe.so", "_koebe.cpython-311-x86_64-linux-gnu.so")]):
         build = bundle(tmp_path / str(number), *names)
-        monkeypatch.setattr(sys, "argv", ["", str(build), "linux_x86_64", str(tmp_path / "out")])
+        monkeypatch.setattr(sys, "argv", ["", "bundle", str(build), "py3-none-linux_x86_64", str(tmp_path / "out")])
         with pytest.raises(SystemExit, match="holds no bundle"):
             packer.main()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="make build packs wheels on Linux")
+def test_a_wheel_of_this_machine_has_the_libraries_that_others_lack(tmp_path, monkeypatch):
+    module, command = Path(koebe._koebe.__file__), Path(cli_support.COMMAND)
+    tag = "cp{0}{1}-cp{0}{1}-linux_x86_64".format(*sys.version_info)
+    monkeypatch.setattr(sys, "argv", ["", "local", str(module), str(command), tag, str(tmp_path)])
+    script("pack_wheel").main()
+    (wheel,) = tmp_path.glob(f"koebe-*-{tag}.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        names = {name.removeprefix("koebe/") for name in archive.namelist()}
+        needed = {name for binary in (module.name, "bin/koebe")
+                  for name in script("binary_facts").facts_of(archive.read(f"koebe/{binary}")).libraries}
+    assert {"__init__.py", "bin/koebe", module.name} < names
+    assert {name for name in needed - names if not re.match(script("pack_wheel").SYSTEM, name)} == set()
 
 
 def test_a_release_has_a_zip_for_each_platform_and_leaves_the_one_of_this_machine(tmp_path, monkeypatch):

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 SOURCE = Path(__file__).resolve().parents[2] / "addon" / "solver" / "wheel.py"
-NAME = "koebe-1.2.3-cp311-cp311-manylinux_2_35_x86_64"
+NAME = "koebe-1.2.3-cp311-cp311-linux_x86_64"
 INFO = "koebe-1.2.3.dist-info"
 
 
@@ -31,7 +31,7 @@ def files():
     return {
         "koebe/__init__.py": b"from ._koebe import *\n" * 40,
         "koebe/_koebe.cpython-311-x86_64-linux-gnu.so": noise.randbytes(20000),
-        "koebe.libs/libblas.so.3": b"\0" * 30000 + noise.randbytes(500),
+        "koebe/libOpenMeshCore.so.9.0": b"\0" * 30000 + noise.randbytes(500),
         f"{INFO}/licenses/a, b.txt": b"text",
         f"{INFO}/WHEEL": b"Wheel-Version: 1.0\n",
     }
@@ -121,7 +121,7 @@ def test_threads_unpack_and_mend_at_the_same_time(wheel, files, tmp_path):
     folder, known = tmp_path / "place" / wheel.folder_name, tmp_path / "place" / "checked.json"
     for round_ in range(20):
         if round_ % 2:
-            damage(folder / "koebe.libs/libblas.so.3", random.Random(round_))
+            damage(folder / "koebe/libOpenMeshCore.so.9.0", random.Random(round_))
         else:
             shutil.rmtree(folder, ignore_errors=True)
         problems = []

@@ -1,8 +1,8 @@
 """The same surface gets the same map on every system, with every processor's kernels: to 1e-9 of the unit disk.
 
-`same_everywhere.json` has circles and points of maps made by the build for Debian 12 (OpenBLAS, CHOLMOD with OpenMP,
-GMP, GNU's C++ library). `python tests/python/test_same_everywhere.py` alone compares too, without pytest, wherever
-`koebe` and NumPy are; with --write it makes the file anew.
+`same_everywhere.json` has circles and points of maps made by a build for Debian 12 (GCC, GNU's C++ library).
+`python tests/python/test_same_everywhere.py` alone compares too, without pytest, wherever `koebe` and NumPy are; with
+--write it makes the file anew.
 """
 
 import json

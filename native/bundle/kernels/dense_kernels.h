@@ -1,6 +1,6 @@
-// The dense kernels of BLAS and LAPACK that linear/ calls, and CHOLMOD in builds that carry no BLAS. They give the same
-// bits on every processor: a map follows from its surface alone, whatever hangs on its last bits.
-// Fortran's calling convention (netlib.org/blas, LAPACK Users' Guide, section 2): everything by address, columns first.
+// The dense kernels of BLAS and LAPACK that linear/ calls. They give the same bits on every processor: a map follows
+// from its surface alone, whatever hangs on its last bits. Fortran's calling convention (netlib.org/blas, LAPACK Users'
+// Guide, section 2): everything by address, columns first.
 #pragma once
 
 /// X(name, parameters): `name` as BLAS and LAPACK have it, without the underscore.

@@ -199,7 +199,7 @@ double Analysis::memory() const
     return sizeof(double) * numbers;
 }
 
-Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, Ordering ordering)
+Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last)
 {
     Analysis result;
     Supernodes& l = result.supernodes;
@@ -210,11 +210,9 @@ Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, Ord
     for (const bool forced : {false, true}) {
         CholmodCommon common;
         std::vector<Index> order;
-        if (!last.empty()) order = elimination_order(matrix, last, ordering, forced, common);
+        if (!last.empty()) order = elimination_order(matrix, last, forced, common);
         common->nmethods = 1;
-        common->method[0].ordering = !last.empty()               ? CHOLMOD_GIVEN
-                                     : ordering == Ordering::amd ? CHOLMOD_AMD
-                                                                 : CHOLMOD_METIS;
+        common->method[0].ordering = last.empty() ? CHOLMOD_AMD : CHOLMOD_GIVEN;
         common->postorder = forced ? 0 : 1;
         const Factor symbolic =
             own(cholmod_analyze_p(&lower, last.empty() ? nullptr : order.data(), nullptr, 0, common.get()), common);

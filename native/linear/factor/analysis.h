@@ -3,7 +3,6 @@
 #pragma once
 
 #include "linear/factor/supernodes.h"
-#include "linear/sparse_cholesky.h"
 
 #include <cstddef>
 #include <optional>
@@ -31,10 +30,10 @@ struct Analysis {
     double memory() const;
 };
 
-/// As CHOLMOD has it.
+/// As CHOLMOD has it, in the order of AMD.
 /// @param matrix symmetric: the lower triangle, or both @param last rows that are kept to the end
 /// @throws OutOfMemory where the factor would not fit
-Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, Ordering ordering);
+Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last);
 
 /// By nested dissection. @return none where the graph does not come apart
 /// @param matrix both triangles @param last rows that are kept to the end @param piece_rows of a piece at most, about

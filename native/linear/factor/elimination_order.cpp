@@ -2,8 +2,8 @@
 
 namespace koebe::detail {
 
-std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vector<Index>& last, Ordering ordering,
-                                     bool postordered, CholmodCommon& common)
+std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vector<Index>& last, bool postordered,
+                                     CholmodCommon& common)
 {
     const Index vertex_count = static_cast<Index>(matrix.rows());
     std::vector<Index> rank(vertex_count, 0);
@@ -29,22 +29,14 @@ std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vect
         cholmod_sparse lower = view(block, -1);
         if (postordered) {
             common->nmethods = 1;
-            common->method[0].ordering = ordering == Ordering::amd ? CHOLMOD_AMD : CHOLMOD_METIS;
+            common->method[0].ordering = CHOLMOD_AMD;
             common->postorder = 1;
             const Factor symbolic = own(cholmod_analyze(&lower, common.get()), common);
             common.require(symbolic != nullptr, "ordering");
             const Index* perm = static_cast<const Index*>(symbolic->Perm);
             order.assign(perm, perm + inner.size());
         } else {
-#if defined(KOEBE_WITHOUT_METIS)
-            const bool metis = false;
-#else
-            const bool metis =
-                ordering == Ordering::metis && cholmod_metis(&lower, nullptr, 0, 0, order.data(), common.get()) != 0;
-#endif
-            const bool done =
-                ordering == Ordering::amd ? cholmod_amd(&lower, nullptr, 0, order.data(), common.get()) != 0 : metis;
-            common.require(done, "ordering");
+            common.require(cholmod_amd(&lower, nullptr, 0, order.data(), common.get()) != 0, "ordering");
         }
     }
     for (Index& v : order) v = inner[v];

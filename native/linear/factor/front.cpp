@@ -3,7 +3,6 @@
 #include "core/errors.h"
 #include "execution/thread_share.h"
 #include "linear/dense_blas.h"
-#include "linear/kernel_buffer.h"
 
 #include <algorithm>
 
@@ -28,13 +27,11 @@ void eliminate(double* columns, Index height, Index width, double* rest)
         if (info != 0) throw SolverError("sparse factorization: the matrix is not positive definite");
         const Index begin = p + block;
         in_pieces(height - begin, front_rows, [&](std::size_t from, std::size_t until) {
-            const KernelBuffer buffer;
             const int rows = static_cast<int>(until - from);
             dtrsm_("R", "L", "T", "N", &rows, &block, &one, at(p, p), &height, at(begin + static_cast<Index>(from), p),
                    &height);
         });
         in_pieces(width - begin, front_block, [&](std::size_t from, std::size_t until) {
-            const KernelBuffer buffer;
             const Index c = begin + static_cast<Index>(from);
             lower_product(height - c, static_cast<int>(until - from), block, -1.0, at(c, p), height, 1.0, at(c, c),
                           height);
@@ -42,7 +39,6 @@ void eliminate(double* columns, Index height, Index width, double* rest)
     }
     const Index others = height - width;
     in_pieces(others, front_block, [&](std::size_t from, std::size_t until) {
-        const KernelBuffer buffer;
         const Index c = static_cast<Index>(from);
         lower_product(others - c, static_cast<int>(until - from), width, -1.0, at(width + c, 0), height, 1.0,
                       rest + c + static_cast<std::ptrdiff_t>(c) * others, others);

@@ -54,7 +54,7 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
     std::vector<Index> last(interface.size());
     std::iota(last.begin(), last.end(), size);
     CholmodCommon common;
-    std::vector<Index> order = elimination_order(own, last, Ordering::amd, true, common);
+    std::vector<Index> order = elimination_order(own, last, true, common);
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->postorder = 0;

@@ -1,7 +1,6 @@
 #include "linear/factor/subtrees.h"
 
 #include "execution/thread_share.h"
-#include "linear/kernel_buffer.h"
 
 #include <algorithm>
 #include <functional>
@@ -55,10 +54,7 @@ Subtrees::Subtrees(const Supernodes& l, const std::vector<char>& chosen)
 void Subtrees::each_subtree(const Work& work) const
 {
     if (subtrees_.empty()) return;
-    each_beside(subtrees_.size(), [&](std::size_t i) {
-        const KernelBuffer buffer;
-        work(subtrees_[i]);
-    });
+    each_beside(subtrees_.size(), [&](std::size_t i) { work(subtrees_[i]); });
 }
 
 void Subtrees::upward(const Work& work) const

@@ -3,7 +3,6 @@
 #include "execution/thread_share.h"
 #include "linear/factor/front.h"
 #include "linear/factor/piece_factor.h"
-#include "linear/kernel_buffer.h"
 
 #include <algorithm>
 #include <utility>
@@ -26,17 +25,14 @@ void SupernodalFactor::factorize(const SparseMatrix& matrix)
     RestPool pool;
     std::vector<LowerMatrix> rests(parts_.size());
     each_beside(piece_count_, [&](std::size_t p) {
-        const KernelBuffer buffer;
         rests[p] = pool.take(static_cast<Index>(parts_[p].interface.size()));
         factorize_piece(matrix, *this, parts_[p], tops_, numbers_.data(), rests[p], places);
     });
     constexpr std::size_t few = 2;  // are taken one after the other, on all threads each
     for (const std::vector<std::size_t>& round : rounds_)
         if (round.size() > few)
-            each_beside(round.size(), [&](std::size_t i) {
-                const KernelBuffer buffer;
-                factorize_separator(matrix, parts_[round[i]], rests, pool);
-            });
+            each_beside(round.size(),
+                        [&](std::size_t i) { factorize_separator(matrix, parts_[round[i]], rests, pool); });
         else
             for (const std::size_t p : round) factorize_separator(matrix, parts_[p], rests, pool);
 }
@@ -105,7 +101,6 @@ void SupernodalFactor::solve_lower(MatrixXd& x) const
     const Index columns = static_cast<Index>(x.cols()), top_count = size() - tops_;
     std::vector<MatrixXd> arrived(piece_count_);
     each_beside(piece_count_, [&](std::size_t p) {
-        const KernelBuffer buffer;
         arrived[p] = MatrixXd::Zero(top_count, columns);
         solve_lower(parts_[p], x, arrived[p]);
     });
@@ -136,10 +131,7 @@ void SupernodalFactor::solve_lower(const FactorPart& part, MatrixXd& x, MatrixXd
 void SupernodalFactor::solve_upper(MatrixXd& x) const
 {
     for (std::size_t p = parts_.size(); p-- > piece_count_;) solve_upper(parts_[p], x);
-    each_beside(piece_count_, [&](std::size_t p) {
-        const KernelBuffer buffer;
-        solve_upper(parts_[p], x);
-    });
+    each_beside(piece_count_, [&](std::size_t p) { solve_upper(parts_[p], x); });
 }
 
 void SupernodalFactor::solve_upper(const FactorPart& part, MatrixXd& x) const

@@ -1,15 +1,20 @@
 #!/usr/bin/env python3
-"""Pack a bundle (-DKOEBE_BUNDLE=ON) into one wheel for every Python of its platform. Standard library only.
+"""Pack a wheel of the package `koebe`: its Python files, and what was compiled for it. Standard library only.
 
-Usage: bundle_wheel.py BUILD_FOLDER PLATFORM_TAG OUT_FOLDER     PLATFORM_TAG: manylinux_2_28_x86_64, win_amd64, ...
+Usage: pack_wheel.py bundle BUILD_FOLDER TAG OUT_FOLDER      TAG: py3-none-manylinux_2_28_x86_64, py3-none-win_amd64
+       pack_wheel.py local MODULE COMMAND TAG OUT_FOLDER     TAG: cp311-cp311-linux_x86_64
 
-The wheel holds the package `koebe`, in it the shared library, the command, and a module `_koebe` for each Python, which
-finds its own by the suffix. So its tag is py3-none-PLATFORM, and Blender's extensions take it for every Python. What it
-says of itself comes from pyproject.toml, the version from CMakeLists.txt. Equal input gives an equal wheel.
+A bundle (-DKOEBE_BUNDLE=ON) has the shared library, the command, and a module `_koebe` for each Python, which finds its
+own by the suffix: one wheel serves every Python, and Blender's extensions take it for each. A local wheel has the one
+module and the command that this machine has compiled for itself, and beside them the libraries that they need and
+another machine may not have. What the wheel says of itself comes from pyproject.toml, the version from CMakeLists.txt.
+Equal input gives an equal wheel.
 """
 
 import base64
 import hashlib
+import re
+import subprocess
 import sys
 import zipfile
 from pathlib import Path
@@ -22,6 +27,8 @@ TABLE = ROOT / "native" / "options" / "options.json"
 LIBRARIES = ("libkoebe.so", "libkoebe.dylib", "koebe.dll")
 MODULES = ("_koebe.*.so", "_koebe.*.pyd")
 PROGRAMS = ("bin/koebe", "koebe.exe")  # Windows looks for the library beside the program
+# What every Linux has where a C++ program runs.
+SYSTEM = r"linux-vdso|ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so"
 
 
 def metadata(version: str) -> str:
@@ -49,20 +56,33 @@ def entry_points() -> str:
     return "[console_scripts]\n" + "".join(f"{name} = {place}\n" for name, place in project["scripts"].items())
 
 
-def members(build: Path, platform: str, version: str) -> dict[str, bytes]:
-    """What the wheel holds but for its RECORD: path -> content."""
-    files = {f"koebe/{path.name}": path.read_bytes() for path in [*PACKAGE.glob("*.py"), PACKAGE / "py.typed", TABLE]}
-    found = {kind: sorted(path for pattern in patterns for path in (build / "koebe").glob(pattern))
+def bundle(build: Path) -> dict[str, Path]:
+    """What was compiled for a release: place in the package -> file."""
+    folder = build / "koebe"
+    found = {kind: sorted(path for pattern in patterns for path in folder.glob(pattern))
              for kind, patterns in {"library": LIBRARIES, "modules": MODULES, "program": PROGRAMS}.items()}
     if len(found["library"]) != 1 or len(found["program"]) != 1 or not found["modules"]:
-        raise SystemExit(f"{build / 'koebe'} holds no bundle: {found}")
-    for path in (path for paths in found.values() for path in paths):
-        files[f"koebe/{path.relative_to(build / 'koebe').as_posix()}"] = path.read_bytes()
+        raise SystemExit(f"{folder} holds no bundle: {found}")
+    return {path.relative_to(folder).as_posix(): path for paths in found.values() for path in paths}
+
+
+def local(module: Path, command: Path) -> dict[str, Path]:
+    """What was compiled for this machine, with the libraries that it finds beside itself ($ORIGIN)."""
+    files = {module.name: module, "bin/koebe": command}
+    for binary in (module, command):
+        listed = subprocess.run(["ldd", binary], check=True, capture_output=True, text=True).stdout
+        files |= {name: Path(path) for name, path in re.findall(r"^\s*(\S+) => (/\S+)", listed, re.MULTILINE)
+                  if not re.match(SYSTEM, name)}
+    return files
+
+
+def members(compiled: dict[str, Path], tag: str, version: str) -> dict[str, bytes]:
+    """What the wheel holds but for its RECORD: path -> content."""
+    files = {f"koebe/{path.name}": path.read_bytes() for path in [*PACKAGE.glob("*.py"), PACKAGE / "py.typed", TABLE]}
+    files |= {f"koebe/{name}": path.read_bytes() for name, path in compiled.items()}
     info = f"koebe-{version}.dist-info"
     files[f"{info}/METADATA"] = metadata(version).encode()
-    files[f"{info}/WHEEL"] = (
-        f"Wheel-Version: 1.0\nGenerator: koebe\nRoot-Is-Purelib: false\nTag: py3-none-{platform}\n".encode()
-    )
+    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: koebe\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     files[f"{info}/entry_points.txt"] = entry_points().encode()
     for name in ("LICENSE", "THIRD_PARTY.md"):
         files[f"{info}/licenses/{name}"] = (ROOT / name).read_bytes()
@@ -75,20 +95,28 @@ def record_line(name: str, content: bytes) -> str:
 
 
 def main() -> None:
-    if len(sys.argv) != 4:
+    kinds = {("bundle", 4): bundle, ("local", 5): local}
+    kind = kinds.get((sys.argv[1] if len(sys.argv) > 1 else "", len(sys.argv) - 1))
+    if kind is None:
         raise SystemExit(__doc__)
-    build, platform, out = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
+    *compiled, tag, out = sys.argv[2:]
+    write_wheel(members(kind(*map(Path, compiled)), tag, project_version()), tag, Path(out))
+
+
+def write_wheel(files: dict[str, bytes], tag: str, out: Path) -> None:
+    """The wheel in folder `out`, in the place of an older one."""
     version = project_version()
-    files = members(build, platform, version)
     record = f"koebe-{version}.dist-info/RECORD"
     lines = "".join(record_line(name, content) for name, content in sorted(files.items()))
     files[record] = f"{lines}{record},,\n".encode()
     out.mkdir(parents=True, exist_ok=True)
-    wheel = out / f"koebe-{version}-py3-none-{platform}.whl"
+    for old in out.glob(f"koebe-*-{tag}.whl"):
+        old.unlink()
+    wheel = out / f"koebe-{version}-{tag}.whl"
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name in [*sorted(set(files) - {record}), record]:
             entry = zipfile.ZipInfo(name, DATE)
-            mode = 0o755 if name.endswith((".so", ".dylib", ".pyd", ".dll", *PROGRAMS)) else 0o644
+            mode = 0o755 if name.endswith((".dylib", ".pyd", ".dll", *PROGRAMS)) or ".so" in name else 0o644
             entry.external_attr = (0o100000 | mode) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, files[name])
