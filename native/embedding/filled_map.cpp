@@ -20,6 +20,8 @@ namespace {
 constexpr double rounding = 3e-7;  // twice the area a face can lose by rounding, over its longest edge, disk units
 constexpr double roomy = 1e-4;     // of the mean area: a face as large has room
 constexpr int most_cautions = 4;
+// Relative decreases of the energy. A vertex that is to lie at 0 comes there only where faces have made room.
+constexpr double settled = 3e-4, settled_with_center = 1e-5;
 // Of the vertex that is to lie at 0.
 constexpr int most_moves = 80, most_stuck = 4;
 constexpr double longest_move = 0.3;                    // disk units: of an automorphism
@@ -258,7 +260,10 @@ void FilledMap::relax(Pull pull, int iterations, const ExecutionContext& context
     for (int attempt = 0; attempt < most_cautions; ++attempt) {
         FoldoverProblem moving = problem(pull);
         const FoldoverResult moved =
-            minimize_foldover_free(moving, context, {.max_iterations = iterations, .settled = 3e-4, .strict = true});
+            minimize_foldover_free(moving, context,
+                                   {.max_iterations = iterations,
+                                    .settled = places_.center < 0 ? settled : settled_with_center,
+                                    .strict = true});
         work_ += static_cast<std::size_t>(moved.iterations) * static_cast<std::size_t>(moving.triangles.rows());
         bool kept = moving.points.allFinite();
         if (kept) {
