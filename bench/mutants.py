@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the fast tests see a mistake: each mutant is one changed line, built and tested, and taken back.
+
+    bench/mutants.py [--only N,N,...] [--slow]
+
+A mutant is killed where the native tests, or the Python tests that are not marked slow (`make check`), fail. With
+--slow the other Python tests run on those that survive. It works in the checkout itself, which must have no changes,
+and takes one to three minutes a mutant. Prints a table; exit 1 if one survives.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# file, the line's part, what takes its place
+MUTANTS = [
+    ("native/quality/take_verdict.cpp", "distortion.lost_area > policy.most_lost", "distortion.lost_area >= 0.0"),
+    ("native/quality/verdict.cpp", "all.lost / all.area", "0.5 * all.lost / all.area"),
+    ("native/circles/moebius.cpp", "std::conj(a) * z.array()", "a * z.array()"),
+    (
+        "native/iteration/convergence.cpp",
+        "circle_change(before_sweep, after) < tolerance",
+        "circle_change(before_sweep, after) > tolerance",
+    ),
+    ("native/iteration/convergence.cpp", "radius_change * radius_change", "0.0 * radius_change"),
+    ("native/foldover/repair_effort.cpp", "steps < fewest_steps ? 0", "steps < fewest_steps ? 1000"),
+    ("native/opened/disk_packing.cpp", "other = radii[j] + radius", "other = radii[j]"),
+    ("native/surface/mirror.cpp", "away < near || (away == near && i < found)", "away <= near"),
+    (
+        "native/shape/conformal_module.cpp",
+        "std::norm(arm) - circle.radius * circle.radius",
+        "std::norm(arm) + circle.radius * circle.radius",
+    ),
+    ("native/sphere/sphere_check.cpp", "orientation(middle, to, from) <= 0", "orientation(middle, to, from) < -1"),
+    (
+        "native/holes/fan_filling.cpp",
+        "k < 0 || k >= static_cast<Index>(surface.loops.size())",
+        "k < 0 || k > static_cast<Index>(surface.loops.size())",
+    ),
+    ("native/circles/circle_projection.cpp", "step >= 0.0 ? step : step + 2.0 * pi", "std::abs(step)"),
+    ("native/mesh/topology.cpp", "2 * reversed_count > static_cast", "3 * reversed_count > static_cast"),
+    ("native/planar/boundary_crossings.cpp", "(areas[k] > 0.0) == (outer > 0.0)", "(areas[k] > 0.0) != (outer > 0.0)"),
+    (
+        "native/balance/area_balance.cpp",
+        "2.0 * std::log(1.0 - std::norm(map.a))",
+        "1.0 * std::log(1.0 - std::norm(map.a))",
+    ),
+    (
+        "native/circles/crowded_circles.cpp",
+        "std::abs(circles[k].center) + radius < 1.0",
+        "std::abs(circles[k].center) < 1.0",
+    ),
+    (
+        "native/linear/ground_columns.cpp",
+        "result[i] -= it.value() * u[it.row()]",
+        "result[i] += it.value() * u[it.row()]",
+    ),
+    (
+        "native/linear/filled_laplacian.cpp",
+        "is_filled_ = true;\n    cholesky_.refactorize(disks);",
+        "cholesky_.refactorize(disks);",
+    ),
+    ("native/linear/factor/supernodal_factor.cpp", "Index at = column - first[s]", "Index at = 0"),
+    ("native/linear/factor/analysis.cpp", "l.rank[v] >= inner_count", "l.rank[v] >= 0"),
+    ("native/canonical/corner_map.h", "mesh.name_faces(result.turned);", ""),
+    ("native/quality/shared_warnings.cpp", "if (!other.empty())", "if (other.empty())"),
+    ("native/embedding/filled_map.cpp", "kept = run_once_round(image_of(0), 1)", "kept = true"),
+    ("native/cli/commands/corner_map.h", "result.turned = filed_faces(input.triangulation, result.turned);", ""),
+    ("native/execution/memory_limit.cpp", "if (bytes <= available) return;", "if (bytes >= 0.0) return;"),
+    ("native/python/koebe/_options.py", "name not in defaults and name not in positional", "False"),
+    ("native/python/koebe/_domain_map.py", 'options.polygon = polygons_of(given["polygon"], source)', "pass"),
+    ("native/python/koebe/_result.py", "self.uv.flags.writeable = False", "self.uv.flags.writeable = True"),
+    ("native/options/options.json", '"(0, inf)", "default": 0.0037', '"[0, inf)", "default": 0.0037'),
+    ("native/core/map_options.h", "int max_sweeps = 50", "int max_sweeps = 49"),
+]
+
+ENVIRONMENT = os.environ | {
+    "CCACHE_DIR": str(ROOT / "build" / "ccache"),
+    "CCACHE_SLOPPINESS": "pch_defines,time_macros",
+    "PYTHONPATH": str(ROOT / "build" / "python"),
+}
+PYTEST = ["/usr/bin/python3", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "tests/python"]
+LIMIT = 900  # seconds: a mutant may never end
+
+
+def fails(*words: str) -> bool:
+    try:
+        return subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, capture_output=True, timeout=LIMIT).returncode != 0
+    except subprocess.TimeoutExpired:
+        return True
+
+
+def fate(file: str, old: str, new: str, slow: bool) -> str:
+    """What becomes of a mutant, whose file is as it was afterwards."""
+    path = ROOT / file
+    text = path.read_text(encoding="utf-8")
+    if text.count(old) == 0:
+        return "its line is gone"
+    try:
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+        if fails("ninja", "-C", "build"):
+            return "does not compile"
+        for program in ("koebe_thread_tests", "koebe_tests"):
+            if fails(f"build/tests/native/{program}", "--gtest_brief=1", "--gtest_fail_fast"):
+                return "native"
+        if fails(*PYTEST, "-m", "not slow"):
+            return "Python"
+        return "slow Python" if slow and fails(*PYTEST, "-m", "slow") else "survives"
+    finally:
+        path.write_text(text, encoding="utf-8")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", default="", help="numbers of mutants, from 1")
+    parser.add_argument("--slow", action="store_true", help="run the slow tests on survivors")
+    options = parser.parse_args()
+    if fails("git", "diff", "--quiet"):
+        raise SystemExit("the checkout has changes: a mutant's file is written over")
+    chosen = [int(number) for number in options.only.split(",") if number] or range(1, len(MUTANTS) + 1)
+    survivors = 0
+    for number in chosen:
+        file, old, new = MUTANTS[number - 1]
+        begin = time.monotonic()
+        killer = fate(file, old, new, options.slow)
+        survivors += killer == "survives"
+        line = old.splitlines()[-1].strip()
+        print(f"{number:2} {killer:16} {time.monotonic() - begin:5.0f} s  {file}: {line}", flush=True)
+    subprocess.run(["ninja", "-C", "build"], cwd=ROOT, env=ENVIRONMENT, capture_output=True)
+    return 1 if survivors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
