@@ -56,8 +56,9 @@ def unwrapped(obj, evenness):
     if not outcome.mapped:
         sys.exit(f"parts_picture: {outcome.error or outcome.not_written}")
     part = np.zeros(len(obj.data.polygons), np.int32)
-    part[outcome.task.surface.triangle_face] = outcome.result.part
-    return outcome.result, part
+    result = outcome.mapped[0].result
+    part[outcome.task.surface.triangle_face] = result.part
+    return result, part
 
 
 def figures(result):
