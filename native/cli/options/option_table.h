@@ -45,13 +45,13 @@ CLI::Option* add_steps(CLI::App& app, const OptionRow& row, Sweep& steps);
 template <typename Options>
 void add_options(CLI::App& app, std::string_view map, Options& options)
 {
-    Options::each_option([&](const char* name, auto member) {
+    Options::each_option([&]<typename Field, typename Owner>(const char* name, Field Owner::*member) {
         const OptionRow* const row = find_row(map, name);
         if (row == nullptr) return;
-        auto& field = options.*member;
-        using Field = std::remove_reference_t<decltype(field)>;
+        Owner& owner = options;
+        Field& field = owner.*member;
         if constexpr (std::is_same_v<Field, OuterLoop>)
-            add_outer_loop(app, *row, options);
+            add_outer_loop(app, *row, owner);
         else if constexpr (std::is_enum_v<Field>)
             add_choice(app, *row, static_cast<int>(field), [&field](int k) { field = static_cast<Field>(k); });
         else if constexpr (std::is_same_v<Field, Sweep>)
@@ -70,14 +70,14 @@ template <typename Options>
 nlohmann::ordered_json option_report(std::string_view map, const Options& options)
 {
     nlohmann::ordered_json report = nlohmann::ordered_json::object();
-    Options::each_option([&](const std::string& name, auto member) {
+    Options::each_option([&]<typename Field, typename Owner>(const std::string& name, Field Owner::*member) {
         const OptionRow* const row = find_row(map, name);
         if (row == nullptr || name == "threads") return;
-        const auto& field = options.*member;
-        using Field = std::remove_cvref_t<decltype(field)>;
+        const Owner& owner = options;
+        const Field& field = owner.*member;
         if constexpr (std::is_same_v<Field, OuterLoop>) {
             if (field == OuterLoop::vertex)
-                report[name] = options.outer_vertex;
+                report[name] = owner.outer_vertex;
             else
                 report[name] = row->choices().at(static_cast<std::size_t>(field));
         } else if constexpr (std::is_enum_v<Field>) {
