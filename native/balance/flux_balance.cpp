@@ -23,9 +23,8 @@ constexpr double concentric = 1e-6;  // of the inner radius
 
 class SmallCircles {
 public:
-    SmallCircles(BoundarySolver& condensed, const SparseMatrix& laplacian,
-                 const std::vector<VertexLoop>& loops, std::vector<Circle>& circles, MatrixXd& boundary,
-                 AnnulusPosition annulus)
+    SmallCircles(BoundarySolver& condensed, const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                 std::vector<Circle>& circles, MatrixXd& boundary, AnnulusPosition annulus)
         : condensed_(condensed),
           laplacian_(laplacian),
           loops_(loops),

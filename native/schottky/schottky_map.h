@@ -58,8 +58,8 @@ struct SchottkyHole {
 struct SchottkyResult : CornerMapReport {
     std::vector<SchottkyHole> holes;      ///< by falling length, the first on the unit circle
     std::vector<SchottkyHandle> handles;  ///< by falling length of their cuts
-    bool by_circles = false;    ///< the UVs are cut along the pairs of circles, as exactly as faces can be; else along
-                                ///< the edges of the cuts, as the circles meet each other or a hole
+    bool by_circles = false;  ///< the UVs are cut along the pairs of circles, as exactly as faces can be; else along
+                              ///< the edges of the cuts, as the circles meet each other or a hole
     int sweeps = 0;
     std::vector<double> changes;  ///< in each sweep
 };
