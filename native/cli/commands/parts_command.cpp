@@ -41,16 +41,9 @@ Subcommand add_parts(CLI::App& app)
 {
     auto request = std::make_shared<Request>();
     CLI::App* options = app.add_subcommand("parts", "cut any surface in its UVs into even disks and tubes");
-    options->add_option("IN", request->input, "any mesh: OBJ, OFF, PLY or STL")->required();
-    options
-        ->add_option(
-            "OUT", request->output,
-            "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
-        ->required();
+    add_mesh_arguments(*options, *request, "any mesh", "texture coordinates of corners in [0, 1]^2");
     add_options(*options, "parts", request->parts);
-    options->add_option("--json", request->json, "write the report there")->type_name("FILE");
-    options->add_option("--svg", request->svg, "write a picture of the parts there")->type_name("FILE");
-    options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    add_report_options(*options, *request, "write a picture of the parts there");
     options->callback([request] {
         check_map_files(*request);
         request->entries["options"] = option_report("parts", request->parts);

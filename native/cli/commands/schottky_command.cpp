@@ -41,17 +41,10 @@ Subcommand add_schottky(CLI::App& app)
     CLI::App* options =
         app.add_subcommand("schottky", "map a surface with handles into the disk, cut open, its cuts Moebius maps "
                                        "apart and its holes round");
-    options->add_option("IN", request->input, "surface with one handle or more: OBJ, OFF, PLY or STL")->required();
-    options
-        ->add_option(
-            "OUT", request->output,
-            "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
-        ->required();
+    add_mesh_arguments(*options, *request, "surface with one handle or more",
+                       "texture coordinates of corners in [0, 1]^2");
     add_options(*options, "schottky", request->schottky);
-    options->add_option("--json", request->json, "write the report there")->type_name("FILE");
-    options->add_option("--svg", request->svg, "write a picture there: the faces, and the circles of the copies")
-        ->type_name("FILE");
-    options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    add_report_options(*options, *request, "write a picture there: the faces, and the circles of the copies");
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
     options->callback([request] {
         check_map_files(*request);

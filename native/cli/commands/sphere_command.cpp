@@ -59,21 +59,14 @@ Subcommand add_sphere(CLI::App& app)
 {
     auto request = std::make_shared<SphereRequest>();
     CLI::App* options = app.add_subcommand("sphere", "map a surface without handles to the sphere, its holes round");
-    options->add_option("IN", request->input, "surface of genus 0, closed or with holes: OBJ, OFF, PLY or STL")
-        ->required();
-    options
-        ->add_option("OUT", request->output,
-                     "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners")
-        ->required();
+    add_mesh_arguments(*options, *request, "surface of genus 0, closed or with holes",
+                       "texture coordinates of corners");
     add_options(*options, "sphere", request->sphere_options);
     options
         ->add_option("--sphere", request->sphere,
                      "write the sphere itself there, OBJ or PLY: the same faces, their vertices on the unit sphere")
         ->type_name("FILE");
-    options->add_option("--json", request->json, "write the report there")->type_name("FILE");
-    options->add_option("--svg", request->svg, "write a picture of the sphere there, front and back")
-        ->type_name("FILE");
-    options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    add_report_options(*options, *request, "write a picture of the sphere there, front and back");
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
     options->callback([request] {
         check_map_files(*request);

@@ -40,21 +40,12 @@ int run(const Request& request, TileFunction map)
     return run_map_of(request, kind);
 }
 
-void add_files(CLI::App& app, Request& request, const char* kind)
+/// All that the command takes.
+void add_tile_options(CLI::App& app, const char* map, const char* surface, Request& request)
 {
-    app.add_option("IN", request.input, kind)->required();
-    app.add_option("OUT", request.output,
-                   "OBJ or PLY to write: the same vertices and faces, with texture coordinates of corners in [0, 1]^2")
-        ->required();
-}
-
-/// The options of the map, and the files beside OUT.
-void add_tile_options(CLI::App& app, const char* map, Request& request)
-{
+    add_mesh_arguments(app, request, surface, "texture coordinates of corners in [0, 1]^2");
     add_options(app, map, request.tile);
-    app.add_option("--json", request.json, "write the report there")->type_name("FILE");
-    app.add_option("--svg", request.svg, "write a picture of the tile and its copies there")->type_name("FILE");
-    app.add_flag("--quiet", request.quiet, "no progress and no result line");
+    add_report_options(app, request, "write a picture of the tile and its copies there");
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
 }
 
@@ -64,8 +55,7 @@ Subcommand add_torus(CLI::App& app)
 {
     auto request = std::make_shared<Request>();
     CLI::App* options = app.add_subcommand("torus", "map a surface with one handle to a flat torus, its holes round");
-    add_files(*options, *request, "surface of genus 1, with or without holes: OBJ, OFF, PLY or STL");
-    add_tile_options(*options, "torus", *request);
+    add_tile_options(*options, "torus", "surface of genus 1, with or without holes", *request);
     options->callback([request] {
         check_map_files(*request);
         request->entries["options"] = option_report("torus", request->tile);
@@ -77,8 +67,7 @@ Subcommand add_ring(CLI::App& app)
 {
     auto request = std::make_shared<Request>();
     CLI::App* options = app.add_subcommand("ring", "map a surface with two loops and more to a cylinder, unrolled");
-    add_files(*options, *request, "surface of genus 0 with two loops or more: OBJ, OFF, PLY or STL");
-    add_tile_options(*options, "ring", *request);
+    add_tile_options(*options, "ring", "surface of genus 0 with two loops or more", *request);
     options->callback([request] {
         check_map_files(*request);
         request->entries["options"] = option_report("ring", request->tile);

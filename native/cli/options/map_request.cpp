@@ -5,18 +5,17 @@
 
 namespace koebe::cli {
 
-void add_mesh_arguments(CLI::App& app, MapRequest& request)
+void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface, const std::string& coordinates)
 {
-    app.add_option("IN", request.input, "surface with holes: OBJ, OFF, PLY or STL")->required();
-    app.add_option("OUT", request.output,
-                   "OBJ or PLY to write: the same vertices and faces, with texture coordinates in [0, 1]^2")
+    app.add_option("IN", request.input, surface + ": OBJ, OFF, PLY or STL")->required();
+    app.add_option("OUT", request.output, "OBJ or PLY to write: the same vertices and faces, with " + coordinates)
         ->required();
 }
 
-void add_report_options(CLI::App& app, MapRequest& request)
+void add_report_options(CLI::App& app, MapRequest& request, const std::string& picture)
 {
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
-    app.add_option("--svg", request.svg, "write a picture of the circle domain there")->type_name("FILE");
+    app.add_option("--svg", request.svg, picture)->type_name("FILE");
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
 }
 

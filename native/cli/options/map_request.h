@@ -22,10 +22,12 @@ struct MapRequest {
     nlohmann::ordered_json entries = nlohmann::ordered_json::object();  ///< of the report, to set besides
 };
 
-/// IN and OUT.
-void add_mesh_arguments(CLI::App& app, MapRequest& request);
-/// --json, --svg, --quiet.
-void add_report_options(CLI::App& app, MapRequest& request);
+/// IN and OUT. @param surface that IN may be @param coordinates that OUT has
+void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface = "surface with holes",
+                        const std::string& coordinates = "texture coordinates in [0, 1]^2");
+/// --json, --svg, --quiet. @param picture what is written for --svg
+void add_report_options(CLI::App& app, MapRequest& request,
+                        const std::string& picture = "write a picture of the circle domain there");
 /// The files of a request, by the names that the usage has for them.
 std::vector<OutputFile> map_files(const MapRequest& request);
 /// @throws CLI::ValidationError OUT names no format; two of the files are one
