@@ -4,6 +4,9 @@
 
 namespace koebe {
 
+/// Of a map that is made more even: round loops stay on circles and straight ends, which move.
+enum class LoopForm { round, free };
+
 struct MapOptions {
     double most_lost = 0.01;  ///< share of the surface's area that may be lost as stored (quality/take_verdict.h)
 

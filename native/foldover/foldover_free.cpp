@@ -36,6 +36,10 @@ public:
                 first_unknown_[v] = unknowns_;
                 unknowns_ += unknowns_of(v);
             }
+        for (const Track& track : problem.tracks) {
+            first_of_track_.push_back(unknowns_);
+            unknowns_ += track.straight ? 1 : 3;
+        }
         for (const Eigen::Matrix2d& reference : problem.reference) shapes_.emplace_back(reference);
         if (unknowns_ > 0) set_pattern();
     }
@@ -59,7 +63,9 @@ public:
             ++result.iterations;
             const double before = take_derivatives();
             const bool was_right = now.worst > 0.0;
-            if (!newton_step(before, now)) break;
+            const bool has_moved = newton_step(before, now);
+            result.hindered = hindered_;
+            if (!has_moved || hindered_) break;
             if (before - now.energy < (was_right ? options_.settled : options_.stalled) * before) break;
         }
         result.foldover_free = now.worst > 0.0;
@@ -74,7 +80,47 @@ private:
 
     Index unknowns_of(Index v) const
     {
-        return problem_.mobility[v] == Mobility::free ? 2 : problem_.mobility[v] == Mobility::sliding ? 1 : 0;
+        return problem_.mobility[v] == Mobility::free ? 2 : problem_.mobility[v] == Mobility::held ? 0 : 1;
+    }
+
+    bool rides(Index v) const { return problem_.mobility[v] == Mobility::riding; }
+
+    bool any_rides(Eigen::Index f) const
+    {
+        const auto row = problem_.triangles.row(f);
+        return !problem_.tracks.empty() && (rides(row[0]) || rides(row[1]) || rides(row[2]));
+    }
+
+    /// An unknown, and where it moves a corner of a face.
+    struct Column {
+        Index unknown;
+        int corner;
+        Eigen::Vector2d way;
+    };
+
+    /// All unknowns that move the corners of a face.
+    std::vector<Column> columns(Eigen::Index f) const
+    {
+        std::vector<Column> result;
+        for (int k = 0; k < 3; ++k) {
+            const Index v = problem_.triangles(f, k), first = first_unknown_[v];
+            if (first < 0) continue;
+            if (problem_.mobility[v] == Mobility::free) {
+                result.push_back({first, k, Eigen::Vector2d::UnitX()});
+                result.push_back({first + 1, k, Eigen::Vector2d::UnitY()});
+                continue;
+            }
+            const Eigen::Vector2d along = tangent(v), normal(along[1], -along[0]);
+            result.push_back({first, k, along});
+            if (!rides(v)) continue;
+            const Index shared = first_of_track_[problem_.track_of[v]];
+            const bool straight = problem_.tracks[problem_.track_of[v]].straight;
+            result.push_back({shared, k, straight ? normal : Eigen::Vector2d::UnitX()});
+            if (straight) continue;
+            result.push_back({shared + 1, k, Eigen::Vector2d::UnitY()});
+            result.push_back({shared + 2, k, normal});
+        }
+        return result;
     }
 
     FaceMap face_map(const PlanarPoints& points, Eigen::Index f) const
@@ -129,27 +175,29 @@ private:
     /// face, where the rows of the later one begin in the first column of the other.
     void set_pattern()
     {
-        std::vector<std::pair<Index, Index>> pairs;  // (column's vertex, row's vertex), by unknowns
-        std::vector<Index> vertex_of(unknowns_, -1);
+        std::vector<std::pair<Index, Index>> pairs;  // (column's vertex or track, row's), by first unknowns
+        std::vector<Index> width_of(unknowns_, 0);
         for (Eigen::Index v = 0; v < problem_.points.rows(); ++v)
-            if (first_unknown_[v] >= 0) {
-                vertex_of[first_unknown_[v]] = static_cast<Index>(v);
-                pairs.emplace_back(first_unknown_[v], first_unknown_[v]);
-            }
-        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f)
+            if (first_unknown_[v] >= 0) width_of[first_unknown_[v]] = unknowns_of(v);
+        for (std::size_t i = 0; i < problem_.tracks.size(); ++i)
+            width_of[first_of_track_[i]] = problem_.tracks[i].straight ? 1 : 3;
+        for (Index i = 0; i < unknowns_; ++i)
+            if (width_of[i] > 0) pairs.emplace_back(i, i);
+        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
             for (int k = 0; k < 3; ++k)
                 if (const auto [a, b] = ends(f, k); a >= 0) pairs.emplace_back(a, b);
+            if (any_rides(f)) add_track_pairs(f, pairs);
+        }
         std::ranges::sort(pairs);
         pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
         std::vector<Index> begin(pairs.size());  // of each pair in the first column of its own
         std::vector<Index> rows, outer{0};
         for (std::size_t i = 0; i < pairs.size();) {
-            const Index column = pairs[i].first, width = unknowns_of(vertex_of[column]);
+            const Index column = pairs[i].first, width = width_of[column];
             std::vector<Index> below;
             for (; i < pairs.size() && pairs[i].first == column; ++i) {
                 begin[i] = static_cast<Index>(below.size());
-                for (Index r = 0; r < unknowns_of(vertex_of[pairs[i].second]); ++r)
-                    below.push_back(pairs[i].second + r);
+                for (Index r = 0; r < width_of[pairs[i].second]; ++r) below.push_back(pairs[i].second + r);
             }
             for (Index c = 0; c < width; ++c) {
                 rows.insert(rows.end(), below.begin() + c, below.end());
@@ -169,6 +217,20 @@ private:
         }
     }
 
+    /// The tracks of a face with its vertices, and with each other.
+    void add_track_pairs(Eigen::Index f, std::vector<std::pair<Index, Index>>& pairs) const
+    {
+        for (int k = 0; k < 3; ++k) {
+            const Index v = problem_.triangles(f, k);
+            if (!rides(v)) continue;
+            const Index own = first_of_track_[problem_.track_of[v]];
+            for (const Index other : problem_.triangles.row(f)) {
+                if (first_unknown_[other] >= 0) pairs.emplace_back(first_unknown_[other], own);
+                if (rides(other)) pairs.emplace_back(std::minmax(own, first_of_track_[problem_.track_of[other]]));
+            }
+        }
+    }
+
     /// The first unknowns of the corners k and k + 1 of a face, the lower one first; -1 if one of them is held.
     std::pair<Index, Index> ends(Eigen::Index f, int k) const
     {
@@ -178,10 +240,14 @@ private:
         return std::minmax(a, b);
     }
 
-    /// The direction in which a sliding vertex moves.
+    /// The direction in which a sliding or riding vertex moves.
     Eigen::Vector2d tangent(Index v) const
     {
-        const Circle& circle = problem_.circles[v];
+        if (rides(v)) {
+            const Track& track = problem_.tracks[problem_.track_of[v]];
+            if (track.straight) return {track.direction.real(), track.direction.imag()};
+        }
+        const Circle& circle = rides(v) ? problem_.tracks[problem_.track_of[v]].circle : problem_.circles[v];
         const Eigen::Vector2d arm(problem_.points(v, 0) - circle.center.real(),
                                   problem_.points(v, 1) - circle.center.imag());
         return Eigen::Vector2d(-arm[1], arm[0]) / arm.norm();
@@ -214,6 +280,25 @@ private:
         }
     }
 
+    /// Adds a face with riding corners, whose entries are searched for.
+    void add_by_columns(Eigen::Index f, const FaceDerivatives& face)
+    {
+        const std::vector<Column> all = columns(f);
+        double* const values = hessian_.valuePtr();
+        const Index* const outer = hessian_.outerIndexPtr();
+        const Index* const inner = hessian_.innerIndexPtr();
+        for (const Column& column : all) {
+            const Complex g = face.gradient[column.corner];
+            gradient_[column.unknown] += column.way.dot(Eigen::Vector2d(g.real(), g.imag()));
+            for (const Column& row : all) {
+                if (row.unknown < column.unknown) continue;
+                const Index* const end = inner + outer[column.unknown + 1];
+                const Index* const at = std::lower_bound(inner + outer[column.unknown], end, row.unknown);
+                values[at - inner] += row.way.dot(face.block(row.corner, column.corner, shapes_[f]) * column.way);
+            }
+        }
+    }
+
     /// Fills gradient and Hessian. @return the sum that is minimized
     double take_derivatives()
     {
@@ -225,6 +310,10 @@ private:
             const FaceDerivatives face =
                 energy_.derivatives(face_map(problem_.points, f), problem_.floor[f], weight(f), shape);
             energy += face.term;
+            if (any_rides(f)) {
+                add_by_columns(f, face);
+                continue;
+            }
             for (int k = 0; k < 3; ++k) {
                 const Index v = problem_.triangles(f, k), first = first_unknown_[v];
                 if (first < 0) continue;
@@ -254,13 +343,31 @@ private:
         return energy + pulls(problem_.points);
     }
 
-    PlanarPoints moved(const VectorXd& step, double share) const
+    std::vector<Track> moved_tracks(const VectorXd& step, double share) const
+    {
+        std::vector<Track> tracks = problem_.tracks;
+        for (std::size_t i = 0; i < tracks.size(); ++i) {
+            const Index first = first_of_track_[i];
+            if (tracks[i].straight) {
+                tracks[i].point += Complex(0.0, -share * step[first]) * tracks[i].direction;
+            } else {
+                tracks[i].circle.center += share * Complex(step[first], step[first + 1]);
+                tracks[i].circle.radius += share * step[first + 2];
+            }
+        }
+        return tracks;
+    }
+
+    PlanarPoints moved(const VectorXd& step, double share, const std::vector<Track>& tracks) const
     {
         PlanarPoints result = problem_.points;
         for (Eigen::Index v = 0; v < result.rows(); ++v) {
             if (first_unknown_[v] < 0) continue;
             if (problem_.mobility[v] == Mobility::free) {
                 result.row(v) += share * step.segment<2>(first_unknown_[v]).transpose();
+            } else if (rides(static_cast<Index>(v))) {
+                const Complex image = ridden(static_cast<Index>(v), share * step[first_unknown_[v]], tracks);
+                result.row(v) << image.real(), image.imag();
             } else {
                 const Circle& circle = problem_.circles[v];
                 const Complex arm = Complex(result(v, 0), result(v, 1)) - circle.center;
@@ -270,6 +377,18 @@ private:
             }
         }
         return result;
+    }
+
+    /// Where a riding vertex comes by some way along its track, which has moved to one of these.
+    Complex ridden(Index v, double way, const std::vector<Track>& tracks) const
+    {
+        const Track& before = problem_.tracks[problem_.track_of[v]];
+        const Track& after = tracks[problem_.track_of[v]];
+        const Complex place(problem_.points(v, 0), problem_.points(v, 1));
+        if (after.straight)
+            return after.point + (dot(place - before.point, before.direction) + way) * after.direction;
+        const double angle = std::arg(place - before.circle.center) + way / before.circle.radius;
+        return after.circle.center + std::polar(after.circle.radius, angle);
     }
 
     /// A damped Newton step for the present epsilon; false if no step decreases the energy.
@@ -284,12 +403,19 @@ private:
             if (!(slope < 0.0)) return false;
         }
         double share = 1.0;
+        hindered_ = false;
         for (int i = 0; i < halvings; ++i, share *= 0.5) {
-            PlanarPoints trial = moved(step, share);
+            std::vector<Track> tracks = moved_tracks(step, share);
+            PlanarPoints trial = moved(step, share, tracks);
             const Worth there = worth(trial);
             if (options_.strict && !(there.worst > 0.0)) continue;
             if (there.energy <= before + armijo * share * slope) {
+                if (options_.refuses && options_.refuses(trial)) {
+                    hindered_ = true;
+                    continue;
+                }
                 problem_.points = std::move(trial);
+                problem_.tracks = std::move(tracks);
                 now = there;
                 return true;
             }
@@ -316,11 +442,13 @@ private:
     FoldoverOptions options_;
     FaceEnergy energy_;
     std::vector<Index> first_unknown_;  // per vertex, -1 if held
+    std::vector<Index> first_of_track_;
     Index unknowns_ = 0;
     std::vector<WantedShape> shapes_;           // per face
     std::vector<std::array<Index, 3>> places_;  // per face and corner: see set_pattern
     VectorXd gradient_;
     SparseMatrix hessian_;
+    bool hindered_ = false;  // by what refuses points, in the last step
     std::optional<SparseCholesky> solver_;
 };
 

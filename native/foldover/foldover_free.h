@@ -6,23 +6,34 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace koebe {
 
+/// A circle, or a straight line, that is itself an unknown: its centre and radius, or its distance along its normal.
+struct Track {
+    bool straight = false;
+    Circle circle;                      ///< unless it is straight
+    Complex point, direction{1.0, 0.0};  ///< a point of a straight one, and where it leads, of length 1
+};
+
 /// A planar triangle mesh with the shape each face is to take.
 struct FoldoverProblem {
-    enum class Mobility : char { held, sliding, free };
+    /// sliding: along its circle, which stays. riding: along its track, which moves.
+    enum class Mobility : char { held, sliding, free, riding };
 
     PlanarPoints points;                     ///< (V, 2)
     Triangles triangles;                     ///< (F, 3)
     std::vector<Eigen::Matrix2d> reference;  ///< (F) columns: edges 0-1 and 0-2 of the wanted shape, of positive area
     VectorXd floor;                          ///< (F) the determinant to stay above, in the reference's areas
     VectorXd weight;                         ///< (F) of each face in the sum; empty: 1
-    std::vector<Mobility> mobility;          ///< (V) sliding: along its circle
+    std::vector<Mobility> mobility;          ///< (V)
     std::vector<Circle> circles;             ///< (V) of sliding and of pulled vertices
     VectorXd pull;                           ///< (V) of free vertices to their circles, dimensionless; empty: none
     std::vector<char> pull_inside;           ///< (V) 1: to the circle's centre instead; empty: nowhere
+    std::vector<int> track_of;               ///< (V) of riding vertices; empty: none rides
+    std::vector<Track> tracks;               ///< changed with the points
 };
 
 struct FoldoverOptions {
@@ -33,11 +44,14 @@ struct FoldoverOptions {
     bool strict = false;               ///< no step over a floor: from a foldover-free map to foldover-free ones only
     double power = 1.0;                ///< s >= 1: see below
     double slack = 0.0;                ///< delta: see below
+    /// Refuses points, asked last; empty: none. What is refused is the last step, which is shortened.
+    std::function<bool(const PlanarPoints&)> refuses = {};
 };
 
 struct FoldoverResult {
     bool foldover_free = false;  ///< every determinant is above its floor
     int iterations = 0;
+    bool hindered = false;  ///< it ended as points were refused
 };
 
 /// Minimizes sum_f (tr(J'J) / chi(det J - floor) + theta (det^2 + 1) / chi) over the mobile vertices, J the linear map

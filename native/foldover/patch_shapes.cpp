@@ -69,7 +69,9 @@ VectorXd wanted_areas(const Vertices& vertices, const Triangles& triangles, cons
         const double l0 = (vertices.row(triangles(f, 1)) - p).norm();
         const double l1 = (vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 1))).norm();
         const double l2 = (vertices.row(triangles(f, 2)) - p).norm();
-        const double factor = corner_mean(i, [](const Sums& s) { return s.planar / std::max(s.surface, 1e-300); });
+        double factor = 1.0;
+        if (shape != PatchShape::true_size)
+            factor = corner_mean(i, [](const Sums& s) { return s.planar / std::max(s.surface, 1e-300); });
         const double longest = std::max({l0, l1, l2});
         areas[i] = factor * std::max(triangle_area(l0, l1, l2), 0.5 * least_height * longest * longest);
         areas[i] = std::max(areas[i], least_size * least_size);
@@ -93,7 +95,7 @@ PatchShapes patch_shapes(const Vertices& vertices, const Triangles& triangles, c
     result.areas = wanted_areas(vertices, triangles, uv, faces, shape);
     for (std::size_t i = 0; i < faces.size(); ++i) {
         double lengths[3] = {1.0, 1.0, 1.0};
-        for (int k = 0; k < 3 && shape == PatchShape::surface; ++k)
+        for (int k = 0; k < 3 && shape != PatchShape::equilateral; ++k)
             lengths[k] = (vertices.row(triangles(faces[i], k)) - vertices.row(triangles(faces[i], (k + 1) % 3))).norm();
         result.references.push_back(shaped(lengths[0], lengths[1], lengths[2], result.areas[i]));
     }

@@ -9,7 +9,9 @@
 
 namespace koebe {
 
-enum class PatchShape { surface, equilateral };  ///< what the faces of a patch are drawn towards
+/// What the faces of a patch are drawn towards: the surface's as large as the map has them around, equilateral ones, or
+/// the surface's as they are.
+enum class PatchShape { surface, equilateral, true_size };
 
 struct PatchShapes {
     std::vector<Eigen::Matrix2d> references;  ///< columns: edges 0-1 and 0-2 of each face, counter-clockwise
@@ -17,7 +19,7 @@ struct PatchShapes {
 };
 
 /// Areas are the surface's by the local conformal factor, which is taken from edges, as the areas of the map may be
-/// folded; for equilateral shapes, their mean around each face. A face is at least 1e-2 of its longest edge high.
+/// folded, but for true size; for equilateral shapes, their mean around each face. A face is at least 1e-2 of its longest edge high.
 /// @param uv (V, 2) the map as it is @param faces the faces to take
 PatchShapes patch_shapes(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
                          const std::vector<Index>& faces, PatchShape shape);

@@ -164,6 +164,7 @@ void settle(const PartMesh& mesh, const std::vector<Index>& own, const FlatOptio
         freedom.held[i] = options.round_cuts || mesh.border[v];
     }
     free_rims(flat.vertices, flat.surface, freedom, flat.points, context);
+    flat.held = std::move(freedom.held);
 }
 
 /// Without a slit, and without points yet.
@@ -265,6 +266,7 @@ FlatPart flat_as_mapped(const PartMesh& mesh, const PlanarPoints& points)
     flat.points = points;
     flat.rims.assign(mesh.surface.loops.begin(), mesh.surface.loops.end());
     flat.loops = original_loops(mesh);
+    flat.held = mesh.border;
     scale_evenly(mesh, flat);
     return flat;
 }

@@ -18,6 +18,7 @@ struct FlatPart {
     PartKind kind = PartKind::disk;
     std::vector<VertexLoop> loops;         ///< of the part before it is opened, by vertices of the whole
     std::vector<std::vector<Index>> rims;  ///< vertices that those loops have become
+    std::vector<char> held;                ///< (V) 1 for vertices that stay on the circle or line of their rim
     double slit = 0.0;                     ///< length
     bool one_to_one = true;                ///< false: its boundary crosses itself
 };

@@ -5,6 +5,7 @@
 #include "cut/open_surface.h"
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
+#include "parts/even_parts.h"
 #include "parts/flat_parts.h"
 #include "parts/packing.h"
 #include "splitting/closed_surface.h"
@@ -305,7 +306,7 @@ std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& 
     const auto stage = [&](double faces) {
         const double from = done;
         done = std::min(1.0, done + faces / static_cast<double>(total));
-        context.begin_stage("split", 0.05 + 0.85 * from, 0.05 + 0.85 * done);
+        context.begin_stage("split", 0.05 + 0.75 * from, 0.05 + 0.75 * done);
     };
     for (const std::size_t i : big) {
         stage(static_cast<double>(opened.pieces[i].triangles.rows()));
@@ -364,6 +365,8 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
             flats.push_back(std::move(part));
         }
     }
+    context.begin_stage("even", 0.8, 0.9);
+    layout.even = make_parts_even(flats, options.even, options.loops, options.threads, context);
     context.begin_stage("pack", 0.9, 1.0);
     const std::vector<PlanarPoints> placed = packed(flats, options.threads, context);
     for (std::size_t k = 0; k < flats.size(); ++k) {

@@ -19,6 +19,7 @@ struct PartsLayout {
     std::vector<Index> crossing;    ///< faces of parts whose boundary crosses itself
     double slit_length = 0.0;
     int handles_cut = 0;
+    double even = 0.0;  ///< as the parts were made
     double maps = 0.0;  ///< faces mapped, in faces of the mesh
 };
 

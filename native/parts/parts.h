@@ -9,6 +9,7 @@
 #include "pipeline/result.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -25,12 +26,18 @@ struct PartsOptions : MapOptions {
     /// Rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges, which
     /// costs no angles. The surface's own loops lie on circles and straight ends either way.
     bool round_cuts = false;
+    /// From 0, conformal, to 1, true to size (relax/even_map.h); none: the largest of some at which the mean angle error
+    /// is no worse than at 0.
+    std::optional<double> even = {};
+    LoopForm loops = LoopForm::round;  ///< of the surface's own loops, with `even`; rims at cuts are free
     int threads = 0;  ///< at most; 0: as many as the machine has. The result is the same for any number
 
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
         visit("price", &PartsOptions::price);
+        visit("even", &PartsOptions::even);
+        visit("loops", &PartsOptions::loops);
         visit("round_cuts", &PartsOptions::round_cuts);
         MapOptions::each_option(visit);
         visit("cut", &PartsOptions::cut);
@@ -60,6 +67,8 @@ struct PartsResult : CornerMapReport {
     double density_ratio_5_95 = 1.0;  ///< texel density, 95 % over 5 % of the area
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
     double maps = 0.0;                ///< faces mapped, in faces of the surface
+    double even = 0.0;                ///< as asked for, or found
+    Index overlaps = 0;               ///< pairs of boundary edges that cross, of parts that are not one to one
 };
 
 /// Cuts a surface into parts where that makes texels more even than a part and its cuts cost.

@@ -21,7 +21,9 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"handles_cut", result.handles_cut},
                                        {"density_ratio_5_95", result.density_ratio_5_95},
                                        {"even_area", result.even_area},
-                                       {"maps", result.maps}});
+                                       {"maps", result.maps},
+                                       {"even", result.even},
+                                       {"overlaps", result.overlaps}});
     report["seconds"] = result.seconds.total;
     return report;
 }

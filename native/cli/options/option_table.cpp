@@ -88,6 +88,12 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value)
                     row);
 }
 
+CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double>& value)
+{
+    CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));
+    return finished(option->check(number_between(row.least, row.most, row.above, row.below)), row);
+}
+
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value)
 {
     CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +35,7 @@ std::span<const OptionRow> option_rows();
 const OptionRow* find_row(std::string_view map, std::string_view name);
 
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value);
+CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double>& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, bool& value);
 /// Of the words of a choice the one of this number.
@@ -56,7 +58,7 @@ void add_options(CLI::App& app, std::string_view map, Options& options)
             add_choice(app, *row, static_cast<int>(field), [&field](int k) { field = static_cast<Field>(k); });
         else if constexpr (std::is_same_v<Field, Sweep>)
             add_steps(app, *row, field);
-        else if constexpr (std::is_arithmetic_v<Field>)
+        else if constexpr (std::is_arithmetic_v<Field> || std::is_same_v<Field, std::optional<double>>)
             add_value(app, *row, field);
     });
 }
@@ -84,6 +86,8 @@ nlohmann::ordered_json option_report(std::string_view map, const Options& option
             report[name] = row->choices().at(static_cast<std::size_t>(field));
         } else if constexpr (std::is_same_v<Field, Sweep>) {
             report[name] = words_of(field);
+        } else if constexpr (std::is_same_v<Field, std::optional<double>>) {
+            report[name] = field ? nlohmann::ordered_json(*field) : nullptr;
         } else if constexpr (std::is_arithmetic_v<Field>) {
             report[name] = field;
             if (row->kind == "vertex" && field == Field(-1)) report[name] = nullptr;

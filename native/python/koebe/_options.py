@@ -78,6 +78,8 @@ def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, d
 
 def _checked(row: Row, value: Any) -> Any:
     """The value of an option of any kind, as reports have it."""
+    if value is None and row.default is None:
+        return None
     if row.kind == "number":
         return number(value, row)
     if row.kind == "integer":
@@ -89,7 +91,7 @@ def _checked(row: Row, value: Any) -> Any:
     if row.kind == "steps":
         return sweep(value, row.name)
     if row.kind == "vertex":
-        return None if value is None else vertex(value, row.name)
+        return vertex(value, row.name)
     if row.kind == "loop":
         return value if isinstance(value, str) and outer_loop(value) else outer_loop(value)[1]
     return value

@@ -81,6 +81,8 @@ class SchottkyOptions(TorusOptions, total=False):
 class PartsOptions(MapOptions, RunOptions, total=False):
     """Of `parts`."""
 
+    even: float | None
+    loops: str
     price: float | None
     cut: bool
     round_cuts: bool

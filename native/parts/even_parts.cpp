@@ -1,0 +1,149 @@
+#include "parts/even_parts.h"
+
+#include "circles/circle_fit.h"
+#include "execution/side_by_side.h"
+#include "quality/distortion.h"
+#include "relax/even_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double square_side = 1.25;    // of the square that parts of area 1 are packed into, about
+constexpr double on_track = 1e-6;       // of a circle's radius, or a line's length: what lies farther off is free
+constexpr double first_even = 0.1;      // E at which most parts bend no more than at 0
+constexpr double step = 1.5, least_even = 0.004;  // of the search
+
+/// The circle of a rim's held vertices, or the straight end of a tube.
+Track track_of(PartKind kind, const PlanarPoints& at)
+{
+    Track track;
+    track.straight = kind == PartKind::tube;
+    if (track.straight) {
+        track.point = {at.col(0).mean(), at.col(1).mean()};
+        track.direction = {0.0, 1.0};
+    } else {
+        const VectorXcd points = at.col(0) + Complex(0.0, 1.0) * at.col(1);
+        track.circle = fit_circle_least_squares(points);
+    }
+    return track;
+}
+
+/// How far off its track a point is, over the extent of the track.
+double off_track(const Track& track, const PlanarPoints& at, Eigen::Index i)
+{
+    const Complex z(at(i, 0), at(i, 1));
+    if (!track.straight) return std::abs(std::abs(z - track.circle.center) / track.circle.radius - 1.0);
+    const double length = at.col(1).maxCoeff() - at.col(1).minCoeff();
+    return std::abs(z.real() - track.point.real()) / std::max(length, 1e-300);
+}
+
+std::vector<RoundLoop> round_loops(const FlatPart& flat)
+{
+    std::vector<RoundLoop> loops;
+    for (const std::vector<Index>& rim : flat.rims) {
+        RoundLoop loop;
+        std::ranges::copy_if(rim, std::back_inserter(loop.vertices), [&](Index v) { return flat.held[v]; });
+        if (loop.vertices.size() < 3) continue;
+        const PlanarPoints at = flat.points(loop.vertices, Eigen::all);
+        loop.track = track_of(flat.kind, at);
+        bool fits = true;
+        for (Eigen::Index i = 0; i < at.rows(); ++i) fits = fits && off_track(loop.track, at, i) < on_track;
+        if (fits) loops.push_back(std::move(loop));
+    }
+    return loops;
+}
+
+/// Mean angle error of the parts' faces, in degrees.
+double angle_error(const std::vector<FlatPart>& flats)
+{
+    double sum = 0.0, faces = 0.0;
+    for (const FlatPart& flat : flats) {
+        const auto count = static_cast<double>(flat.faces.size());
+        sum += count * measure_distortion(flat.vertices, flat.surface.triangles, flat.points).angle_error_deg.mean;
+        faces += count;
+    }
+    return faces > 0.0 ? sum / faces : 0.0;
+}
+
+class EvenParts {
+public:
+    EvenParts(std::vector<FlatPart>& flats, LoopForm loops, int threads, ExecutionContext& context)
+        : flats_(flats), round_(flats.size()), threads_(threads), context_(context)
+    {
+        if (loops == LoopForm::round)
+            for (std::size_t k = 0; k < flats.size(); ++k) round_[k] = round_loops(flats[k]);
+    }
+
+    void relax(double even)
+    {
+        side_by_side(flats_.size(), threads_, context_, [&](std::size_t k, ExecutionContext& own) {
+            FlatPart& flat = flats_[k];
+            make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round_[k]}, even,
+                      square_side, own);
+        });
+    }
+
+    /// From one E to the next, as long as angles are no worse than at 0.
+    double relax_freely()
+    {
+        const double conformal = angle_error(flats_);
+        const State start = state();
+        double best = 0.0;
+        State best_state = start;
+        double even = first_even;
+        relax(even);
+        const bool up = angle_error(flats_) <= conformal;
+        for (bool fits = up; up == fits; fits = angle_error(flats_) <= conformal) {
+            if (fits) {
+                best = even;
+                best_state = state();
+            }
+            even = up ? even * step : even / step;
+            if (even > 1.0 || even < least_even) break;
+            relax(even);
+            if (!up && angle_error(flats_) <= conformal) {
+                best = even;
+                best_state = state();
+            }
+        }
+        restore(best_state);
+        return best;
+    }
+
+private:
+    using State = std::vector<PlanarPoints>;
+
+    State state() const
+    {
+        State state;
+        for (const FlatPart& flat : flats_) state.push_back(flat.points);
+        return state;
+    }
+    void restore(const State& state)
+    {
+        for (std::size_t k = 0; k < flats_.size(); ++k) flats_[k].points = state[k];
+    }
+
+    std::vector<FlatPart>& flats_;
+    std::vector<std::vector<RoundLoop>> round_;
+    int threads_;
+    ExecutionContext& context_;
+};
+
+}  // namespace
+
+double make_parts_even(std::vector<FlatPart>& flats, std::optional<double> even, LoopForm loops, int threads,
+                       ExecutionContext& context)
+{
+    EvenParts parts(flats, loops, threads, context);
+    if (!even) return parts.relax_freely();
+    if (*even > 0.0) parts.relax(*even);
+    return *even;
+}
+
+}  // namespace koebe

@@ -1,0 +1,221 @@
+#include "relax/even_map.h"
+
+#include "core/errors.h"
+#include "foldover/patch_shapes.h"
+#include "planar/boundary_crossings.h"
+#include "planar/planar_predicates.h"
+#include "quality/stored_uv.h"
+#include "relax/void_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+using Mobility = FoldoverProblem::Mobility;
+
+constexpr int most_iterations = 60;
+constexpr double settled = 1e-6;         // relative decrease of the sum, whose least value is 2 + 2 t
+constexpr int most_rounds = 20;          // with the void,
+constexpr int steps_a_round = 5;
+constexpr double void_weight = 1e-3;     // of a face of the void, over a mean one of the surface
+constexpr double least_weight = 1e-3;    // of a face of the surface, over the mean
+constexpr double least_gap = 1e-4;       // between loops, over the extent
+constexpr double rounding = 1.5e-7;      // twice the area a face can lose by 32-bit floats, over its edge and the extent
+constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
+
+class EvenProblem {
+public:
+    EvenProblem(const FlatSurface& flat, double even, double extent, ExecutionContext& context)
+        : flat_(flat), weight_(area_weight(even)), extent_(extent), context_(context)
+    {
+        std::vector<Index> all(static_cast<std::size_t>(flat.triangles.rows()));
+        std::iota(all.begin(), all.end(), 0);
+        shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
+        mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
+        track_of_.assign(mobility_.size(), -1);
+        for (std::size_t k = 0; k < flat.round.size(); ++k)
+            for (const Index v : flat.round[k].vertices) {
+                mobility_[v] = Mobility::riding;
+                track_of_[v] = static_cast<int>(k);
+            }
+        // All may be moved along, so one vertex stays.
+        if (const auto free = std::ranges::find(mobility_, Mobility::free); free != mobility_.end())
+            *free = Mobility::held;
+    }
+
+    bool one_to_one(const PlanarPoints& points) const
+    {
+        if (!points.allFinite()) return false;
+        for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f)
+            if (!(area(points, flat_.triangles, f) > 0.0)) return false;
+        return apart(points);
+    }
+
+    /// By the surface alone. @return whether a loop was in the way
+    bool relax_alone(EvenMap& result)
+    {
+        FoldoverProblem problem = surface_problem();
+        const FoldoverResult done =
+            minimize_foldover_free(problem, context_,
+                                   {.max_iterations = most_iterations,
+                                    .area_weight = weight_,
+                                    .settled = settled,
+                                    .strict = true,
+                                    .refuses = [&](const PlanarPoints& points) { return !apart(points); }});
+        take(problem, done, result);
+        return done.hindered;
+    }
+
+    void relax_with_void(EvenMap& result)
+    {
+        double before = energy();
+        for (int round = 0; round < most_rounds; ++round) {
+            FoldoverProblem problem = surface_problem();
+            try {
+                add_void(problem);
+            } catch (const InputError&) {
+                return;
+            }
+            const Eigen::Index own = flat_.points.rows();
+            const auto refuses = [&](const PlanarPoints& points) { return !apart(points.topRows(own)); };
+            const FoldoverResult done = minimize_foldover_free(problem, context_,
+                                                               {.max_iterations = steps_a_round,
+                                                                .area_weight = weight_,
+                                                                .settled = settled,
+                                                                .strict = true,
+                                                                .refuses = refuses});
+            take(problem, done, result);
+            ++result.rounds;
+            const double now = energy();
+            if (!(before - now > settled * before)) return;
+            before = now;
+        }
+    }
+
+private:
+    static double area(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
+    {
+        const auto at = [&](int k) { return Complex(points(triangles(f, k), 0), points(triangles(f, k), 1)); };
+        return 0.5 * cross(at(1) - at(0), at(2) - at(0));
+    }
+
+    static double longest_edge(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
+    {
+        double longest = 0.0;
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest, (points.row(triangles(f, k)) - points.row(triangles(f, (k + 1) % 3))).norm());
+        return longest;
+    }
+
+    bool apart(const PlanarPoints& points) const
+    {
+        return crossing_boundary_edges(flat_.loops, points, shortest_drawn * extent_).empty() &&
+               turned_loops(flat_.loops, points, shortest_drawn * extent_).empty();
+    }
+
+    double mean_area() const { return shapes_.areas.sum() / static_cast<double>(shapes_.areas.size()); }
+
+    FoldoverProblem surface_problem() const
+    {
+        FoldoverProblem problem;
+        problem.points = flat_.points;
+        problem.triangles = flat_.triangles;
+        problem.reference = shapes_.references;
+        problem.weight = shapes_.areas.cwiseMax(least_weight * mean_area()) / shapes_.areas.sum();
+        problem.floor.resize(flat_.triangles.rows());
+        for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f)
+            problem.floor[f] = floor_of(flat_.triangles, f, rounding * extent_) / shapes_.areas[f];
+        problem.mobility = mobility_;
+        problem.track_of = track_of_;
+        for (const RoundLoop& loop : flat_.round) problem.tracks.push_back(loop.track);
+        return problem;
+    }
+
+    /// The area that a face must keep, to be as high as that. @param height in the unit of the points
+    double floor_of(const Triangles& triangles, Eigen::Index f, double height) const
+    {
+        return std::min(0.5 * height * longest_edge(flat_.points, triangles, f),
+                        0.5 * area(flat_.points, triangles, f));
+    }
+
+    void add_void(FoldoverProblem& problem) const
+    {
+        const VoidMesh around = void_mesh(flat_.loops, flat_.points);
+        const Eigen::Index own = flat_.triangles.rows();
+        std::vector<Index> kept;
+        for (Eigen::Index f = 0; f < around.triangles.rows(); ++f)
+            if (area(around.points, around.triangles, f) > 0.0) kept.push_back(static_cast<Index>(f));
+        const Eigen::Index count = own + static_cast<Eigen::Index>(kept.size());
+        const double weight = void_weight / static_cast<double>(own);
+        problem.points = around.points;
+        problem.triangles.conservativeResize(count, 3);
+        problem.weight.conservativeResize(count);
+        problem.floor.conservativeResize(count);
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            const Eigen::Index f = own + static_cast<Eigen::Index>(i);
+            const auto row = around.triangles.row(kept[i]);
+            problem.triangles.row(f) = row;
+            Eigen::Matrix2d edges;
+            edges << (around.points.row(row[1]) - around.points.row(row[0])).transpose(),
+                (around.points.row(row[2]) - around.points.row(row[0])).transpose();
+            problem.reference.push_back(edges);
+            problem.weight[f] = weight;
+            const double now = 0.5 * edges.determinant();
+            const double longest = longest_edge(around.points, around.triangles, kept[i]);
+            problem.floor[f] = std::min(0.5 * least_gap * extent_ * longest / now, 0.5);
+        }
+        problem.mobility.resize(static_cast<std::size_t>(around.points.rows()), Mobility::free);
+        for (int corner = 0; corner < 4; ++corner)
+            problem.mobility[static_cast<std::size_t>(flat_.points.rows()) + corner] = Mobility::held;
+        problem.track_of.resize(problem.mobility.size(), -1);
+    }
+
+    void take(const FoldoverProblem& problem, const FoldoverResult& done, EvenMap& result)
+    {
+        result.iterations += done.iterations;
+        const PlanarPoints points = problem.points.topRows(flat_.points.rows());
+        if (!one_to_one(points)) return;
+        flat_.points = points;
+        for (std::size_t k = 0; k < flat_.round.size(); ++k) flat_.round[k].track = problem.tracks[k];
+        result.moved = true;
+    }
+
+    /// Of the surface, per area.
+    double energy() const
+    {
+        double sum = 0.0;
+        for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
+            const auto row = flat_.triangles.row(f);
+            const auto at = [&](int k) { return Complex(flat_.points(row[k], 0), flat_.points(row[k], 1)); };
+            const FaceMap map = WantedShape(shapes_.references[f]).map_to(at(1) - at(0), at(2) - at(0));
+            const double d = map.determinant();
+            sum += shapes_.areas[f] * (map.squared_norm() / d + weight_ * (d + 1.0 / d));
+        }
+        return sum / shapes_.areas.sum();
+    }
+
+    FlatSurface flat_;
+    double weight_, extent_;
+    ExecutionContext& context_;
+    PatchShapes shapes_;
+    std::vector<Mobility> mobility_;
+    std::vector<int> track_of_;
+};
+
+}  // namespace
+
+double area_weight(double even) { return even / (1.1 - even); }
+
+EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context)
+{
+    EvenMap result;
+    EvenProblem problem(surface, even, extent, context);
+    if (even > 0.0 && problem.one_to_one(surface.points) && problem.relax_alone(result)) problem.relax_with_void(result);
+    return result;
+}
+
+}  // namespace koebe

@@ -1,0 +1,48 @@
+// Any one-to-one map of a surface into the plane, made more even: from conformal to true to size.
+#pragma once
+
+#include "core/types.h"
+#include "execution/execution.h"
+#include "foldover/foldover_free.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// What areas weigh against angles: t = E / (1.1 - E), 0 at the conformal end, 1/10 of E = 0.1, and 10 at E = 1.
+/// @param even E, 0 to 1
+double area_weight(double even);
+
+/// Vertices of a loop that stay on one circle or straight line, which moves.
+struct RoundLoop {
+    std::vector<Index> vertices;
+    Track track;
+};
+
+/// A surface and its map. What is relaxed is the map alone.
+struct FlatSurface {
+    const Vertices& vertices;              ///< (V, 3) in the unit that the map is to have
+    const Triangles& triangles;            ///< (F, 3)
+    const std::vector<VertexLoop>& loops;  ///< all boundary loops
+    PlanarPoints& points;                  ///< (V, 2) one to one
+    std::vector<RoundLoop>& round;         ///< loops that are not free
+};
+
+struct EvenMap {
+    bool moved = false;
+    int iterations = 0;  ///< Newton steps
+    int rounds = 0;      ///< of them with the void, which is triangulated anew for each
+};
+
+/// Minimizes E_t = sum A ((s1^2 + s2^2) / (s1 s2) - 2 + t (s1 s2 + 1 / (s1 s2) - 2)) over the faces, s1 and s2 the
+/// singular values of the face's map and A its area: angles by the first term (Hormann and Greiner 2000), areas by the
+/// second (Degener, Meseth and Klein 2003). No step turns a face over, and none lets a loop cross itself or another:
+/// where one would, the void around the map and in its holes is triangulated and takes part, each of its faces to keep
+/// its shape (Jiang, Schaefer and Panozzo 2017).
+///
+/// A map that is not one to one to begin with is left as it is.
+/// @param extent of the square that the points are stored in as 32-bit floats, in their unit
+/// @throws Cancelled
+EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context);
+
+}  // namespace koebe
