@@ -284,6 +284,11 @@ private:
     void add_by_columns(Eigen::Index f, const FaceDerivatives& face)
     {
         const std::vector<Column> all = columns(f);
+        for (int k = 0; k < 3; ++k)
+            if (const Index v = problem_.triangles(f, k); rides(v)) {
+                const Eigen::Vector2d along = tangent(v);
+                outward_force_[v] -= face.gradient[k].real() * along[1] - face.gradient[k].imag() * along[0];
+            }
         double* const values = hessian_.valuePtr();
         const Index* const outer = hessian_.outerIndexPtr();
         const Index* const inner = hessian_.innerIndexPtr();
@@ -304,6 +309,7 @@ private:
     {
         gradient_ = VectorXd::Zero(unknowns_);
         std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
+        outward_force_.assign(problem_.track_of.size(), 0.0);
         double energy = 0.0;
         for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
             const WantedShape& shape = shapes_[f];
@@ -329,6 +335,14 @@ private:
                 add(problem_.triangles(f, column), problem_.triangles(f, row), places_[f][k],
                     face.block(row, column, shape));
             }
+        }
+        for (std::size_t v = 0; v < outward_force_.size(); ++v) {
+            const Index own = static_cast<Index>(v);
+            if (!rides(own)) continue;
+            const Track& track = problem_.tracks[problem_.track_of[v]];
+            if (!track.straight)
+                hessian_.valuePtr()[hessian_.outerIndexPtr()[first_unknown_[v]]] +=
+                    std::max(outward_force_[v], 0.0) / track.circle.radius;
         }
         for (Eigen::Index v = 0; v < problem_.pull.size(); ++v) {
             if (!pulled(v)) continue;
@@ -447,6 +461,7 @@ private:
     std::vector<WantedShape> shapes_;           // per face
     std::vector<std::array<Index, 3>> places_;  // per face and corner: see set_pattern
     VectorXd gradient_;
+    std::vector<double> outward_force_;  // (V) on riding vertices: less the gradient, along the radius
     SparseMatrix hessian_;
     bool hindered_ = false;  // by what refuses points, in the last step
     std::optional<SparseCholesky> solver_;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double square_side = 1.25;    // of the square that parts of area 1 are packed into, about
 constexpr double on_track = 1e-6;       // of a circle's radius, or a line's length: what lies farther off is free
-constexpr double first_even = 0.1;      // E at which most parts bend no more than at 0
-constexpr double step = 1.5, least_even = 0.004;  // of the search
+constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
+constexpr double step = 1.5;                             // from one to the next
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -92,41 +92,38 @@ public:
     double relax_freely()
     {
         const double conformal = angle_error(flats_);
-        const State start = state();
-        double best = 0.0;
-        State best_state = start;
-        double even = first_even;
-        relax(even);
-        const bool up = angle_error(flats_) <= conformal;
-        for (bool fits = up; up == fits; fits = angle_error(flats_) <= conformal) {
-            if (fits) {
-                best = even;
-                best_state = state();
-            }
-            even = up ? even * step : even / step;
-            if (even > 1.0 || even < least_even) break;
-            relax(even);
-            if (!up && angle_error(flats_) <= conformal) {
-                best = even;
-                best_state = state();
+        double even = 0.0;
+        for (double next = first_even; next >= least_even && next <= 1.0;) {
+            const State before = state();
+            relax(next);
+            if (angle_error(flats_) <= conformal) {
+                even = next;
+                next *= step;
+            } else {
+                restore(before);
+                if (even > 0.0) break;
+                next *= 0.5;
             }
         }
-        restore(best_state);
-        return best;
+        return even;
     }
 
 private:
-    using State = std::vector<PlanarPoints>;
+    struct State {
+        std::vector<PlanarPoints> points;
+        std::vector<std::vector<RoundLoop>> round;
+    };
 
     State state() const
     {
-        State state;
-        for (const FlatPart& flat : flats_) state.push_back(flat.points);
+        State state{{}, round_};
+        for (const FlatPart& flat : flats_) state.points.push_back(flat.points);
         return state;
     }
     void restore(const State& state)
     {
-        for (std::size_t k = 0; k < flats_.size(); ++k) flats_[k].points = state[k];
+        round_ = state.round;
+        for (std::size_t k = 0; k < flats_.size(); ++k) flats_[k].points = state.points[k];
     }
 
     std::vector<FlatPart>& flats_;

@@ -21,6 +21,7 @@ constexpr int most_iterations = 60;
 constexpr double settled = 1e-6;         // relative decrease of the sum, whose least value is 2 + 2 t
 constexpr int most_rounds = 20;          // with the void,
 constexpr int steps_a_round = 5;
+constexpr double settled_round = 1e-3;   // and the relative decrease of the energy at which they end
 constexpr double void_weight = 1e-3;     // of a face of the void, over a mean one of the surface
 constexpr double least_weight = 1e-3;    // of a face of the surface, over the mean
 constexpr double least_gap = 1e-4;       // between loops, over the extent
@@ -91,7 +92,7 @@ public:
             take(problem, done, result);
             ++result.rounds;
             const double now = energy();
-            if (!(before - now > settled * before)) return;
+            if (!(before - now > settled_round * before)) return;
             before = now;
         }
     }
@@ -184,7 +185,7 @@ private:
         result.moved = true;
     }
 
-    /// Of the surface, per area.
+    /// E_t of the surface, per area.
     double energy() const
     {
         double sum = 0.0;
@@ -195,7 +196,7 @@ private:
             const double d = map.determinant();
             sum += shapes_.areas[f] * (map.squared_norm() / d + weight_ * (d + 1.0 / d));
         }
-        return sum / shapes_.areas.sum();
+        return sum / shapes_.areas.sum() - 2.0 * (1.0 + weight_);
     }
 
     FlatSurface flat_;
