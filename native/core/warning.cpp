@@ -32,6 +32,7 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::cut: return "cut";
     case WarningKind::pieces: return "pieces";
     case WarningKind::left_out: return "left_out";
+    case WarningKind::not_even: return "not_even";
     case WarningKind::lost_area: return "lost_area";
     case WarningKind::not_mapped: return "not_mapped";
     }
@@ -51,6 +52,7 @@ ElementKind elements_of(WarningKind kind) noexcept
     case WarningKind::below_resolution:
     case WarningKind::flipped:
     case WarningKind::left_out:
+    case WarningKind::not_even:
     case WarningKind::lost_area:
     case WarningKind::not_mapped:
     case WarningKind::not_one_to_one: return ElementKind::faces;

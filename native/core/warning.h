@@ -38,6 +38,7 @@ enum class WarningKind {
     cut,               ///< the surface was cut in the UVs, as the report's cuts say; elements: vertices of the cuts
     pieces,            ///< several pieces, each with a map of its own
     left_out,          ///< faces without a place of their own in the map; elements: they
+    not_even,          ///< left conformal, as no map that is more even was found; elements: faces of such parts
     lost_area,         ///< more of the surface than is allowed has no area in the UVs; elements: its faces
     not_mapped,        ///< faces of pieces that have no map; elements: they. The last of the kinds
 };

@@ -237,6 +237,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
     const double all = static_cast<double>(triangles.rows());
     double done = 0.0;
     result.converged = true;
+    result.even = options.even;
     std::vector<std::exception_ptr> failures(opened.pieces.size());
     result.pieces.resize(opened.pieces.size());
     std::vector<std::size_t> small;
@@ -266,6 +267,8 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
         if (!failure) failure = failures[i];
         result.converged = result.converged && piece.mapped && piece.map.converged;
         result.seconds += piece.map.seconds;
+        if (piece.mapped) result.even = std::min(*result.even, piece.map.even.value_or(0.0));
+        result.overlaps += piece.map.overlaps;
         for (std::size_t f = 0; f < piece.faces.size(); ++f)
             if (opened.pieces[i].turned[f]) result.turned.push_back(piece.faces[f]);
     }

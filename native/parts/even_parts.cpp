@@ -70,22 +70,28 @@ double angle_error(const std::vector<FlatPart>& flats)
     return faces > 0.0 ? sum / faces : 0.0;
 }
 
-class EvenParts {
+class PartRelaxation {
 public:
-    EvenParts(std::vector<FlatPart>& flats, LoopForm loops, int threads, ExecutionContext& context)
+    PartRelaxation(std::vector<FlatPart>& flats, LoopForm loops, int threads, ExecutionContext& context)
         : flats_(flats), round_(flats.size()), threads_(threads), context_(context)
     {
         if (loops == LoopForm::round)
             for (std::size_t k = 0; k < flats.size(); ++k) round_[k] = round_loops(flats[k]);
     }
 
-    void relax(double even)
+    /// @return the parts that could not be moved
+    std::vector<std::size_t> relax(double even)
     {
+        std::vector<char> moved(flats_.size(), 0);
         side_by_side(flats_.size(), threads_, context_, [&](std::size_t k, ExecutionContext& own) {
             FlatPart& flat = flats_[k];
-            make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round_[k]}, even,
-                      square_side, own);
+            moved[k] = make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round_[k]}, even,
+                                 square_side, own).moved;
         });
+        std::vector<std::size_t> left;
+        for (std::size_t k = 0; k < moved.size(); ++k)
+            if (!moved[k]) left.push_back(k);
+        return left;
     }
 
     /// From one E to the next, as long as angles are no worse than at 0.
@@ -134,13 +140,13 @@ private:
 
 }  // namespace
 
-double make_parts_even(std::vector<FlatPart>& flats, std::optional<double> even, LoopForm loops, int threads,
+EvenParts make_parts_even(std::vector<FlatPart>& flats, std::optional<double> even, LoopForm loops, int threads,
                        ExecutionContext& context)
 {
-    EvenParts parts(flats, loops, threads, context);
-    if (!even) return parts.relax_freely();
-    if (*even > 0.0) parts.relax(*even);
-    return *even;
+    PartRelaxation parts(flats, loops, threads, context);
+    if (!even) return {parts.relax_freely(), {}};
+    if (*even == 0.0) return {};
+    return {*even, parts.relax(*even)};
 }
 
 }  // namespace koebe

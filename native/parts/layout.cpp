@@ -366,11 +366,16 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
         }
     }
     context.begin_stage("even", 0.8, 0.9);
-    layout.even = make_parts_even(flats, options.even, options.loops, options.threads, context);
+    const EvenParts even = make_parts_even(flats, options.even, options.loops, options.threads, context);
+    layout.even = even.even;
+    for (const std::size_t k : even.left)
+        layout.not_even.insert(layout.not_even.end(), flats[k].faces.begin(), flats[k].faces.end());
+    std::ranges::sort(layout.not_even);
     context.begin_stage("pack", 0.9, 1.0);
     const std::vector<PlanarPoints> placed = packed(flats, options.threads, context);
     for (std::size_t k = 0; k < flats.size(); ++k) {
         FlatPart& flat = flats[k];
+        layout.overlaps += !flat.one_to_one;
         for (std::size_t i = 0; i < flat.faces.size(); ++i) {
             const Index f = flat.faces[i];
             const auto row = flat.surface.triangles.row(static_cast<Eigen::Index>(i));

@@ -16,10 +16,12 @@ struct PartsLayout {
     std::vector<Index> part;  ///< (F); -1: in no part, degenerate or the double of another
     std::vector<PartReport> parts;
     std::vector<Index> reoriented;  ///< faces that were turned
-    std::vector<Index> crossing;    ///< faces of parts whose boundary crosses itself
+    Index overlaps = 0;             ///< parts whose boundary crosses itself,
+    std::vector<Index> crossing;    ///< and their faces
     double slit_length = 0.0;
     int handles_cut = 0;
-    double even = 0.0;  ///< as the parts were made
+    double even = 0.0;              ///< as the parts were made,
+    std::vector<Index> not_even;    ///< but for these faces
     double maps = 0.0;  ///< faces mapped, in faces of the mesh
 };
 

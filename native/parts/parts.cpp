@@ -122,6 +122,7 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
         warnings.push_back({WarningKind::not_one_to_one,
                             "parts whose boundary crosses itself, with " + counted(layout.crossing.size(), "face"),
                             layout.crossing});
+    if (!layout.not_even.empty()) warn_not_even(layout.not_even, warnings);
     return warnings;
 }
 
@@ -167,6 +168,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.handles_cut = layout.handles_cut;
     result.maps = layout.maps;
     result.even = layout.even;
+    result.overlaps = layout.overlaps;
     result.converged =
         layout.crossing.empty() && result.distortion.flipped.size() == result.distortion.below_resolution.size();
     result.warnings = warnings_of(layout, left_out, result.distortion);

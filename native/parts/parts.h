@@ -67,8 +67,6 @@ struct PartsResult : CornerMapReport {
     double density_ratio_5_95 = 1.0;  ///< texel density, 95 % over 5 % of the area
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
     double maps = 0.0;                ///< faces mapped, in faces of the surface
-    double even = 0.0;                ///< as asked for, or found
-    Index overlaps = 0;               ///< pairs of boundary edges that cross, of parts that are not one to one
 };
 
 /// Cuts a surface into parts where that makes texels more even than a part and its cuts cost.

@@ -25,6 +25,8 @@ struct UniformizeOptions : IterationOptions {
     /// large in length, so that it gets more texels; empty: all alike. Equal ones change nothing.
     std::vector<double> importance = {};
     bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    double even = 0.0;                 ///< 0: conformal, 1: true to size (pipeline/even_disk.h)
+    LoopForm loops = LoopForm::round;  ///< with `even`
     bool repair = true;  ///< false: as the iteration leaves it, faces may be turned over; for maps that are only judged
     /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
@@ -44,6 +46,8 @@ struct UniformizeOptions : IterationOptions {
         visit("balance", &UniformizeOptions::balance);
         visit("importance", &UniformizeOptions::importance);
         visit("polish", &UniformizeOptions::polish);
+        visit("even", &UniformizeOptions::even);
+        visit("loops", &UniformizeOptions::loops);
         visit("threads", &UniformizeOptions::threads);
     }
 };

@@ -12,6 +12,7 @@
 #include "execution/thread_share.h"
 #include "foldover/angle_polish.h"
 #include "linear/dense_spd.h"
+#include "pipeline/even_disk.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
 #include "pipeline/map_from_loops.h"
@@ -20,6 +21,7 @@
 #include "pipeline/normalization.h"
 #include "pipeline/outer_loop.h"
 #include "pipeline/problem.h"
+#include "quality/shared_warnings.h"
 #include "quality/take_verdict.h"
 
 #include <algorithm>
@@ -137,6 +139,8 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
                              ExecutionContext& context)
 {
     UniformizeResult result;
+    require_even(options.even, options.center);
+    result.even = 0.0;
     result.method = options.method;
     result.engine = options.engine;
     result.center = options.center;
@@ -214,6 +218,12 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
             measure_distortion(whole.vertices, whole.surface.triangles, map->uv).angle_error_deg;
         polish(whole, *map, faults, context);
     }
+    bool not_even = false;
+    if (options.even > 0.0) {
+        context.begin_stage("even", 0.98, 1.0);
+        not_even = faults.any() || !make_disk_even(whole, options.even, options.loops, *map, context);
+        result.even = not_even ? 0.0 : options.even;
+    }
     report_map(vertices, triangles, whole, *map, result);
     if (!options.vertex_names.empty()) rename(problem.whole.original, options.vertex_names);
     if (!options.face_names.empty()) rename(problem.whole.original_faces, options.face_names);
@@ -227,6 +237,8 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
                                    "the vertex for the centre could not be brought there without turning faces over",
                                    {options.center}});
     }
+    if (not_even) warn_not_even({}, result.warnings);
+    result.overlaps = static_cast<Index>(faults.crossings.size());
     if (faults.any()) {
         result.converged = false;
         result.warnings.push_back(

@@ -56,7 +56,6 @@ void bind_domains(py::module_& m)
     bind_options<PartsOptions>(m, "PartsOptions");
     bind_map<PartsOptions, PartsResult>(m, "parts", parts_of);
 
-    py::enum_<LoopForm>(m, "LoopForm").value("round", LoopForm::round).value("free", LoopForm::free);
     py::enum_<RingHoles>(m, "RingHoles")
         .value("circles", RingHoles::circles)
         .value("concentric", RingHoles::concentric)

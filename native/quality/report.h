@@ -5,6 +5,7 @@
 #include "core/warning.h"
 #include "quality/distortion.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -29,6 +30,8 @@ struct StageSeconds {
 
 struct MapReport {
     Index vertex_count = 0, face_count = 0;
+    std::optional<double> even = {};  ///< of a map that can be made more even: how much it is (relax/even_map.h)
+    Index overlaps = 0;               ///< of such a map: pairs of boundary edges that cross, or parts with such
     bool converged = false;  ///< false: the map is not done, and a warning says why
     Distortion distortion;
     StageSeconds seconds;

@@ -15,6 +15,13 @@ void warn_reoriented(const std::vector<Index>& faces, std::vector<Warning>& warn
                             counted(faces.size(), "face") + " turned to the orientation of the others", faces, advice});
 }
 
+void warn_not_even(const std::vector<Index>& faces, std::vector<Warning>& warnings)
+{
+    const std::string what = faces.empty() ? "the map stays" : "parts stay";
+    warnings.push_back(
+        {WarningKind::not_even, what + " conformal: no one-to-one map that is more even was found", faces});
+}
+
 void warn_not_one_to_one(const std::vector<Index>& flipped, const std::vector<Index>& below_resolution,
                          const std::vector<std::string>& others, std::vector<Warning>& warnings)
 {

@@ -19,7 +19,7 @@ Json piece_json(const MappedPiece& piece)
     const Json own = to_json(piece.map);
     for (const char* key : {"outer_loop", "center", "point", "converged", "sweeps", "steps", "history", "loops",
                             "mean_roundness", "angle_error_deg", "beltrami", "area_distortion", "conformal_energy",
-                            "flipped", "below_resolution", "seconds", "warnings"})
+                            "flipped", "below_resolution", "even", "overlaps", "seconds", "warnings"})
         if (own.contains(key)) report[key] = own[key];
     return report;
 }

@@ -96,6 +96,7 @@ Json report_json(const MapReport& map, const Json& own)
     Json report{{"version", KOEBE_VERSION}, {"input", ""}, {"vertices", map.vertex_count}, {"faces", map.face_count}};
     report.update(own);
     report["converged"] = map.converged;
+    if (map.even) report.update({{"even", *map.even}, {"overlaps", map.overlaps}});
     report.update(to_json(map.distortion));
     report.update({{"seconds", to_json(map.seconds)},
                    {"peak_memory_mb", map.peak_memory_mb},

@@ -21,9 +21,7 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"handles_cut", result.handles_cut},
                                        {"density_ratio_5_95", result.density_ratio_5_95},
                                        {"even_area", result.even_area},
-                                       {"maps", result.maps},
-                                       {"even", result.even},
-                                       {"overlaps", result.overlaps}});
+                                       {"maps", result.maps}});
     report["seconds"] = result.seconds.total;
     return report;
 }

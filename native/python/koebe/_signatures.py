@@ -45,6 +45,8 @@ class UniformizeOptions(SequenceOptions, RunOptions, total=False):
     """Of `uniformize`, but for `cut`."""
 
     engine: str
+    even: float
+    loops: str
     partners: str
     schedule: Sequence[Sequence[int]] | None
     metric: str

@@ -1,0 +1,101 @@
+#include "pipeline/even_disk.h"
+
+#include "core/errors.h"
+#include "evenness/part_mesh.h"
+#include "pipeline/final_check.h"
+#include "pipeline/normalization.h"
+#include "planar/boundary_crossings.h"
+#include "relax/even_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+Complex at(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
+
+std::vector<RoundLoop> round_loops(const MapInput& whole, const CircleMap& map, double scale)
+{
+    std::vector<RoundLoop> round;
+    for (std::size_t k = 0; k < whole.loops.size(); ++k) {
+        RoundLoop& loop = round.emplace_back();
+        std::ranges::copy_if(whole.loops[k], std::back_inserter(loop.vertices),
+                             [&](Index v) { return !std::ranges::binary_search(map.off_circle, v); });
+        loop.track.circle = {scale * map.circles[k].center, scale * map.circles[k].radius};
+    }
+    return round;
+}
+
+VectorXcd image_of(const VertexLoop& loop, const PlanarPoints& points)
+{
+    VectorXcd image(static_cast<Eigen::Index>(loop.size()));
+    for (std::size_t i = 0; i < loop.size(); ++i) image[static_cast<Eigen::Index>(i)] = at(points, loop[i]);
+    return image;
+}
+
+/// The circle round all points about the middle of their box.
+Circle circle_round(const PlanarPoints& points)
+{
+    const Eigen::RowVector2d middle = 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
+    return {{middle[0], middle[1]}, (points.rowwise() - middle).rowwise().norm().maxCoeff()};
+}
+
+/// What comes to lie in the unit disk when a circle becomes the unit circle.
+void bring_home(const Circle& outer, PlanarPoints& points)
+{
+    points.rowwise() -= Eigen::RowVector2d(outer.center.real(), outer.center.imag());
+    points /= outer.radius;
+    for (Eigen::Index v = 0; v < points.rows(); ++v)
+        if (const double length = points.row(v).norm(); length > 1.0) points.row(v) /= length;
+}
+
+}  // namespace
+
+void require_even(double even, Index center)
+{
+    if (!(even >= 0.0 && even <= 1.0)) throw InputError("even must be from 0 to 1");
+    if (even > 0.0 && center >= 0)
+        throw InputError("a map that is made more even keeps no vertex at the centre", ElementKind::vertices, {center});
+}
+
+bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMap& map, ExecutionContext& context)
+{
+    const Triangles& triangles = whole.surface.triangles;
+    double image = std::abs(enclosed_area(whole.loops[0], map.uv));
+    for (std::size_t k = 1; k < whole.loops.size(); ++k) image -= std::abs(enclosed_area(whole.loops[k], map.uv));
+    const double scale = std::sqrt(face_areas(whole.vertices, triangles).sum() / image);
+    if (!std::isfinite(scale) || !(scale > 0.0)) return false;
+    CircleMap relaxed = map;
+    relaxed.uv *= scale;
+    std::vector<RoundLoop> round;
+    if (loops == LoopForm::round) round = round_loops(whole, map, scale);
+    if (!make_even({whole.vertices, triangles, whole.loops, relaxed.uv, round}, even, 2.0 * scale, context).moved)
+        return false;
+    const Circle outer = round.empty() ? circle_round(relaxed.uv) : round.front().track.circle;
+    bring_home(outer, relaxed.uv);
+    for (std::size_t k = 0; k < whole.loops.size(); ++k) {
+        Circle& circle = relaxed.circles[k];
+        if (round.empty()) {
+            circle = k == 0 ? Circle{} : fit_circle_least_squares(image_of(whole.loops[k], relaxed.uv));
+            continue;
+        }
+        circle = round[k].track.circle;
+        circle = k == 0 ? Circle{} : Circle{(circle.center - outer.center) / outer.radius, circle.radius / outer.radius};
+        for (const Index v : round[k].vertices) {
+            const Complex arm = at(relaxed.uv, v) - circle.center;
+            const Complex place = circle.center + circle.radius / std::abs(arm) * arm;
+            relaxed.uv.row(v) << place.real(), place.imag();
+        }
+    }
+    put_in_place(whole, relaxed);
+    MapFaults faults = find_faults(triangles, whole.loops, relaxed.uv, relaxed.circles);
+    if (round.empty()) faults.bad_circles.clear();
+    if (faults.any()) return false;
+    map = std::move(relaxed);
+    return true;
+}
+
+}  // namespace koebe
