@@ -66,7 +66,7 @@ public:
             const bool has_moved = newton_step(before, now);
             result.hindered = hindered_;
             if (!has_moved || hindered_) break;
-            if (before - now.energy < (was_right ? options_.settled : options_.stalled) * before) break;
+            if (before - now.energy < (was_right ? options_.settled : options_.stalled) * (before - options_.least)) break;
         }
         result.foldover_free = now.worst > 0.0;
         return result;
@@ -353,7 +353,10 @@ private:
             if (to_centre(v)) block.setIdentity();
             add(static_cast<Index>(v), static_cast<Index>(v), 0, weight / problem_.circles[v].radius * block);
         }
-        for (Index i = 0; i < unknowns_; ++i) hessian_.valuePtr()[hessian_.outerIndexPtr()[i]] *= 1.0 + shift;
+        for (Index i = 0; i < unknowns_; ++i) {
+            double& diagonal = hessian_.valuePtr()[hessian_.outerIndexPtr()[i]];
+            diagonal = diagonal > 0.0 ? (1.0 + shift) * diagonal : 1.0;  // a track that nothing rides on
+        }
         return energy + pulls(problem_.points);
     }
 

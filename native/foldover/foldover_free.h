@@ -40,6 +40,7 @@ struct FoldoverOptions {
     int max_iterations = 60;
     double area_weight = 1.0 / 128.0;  ///< of det + 1/det against the conformal term, dimensionless (Garanzha's theta)
     double settled = 1e-4;             ///< relative decrease at which a foldover-free map is good enough
+    double least = 0.0;                ///< what the sum cannot fall below: decreases are relative to what is above it
     double stalled = 1e-4;             ///< and one at which a folded map is given up
     bool strict = false;               ///< no step over a floor: from a foldover-free map to foldover-free ones only
     double power = 1.0;                ///< s >= 1: see below

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "evenness/part_mesh.h"
 #include "pipeline/final_check.h"
+#include "pipeline/flip_removal.h"
 #include "pipeline/normalization.h"
 #include "planar/boundary_crossings.h"
 #include "relax/even_map.h"
@@ -74,11 +75,12 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     if (loops == LoopForm::round) round = round_loops(whole, map, scale);
     if (!make_even({whole.vertices, triangles, whole.loops, relaxed.uv, round}, even, 2.0 * scale, context).moved)
         return false;
-    const Circle outer = round.empty() ? circle_round(relaxed.uv) : round.front().track.circle;
+    const bool rides = !round.empty() && !round.front().vertices.empty();
+    const Circle outer = rides ? round.front().track.circle : circle_round(relaxed.uv);
     bring_home(outer, relaxed.uv);
     for (std::size_t k = 0; k < whole.loops.size(); ++k) {
         Circle& circle = relaxed.circles[k];
-        if (round.empty()) {
+        if (round.empty() || round[k].vertices.empty()) {
             circle = k == 0 ? Circle{} : fit_circle_least_squares(image_of(whole.loops[k], relaxed.uv));
             continue;
         }
@@ -91,8 +93,9 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
         }
     }
     put_in_place(whole, relaxed);
+    if (loops == LoopForm::round) remove_flips(whole, relaxed, context);
     MapFaults faults = find_faults(triangles, whole.loops, relaxed.uv, relaxed.circles);
-    if (round.empty()) faults.bad_circles.clear();
+    faults.bad_circles.clear();  // that of a coarse loop may meet another, though the loops are apart
     if (faults.any()) return false;
     map = std::move(relaxed);
     return true;

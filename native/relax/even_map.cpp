@@ -1,6 +1,7 @@
 #include "relax/even_map.h"
 
 #include "core/errors.h"
+#include "foldover/face_energy.h"
 #include "foldover/patch_shapes.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -18,12 +20,18 @@ namespace {
 using Mobility = FoldoverProblem::Mobility;
 
 constexpr int most_iterations = 60;
-constexpr double settled = 1e-6;         // relative decrease of the sum, whose least value is 2 + 2 t
+constexpr double longest_approach = 8.0;  // of a face's size to that of the surface, as areas,
+constexpr double few_far = 1e-3;          // until no more of the surface's area differs by more
+constexpr double nearer = 0.9;            // and as long as that, or the energy, becomes less by so much
+constexpr int steps_an_approach = 4;
+constexpr double settled = 5e-4;         // relative decrease of the energy
 constexpr int most_rounds = 20;          // with the void,
 constexpr int steps_a_round = 5;
 constexpr double settled_round = 1e-3;   // and the relative decrease of the energy at which they end
 constexpr double void_weight = 1e-3;     // of a face of the void, over a mean one of the surface
 constexpr double least_weight = 1e-3;    // of a face of the surface, over the mean
+constexpr double hopeless = 100.0;       // ratio of a face's stretches: one that has more of it weighs less
+constexpr std::size_t any_circle = 3;    // points lie on a circle wherever they are
 constexpr double least_gap = 1e-4;       // between loops, over the extent
 constexpr double rounding = 1.5e-7;      // twice the area a face can lose by 32-bit floats, over its edge and the extent
 constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
@@ -36,6 +44,7 @@ public:
         std::vector<Index> all(static_cast<std::size_t>(flat.triangles.rows()));
         std::iota(all.begin(), all.end(), 0);
         shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
+        ride();
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
         track_of_.assign(mobility_.size(), -1);
         for (std::size_t k = 0; k < flat.round.size(); ++k)
@@ -56,17 +65,23 @@ public:
         return apart(points);
     }
 
-    /// By the surface alone. @return whether a loop was in the way
+    /// By the surface alone, at first towards sizes that are not far from those it has (Liu, Ye, Ni and Fu 2018).
+    /// @return whether a loop was in the way
     bool relax_alone(EvenMap& result)
     {
+        double far = 2.0, high = std::numeric_limits<double>::infinity();
+        while (far_off() > few_far && (far_off() < nearer * far || energy() < nearer * high)) {
+            far = far_off();
+            high = energy();
+            if (relax_once(result, steps_an_approach)) return true;
+        }
+        return relax_once(result, most_iterations);
+    }
+
+    bool relax_once(EvenMap& result, int iterations)
+    {
         FoldoverProblem problem = surface_problem();
-        const FoldoverResult done =
-            minimize_foldover_free(problem, context_,
-                                   {.max_iterations = most_iterations,
-                                    .area_weight = weight_,
-                                    .settled = settled,
-                                    .strict = true,
-                                    .refuses = [&](const PlanarPoints& points) { return !apart(points); }});
+        const FoldoverResult done = minimize(problem, iterations);
         take(problem, done, result);
         return done.hindered;
     }
@@ -81,14 +96,7 @@ public:
             } catch (const InputError&) {
                 return;
             }
-            const Eigen::Index own = flat_.points.rows();
-            const auto refuses = [&](const PlanarPoints& points) { return !apart(points.topRows(own)); };
-            const FoldoverResult done = minimize_foldover_free(problem, context_,
-                                                               {.max_iterations = steps_a_round,
-                                                                .area_weight = weight_,
-                                                                .settled = settled,
-                                                                .strict = true,
-                                                                .refuses = refuses});
+            const FoldoverResult done = minimize(problem, steps_a_round);
             take(problem, done, result);
             ++result.rounds;
             const double now = energy();
@@ -98,6 +106,50 @@ public:
     }
 
 private:
+    FoldoverResult minimize(FoldoverProblem& problem, int iterations) const
+    {
+        const Eigen::Index own = flat_.points.rows();
+        return minimize_foldover_free(problem, context_,
+                                      {.max_iterations = iterations,
+                                       .area_weight = weight_,
+                                       .settled = settled,
+                                       .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
+                                       .strict = true,
+                                       .refuses = [&](const PlanarPoints& points) { return !apart(points.topRows(own)); }});
+    }
+
+    /// Puts vertices exactly onto their tracks, and frees those whose faces would turn over or lose half their area.
+    void ride()
+    {
+        const PlanarPoints before = flat_.points;
+        for (const RoundLoop& loop : flat_.round)
+            for (const Index v : loop.vertices) {
+                const Complex place = on_track(loop.track, {before(v, 0), before(v, 1)});
+                flat_.points.row(v) << place.real(), place.imag();
+            }
+        std::vector<char> freed(static_cast<std::size_t>(before.rows()), 0);
+        for (bool again = true; std::exchange(again, false);)
+            for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
+                if (area(flat_.points, flat_.triangles, f) >= 0.5 * area(before, flat_.triangles, f)) continue;
+                for (const Index v : flat_.triangles.row(f)) {
+                    if (flat_.points.row(v) == before.row(v)) continue;
+                    flat_.points.row(v) = before.row(v);
+                    freed[v] = again = true;
+                }
+            }
+        for (RoundLoop& loop : flat_.round) {
+            std::erase_if(loop.vertices, [&](Index v) { return freed[v]; });
+            if (loop.vertices.size() <= any_circle) loop.vertices.clear();
+        }
+    }
+
+    static Complex on_track(const Track& track, Complex place)
+    {
+        if (track.straight) return track.point + dot(place - track.point, track.direction) * track.direction;
+        const Complex arm = place - track.circle.center;
+        return track.circle.center + track.circle.radius / std::abs(arm) * arm;
+    }
+
     static double area(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
     {
         const auto at = [&](int k) { return Complex(points(triangles(f, k), 0), points(triangles(f, k), 1)); };
@@ -118,6 +170,24 @@ private:
                turned_loops(flat_.loops, points, shortest_drawn * extent_).empty();
     }
 
+    /// The share of the surface's area in faces that are far from their size.
+    double far_off() const
+    {
+        double far = 0.0;
+        for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
+            const double ratio = area(flat_.points, flat_.triangles, f) / shapes_.areas[f];
+            if (std::max(ratio, 1.0 / ratio) > longest_approach) far += shapes_.areas[f];
+        }
+        return far / shapes_.areas.sum();
+    }
+
+    FaceMap face_map(const Eigen::Matrix2d& reference, Eigen::Index f) const
+    {
+        const auto row = flat_.triangles.row(f);
+        const auto at = [&](int k) { return Complex(flat_.points(row[k], 0), flat_.points(row[k], 1)); };
+        return WantedShape(reference).map_to(at(1) - at(0), at(2) - at(0));
+    }
+
     double mean_area() const { return shapes_.areas.sum() / static_cast<double>(shapes_.areas.size()); }
 
     FoldoverProblem surface_problem() const
@@ -127,9 +197,17 @@ private:
         problem.triangles = flat_.triangles;
         problem.reference = shapes_.references;
         problem.weight = shapes_.areas.cwiseMax(least_weight * mean_area()) / shapes_.areas.sum();
+        VectorXd areas = shapes_.areas;
+        for (Eigen::Index f = 0; f < areas.size(); ++f) {
+            const double now = area(flat_.points, flat_.triangles, f);
+            areas[f] = std::clamp(areas[f], now / longest_approach, now * longest_approach);
+            problem.reference[f] *= std::sqrt(areas[f] / shapes_.areas[f]);
+            const FaceMap map = face_map(problem.reference[f], f);
+            problem.weight[f] *= std::min(1.0, hopeless * map.determinant() / map.squared_norm());
+        }
         problem.floor.resize(flat_.triangles.rows());
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f)
-            problem.floor[f] = floor_of(flat_.triangles, f, rounding * extent_) / shapes_.areas[f];
+            problem.floor[f] = floor_of(flat_.triangles, f, rounding * extent_) / areas[f];
         problem.mobility = mobility_;
         problem.track_of = track_of_;
         for (const RoundLoop& loop : flat_.round) problem.tracks.push_back(loop.track);
@@ -190,11 +268,9 @@ private:
     {
         double sum = 0.0;
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
-            const auto row = flat_.triangles.row(f);
-            const auto at = [&](int k) { return Complex(flat_.points(row[k], 0), flat_.points(row[k], 1)); };
-            const FaceMap map = WantedShape(shapes_.references[f]).map_to(at(1) - at(0), at(2) - at(0));
+            const FaceMap map = face_map(shapes_.references[f], f);
             const double d = map.determinant();
-            sum += shapes_.areas[f] * (map.squared_norm() / d + weight_ * (d + 1.0 / d));
+            sum += shapes_.areas[f] * (std::min(map.squared_norm() / d, hopeless) + weight_ * (d + 1.0 / d));
         }
         return sum / shapes_.areas.sum() - 2.0 * (1.0 + weight_);
     }
