@@ -40,6 +40,10 @@ public:
             first_of_track_.push_back(unknowns_);
             unknowns_ += track.straight ? 1 : 3;
         }
+        for (std::size_t j = 0; j < problem.periods.size(); ++j) {
+            first_of_period_.push_back(unknowns_);
+            unknowns_ += j == 0 ? 1 : 2;
+        }
         for (const Eigen::Matrix2d& reference : problem.reference) shapes_.emplace_back(reference);
         if (unknowns_ > 0) set_pattern();
     }
@@ -47,7 +51,7 @@ public:
     FoldoverResult run(const ExecutionContext& context)
     {
         FoldoverResult result;
-        Worth now = worth(problem_.points);
+        Worth now = worth(problem_.points, problem_.periods);
         if (unknowns_ == 0) return {now.worst > 0.0, 0};
         double best_worst = -std::numeric_limits<double>::infinity();
         int waited = 0;
@@ -85,10 +89,16 @@ private:
 
     bool rides(Index v) const { return problem_.mobility[v] == Mobility::riding; }
 
-    bool any_rides(Eigen::Index f) const
+    bool is_lifted(Eigen::Index f) const
+    {
+        return !problem_.lift.empty() && problem_.lift[f] != std::array<std::array<int, 2>, 3>{};
+    }
+
+    /// Whether unknowns that many faces share move its corners.
+    bool is_shared(Eigen::Index f) const
     {
         const auto row = problem_.triangles.row(f);
-        return !problem_.tracks.empty() && (rides(row[0]) || rides(row[1]) || rides(row[2]));
+        return is_lifted(f) || (!problem_.tracks.empty() && (rides(row[0]) || rides(row[1]) || rides(row[2])));
     }
 
     /// An unknown, and where it moves a corner of a face.
@@ -103,6 +113,17 @@ private:
     {
         std::vector<Column> result;
         for (int k = 0; k < 3; ++k) {
+            for (std::size_t j = 0; j < problem_.periods.size(); ++j) {
+                const int times = problem_.lift[f][k][j];
+                const Complex along = problem_.periods[0] / std::abs(problem_.periods[0]);
+                if (times == 0) continue;
+                if (j == 0) {
+                    result.push_back({first_of_period_[0], k, times * Eigen::Vector2d(along.real(), along.imag())});
+                    continue;
+                }
+                result.push_back({first_of_period_[j], k, times * Eigen::Vector2d::UnitX()});
+                result.push_back({first_of_period_[j] + 1, k, times * Eigen::Vector2d::UnitY()});
+            }
             const Index v = problem_.triangles(f, k), first = first_unknown_[v];
             if (first < 0) continue;
             if (problem_.mobility[v] == Mobility::free) {
@@ -123,11 +144,15 @@ private:
         return result;
     }
 
-    FaceMap face_map(const PlanarPoints& points, Eigen::Index f) const
+    FaceMap face_map(const PlanarPoints& points, const std::vector<Complex>& periods, Eigen::Index f) const
     {
+        const bool lifted = is_lifted(f);
         const auto corner = [&](int k) {
             const Index v = problem_.triangles(f, k);
-            return Complex(points(v, 0), points(v, 1));
+            Complex place(points(v, 0), points(v, 1));
+            for (std::size_t j = 0; lifted && j < periods.size(); ++j)
+                place += static_cast<double>(problem_.lift[f][k][j]) * periods[j];
+            return place;
         };
         const Complex first = corner(0);
         return shapes_[f].map_to(corner(1) - first, corner(2) - first);
@@ -135,11 +160,11 @@ private:
 
     double weight(Eigen::Index f) const { return problem_.weight.size() > 0 ? problem_.weight[f] : 1.0; }
 
-    Worth worth(const PlanarPoints& points) const
+    Worth worth(const PlanarPoints& points, const std::vector<Complex>& periods) const
     {
         Worth result;
         for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
-            const FaceMap map = face_map(points, f);
+            const FaceMap map = face_map(points, periods, f);
             result.energy += weight(f) * energy_(map, problem_.floor[f]);
             result.worst = std::min(result.worst, map.determinant() - problem_.floor[f]);
         }
@@ -181,12 +206,13 @@ private:
             if (first_unknown_[v] >= 0) width_of[first_unknown_[v]] = unknowns_of(v);
         for (std::size_t i = 0; i < problem_.tracks.size(); ++i)
             width_of[first_of_track_[i]] = problem_.tracks[i].straight ? 1 : 3;
+        for (std::size_t j = 0; j < problem_.periods.size(); ++j) width_of[first_of_period_[j]] = j == 0 ? 1 : 2;
         for (Index i = 0; i < unknowns_; ++i)
             if (width_of[i] > 0) pairs.emplace_back(i, i);
         for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
             for (int k = 0; k < 3; ++k)
                 if (const auto [a, b] = ends(f, k); a >= 0) pairs.emplace_back(a, b);
-            if (any_rides(f)) add_track_pairs(f, pairs);
+            if (is_shared(f)) add_shared_pairs(f, pairs);
         }
         std::ranges::sort(pairs);
         pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -217,17 +243,20 @@ private:
         }
     }
 
-    /// The tracks of a face with its vertices, and with each other.
-    void add_track_pairs(Eigen::Index f, std::vector<std::pair<Index, Index>>& pairs) const
+    /// The tracks and periods of a face with its vertices, and with each other.
+    void add_shared_pairs(Eigen::Index f, std::vector<std::pair<Index, Index>>& pairs) const
     {
+        std::vector<Index> shared;
         for (int k = 0; k < 3; ++k) {
-            const Index v = problem_.triangles(f, k);
-            if (!rides(v)) continue;
-            const Index own = first_of_track_[problem_.track_of[v]];
-            for (const Index other : problem_.triangles.row(f)) {
+            if (const Index v = problem_.triangles(f, k); rides(v))
+                shared.push_back(first_of_track_[problem_.track_of[v]]);
+            for (std::size_t j = 0; j < problem_.periods.size(); ++j)
+                if (problem_.lift[f][k][j] != 0) shared.push_back(first_of_period_[j]);
+        }
+        for (const Index own : shared) {
+            for (const Index other : problem_.triangles.row(f))
                 if (first_unknown_[other] >= 0) pairs.emplace_back(first_unknown_[other], own);
-                if (rides(other)) pairs.emplace_back(std::minmax(own, first_of_track_[problem_.track_of[other]]));
-            }
+            for (const Index other : shared) pairs.emplace_back(std::minmax(own, other));
         }
     }
 
@@ -280,7 +309,7 @@ private:
         }
     }
 
-    /// Adds a face with riding corners, whose entries are searched for.
+    /// Adds a face that is_shared, whose entries are searched for.
     void add_by_columns(Eigen::Index f, const FaceDerivatives& face)
     {
         const std::vector<Column> all = columns(f);
@@ -314,9 +343,9 @@ private:
         for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
             const WantedShape& shape = shapes_[f];
             const FaceDerivatives face =
-                energy_.derivatives(face_map(problem_.points, f), problem_.floor[f], weight(f), shape);
+                energy_.derivatives(face_map(problem_.points, problem_.periods, f), problem_.floor[f], weight(f), shape);
             energy += face.term;
-            if (any_rides(f)) {
+            if (is_shared(f)) {
                 add_by_columns(f, face);
                 continue;
             }
@@ -375,6 +404,17 @@ private:
         return tracks;
     }
 
+    std::vector<Complex> moved_periods(const VectorXd& step, double share) const
+    {
+        std::vector<Complex> periods = problem_.periods;
+        for (std::size_t j = 0; j < periods.size(); ++j) {
+            const Index first = first_of_period_[j];
+            periods[j] += share * (j == 0 ? step[first] * periods[0] / std::abs(periods[0])
+                                          : Complex(step[first], step[first + 1]));
+        }
+        return periods;
+    }
+
     PlanarPoints moved(const VectorXd& step, double share, const std::vector<Track>& tracks) const
     {
         PlanarPoints result = problem_.points;
@@ -423,8 +463,9 @@ private:
         hindered_ = false;
         for (int i = 0; i < halvings; ++i, share *= 0.5) {
             std::vector<Track> tracks = moved_tracks(step, share);
+            std::vector<Complex> periods = moved_periods(step, share);
             PlanarPoints trial = moved(step, share, tracks);
-            const Worth there = worth(trial);
+            const Worth there = worth(trial, periods);
             if (options_.strict && !(there.worst > 0.0)) continue;
             if (there.energy <= before + armijo * share * slope) {
                 if (options_.refuses && options_.refuses(trial)) {
@@ -433,6 +474,7 @@ private:
                 }
                 problem_.points = std::move(trial);
                 problem_.tracks = std::move(tracks);
+                problem_.periods = std::move(periods);
                 now = there;
                 return true;
             }
@@ -459,7 +501,7 @@ private:
     FoldoverOptions options_;
     FaceEnergy energy_;
     std::vector<Index> first_unknown_;  // per vertex, -1 if held
-    std::vector<Index> first_of_track_;
+    std::vector<Index> first_of_track_, first_of_period_;
     Index unknowns_ = 0;
     std::vector<WantedShape> shapes_;           // per face
     std::vector<std::array<Index, 3>> places_;  // per face and corner: see set_pattern

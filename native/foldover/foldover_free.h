@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct FoldoverProblem {
     std::vector<char> pull_inside;           ///< (V) 1: to the circle's centre instead; empty: nowhere
     std::vector<int> track_of;               ///< (V) of riding vertices; empty: none rides
     std::vector<Track> tracks;               ///< changed with the points
+    /// How many of each period are added to the places of a face's corners; empty: none.
+    std::vector<std::array<std::array<int, 2>, 3>> lift;
+    std::vector<Complex> periods;            ///< unknowns too: the first one's length, the second one
 };
 
 struct FoldoverOptions {

@@ -13,9 +13,10 @@
 namespace koebe {
 namespace {
 
-constexpr double square_side = 1.25;    // of the square that parts of area 1 are packed into, about
-constexpr double on_track = 1e-6;       // of a circle's radius, or a line's length: what lies farther off is free
+constexpr double square_side = 1.25;  // of the square that parts of area 1 are packed into, about
+constexpr double on_track = 1e-6;     // of a circle's radius, or a line's length: what lies farther off is free
 constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
+constexpr int search_steps = 12, most_steps = 60;        // Newton steps for one, and for one that was asked for
 constexpr double step = 1.5;                             // from one to the next
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
@@ -80,13 +81,14 @@ public:
     }
 
     /// @return the parts that could not be moved
-    std::vector<std::size_t> relax(double even)
+    std::vector<std::size_t> relax(double even, int most_steps)
     {
         std::vector<char> moved(flats_.size(), 0);
         side_by_side(flats_.size(), threads_, context_, [&](std::size_t k, ExecutionContext& own) {
             FlatPart& flat = flats_[k];
-            moved[k] = make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round_[k]}, even,
-                                 square_side, own).moved;
+            moved[k] = make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round_[k]},
+                                 even, square_side, own, most_steps)
+                           .moved;
         });
         std::vector<std::size_t> left;
         for (std::size_t k = 0; k < moved.size(); ++k)
@@ -101,14 +103,14 @@ public:
         double even = 0.0;
         for (double next = first_even; next >= least_even && next <= 1.0;) {
             const State before = state();
-            relax(next);
+            relax(next, search_steps);
             if (angle_error(flats_) <= conformal) {
                 even = next;
                 next *= step;
             } else {
                 restore(before);
                 if (even > 0.0) break;
-                next *= 0.5;
+                next *= 0.25;
             }
         }
         return even;
@@ -141,12 +143,12 @@ private:
 }  // namespace
 
 EvenParts make_parts_even(std::vector<FlatPart>& flats, std::optional<double> even, LoopForm loops, int threads,
-                       ExecutionContext& context)
+                          ExecutionContext& context)
 {
     PartRelaxation parts(flats, loops, threads, context);
     if (!even) return {parts.relax_freely(), {}};
     if (*even == 0.0) return {};
-    return {*even, parts.relax(*even)};
+    return {*even, parts.relax(*even, most_steps)};
 }
 
 }  // namespace koebe

@@ -9,6 +9,7 @@
 #include "relax/void_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -19,27 +20,42 @@ namespace {
 
 using Mobility = FoldoverProblem::Mobility;
 
-constexpr int most_iterations = 60;
 constexpr double longest_approach = 8.0;  // of a face's size to that of the surface, as areas,
 constexpr double few_far = 1e-3;          // until no more of the surface's area differs by more
 constexpr double nearer = 0.9;            // and as long as that, or the energy, becomes less by so much
 constexpr int steps_an_approach = 4;
-constexpr double settled = 5e-4;         // relative decrease of the energy
-constexpr int most_rounds = 20;          // with the void,
+constexpr double settled = 5e-4;  // relative decrease of the energy
+constexpr int most_rounds = 20;   // with the void,
 constexpr int steps_a_round = 5;
-constexpr double settled_round = 1e-3;   // and the relative decrease of the energy at which they end
-constexpr double void_weight = 1e-3;     // of a face of the void, over a mean one of the surface
-constexpr double least_weight = 1e-3;    // of a face of the surface, over the mean
-constexpr double hopeless = 100.0;       // ratio of a face's stretches: one that has more of it weighs less
-constexpr std::size_t any_circle = 3;    // points lie on a circle wherever they are
-constexpr double least_gap = 1e-4;       // between loops, over the extent
-constexpr double rounding = 1.5e-7;      // twice the area a face can lose by 32-bit floats, over its edge and the extent
+constexpr double settled_round = 1e-3;  // and the relative decrease of the energy at which they end
+constexpr double void_weight = 1e-3;    // of a face of the void, over a mean one of the surface
+constexpr double least_weight = 1e-3;   // of a face of the surface, over the mean
+constexpr double hopeless = 100.0;      // ratio of a face's stretches: one that has more of it weighs less
+constexpr std::size_t any_circle = 3;   // points lie on a circle wherever they are
+constexpr double least_gap = 1e-4;      // between loops, over the extent
+constexpr double rounding = 1.5e-7;     // twice the area a face can lose by 32-bit floats, over its edge and the extent
 constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
+
+using Corners = std::array<Complex, 3>;
+
+Corners corners_of(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
+{
+    Corners corners;
+    for (int k = 0; k < 3; ++k) corners[k] = {points(triangles(f, k), 0), points(triangles(f, k), 1)};
+    return corners;
+}
+
+double area(const Corners& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }
+
+double longest_edge(const Corners& at)
+{
+    return std::max({std::abs(at[1] - at[0]), std::abs(at[2] - at[1]), std::abs(at[0] - at[2])});
+}
 
 class EvenProblem {
 public:
-    EvenProblem(const FlatSurface& flat, double even, double extent, ExecutionContext& context)
-        : flat_(flat), weight_(area_weight(even)), extent_(extent), context_(context)
+    EvenProblem(const FlatSurface& flat, double even, double extent, int most_steps, ExecutionContext& context)
+        : flat_(flat), weight_(area_weight(even)), extent_(extent), most_steps_(most_steps), context_(context)
     {
         std::vector<Index> all(static_cast<std::size_t>(flat.triangles.rows()));
         std::iota(all.begin(), all.end(), 0);
@@ -57,11 +73,11 @@ public:
             *free = Mobility::held;
     }
 
-    bool one_to_one(const PlanarPoints& points) const
+    bool one_to_one(const PlanarPoints& points, const std::vector<Complex>& periods) const
     {
         if (!points.allFinite()) return false;
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f)
-            if (!(area(points, flat_.triangles, f) > 0.0)) return false;
+            if (!(area(corners(points, periods, f)) > 0.0)) return false;
         return apart(points);
     }
 
@@ -75,7 +91,7 @@ public:
             high = energy();
             if (relax_once(result, steps_an_approach)) return true;
         }
-        return relax_once(result, most_iterations);
+        return relax_once(result, most_steps_);
     }
 
     bool relax_once(EvenMap& result, int iterations)
@@ -109,13 +125,14 @@ private:
     FoldoverResult minimize(FoldoverProblem& problem, int iterations) const
     {
         const Eigen::Index own = flat_.points.rows();
-        return minimize_foldover_free(problem, context_,
-                                      {.max_iterations = iterations,
-                                       .area_weight = weight_,
-                                       .settled = settled,
-                                       .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
-                                       .strict = true,
-                                       .refuses = [&](const PlanarPoints& points) { return !apart(points.topRows(own)); }});
+        return minimize_foldover_free(
+            problem, context_,
+            {.max_iterations = iterations,
+             .area_weight = weight_,
+             .settled = settled,
+             .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
+             .strict = true,
+             .refuses = [&](const PlanarPoints& points) { return !apart(points.topRows(own)); }});
     }
 
     /// Puts vertices exactly onto their tracks, and frees those whose faces would turn over or lose half their area.
@@ -130,7 +147,7 @@ private:
         std::vector<char> freed(static_cast<std::size_t>(before.rows()), 0);
         for (bool again = true; std::exchange(again, false);)
             for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
-                if (area(flat_.points, flat_.triangles, f) >= 0.5 * area(before, flat_.triangles, f)) continue;
+                if (area(corners(f)) >= 0.5 * area(corners(before, periods(), f))) continue;
                 for (const Index v : flat_.triangles.row(f)) {
                     if (flat_.points.row(v) == before.row(v)) continue;
                     flat_.points.row(v) = before.row(v);
@@ -150,22 +167,25 @@ private:
         return track.circle.center + track.circle.radius / std::abs(arm) * arm;
     }
 
-    static double area(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
+    /// Of a face, in a tile beside each other.
+    Corners corners(const PlanarPoints& points, const std::vector<Complex>& periods, Eigen::Index f) const
     {
-        const auto at = [&](int k) { return Complex(points(triangles(f, k), 0), points(triangles(f, k), 1)); };
-        return 0.5 * cross(at(1) - at(0), at(2) - at(0));
+        Corners places = corners_of(points, flat_.triangles, f);
+        for (std::size_t j = 0; j < periods.size(); ++j)
+            for (int k = 0; k < 3; ++k) places[k] += static_cast<double>(flat_.lift[f][k][j]) * periods[j];
+        return places;
     }
+    Corners corners(Eigen::Index f) const { return corners(flat_.points, periods(), f); }
 
-    static double longest_edge(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
-    {
-        double longest = 0.0;
-        for (int k = 0; k < 3; ++k)
-            longest = std::max(longest, (points.row(triangles(f, k)) - points.row(triangles(f, (k + 1) % 3))).norm());
-        return longest;
-    }
+    std::vector<Complex> periods() const { return flat_.periods ? *flat_.periods : std::vector<Complex>(); }
 
     bool apart(const PlanarPoints& points) const
     {
+        if (flat_.periods)
+            return std::ranges::all_of(flat_.loops, [&](const VertexLoop& loop) {
+                return enclosed_area(loop, points) < 0.0 &&
+                       crossing_boundary_edges({loop}, points, shortest_drawn * extent_).empty();
+            });
         return crossing_boundary_edges(flat_.loops, points, shortest_drawn * extent_).empty() &&
                turned_loops(flat_.loops, points, shortest_drawn * extent_).empty();
     }
@@ -175,7 +195,7 @@ private:
     {
         double far = 0.0;
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
-            const double ratio = area(flat_.points, flat_.triangles, f) / shapes_.areas[f];
+            const double ratio = area(corners(f)) / shapes_.areas[f];
             if (std::max(ratio, 1.0 / ratio) > longest_approach) far += shapes_.areas[f];
         }
         return far / shapes_.areas.sum();
@@ -183,9 +203,8 @@ private:
 
     FaceMap face_map(const Eigen::Matrix2d& reference, Eigen::Index f) const
     {
-        const auto row = flat_.triangles.row(f);
-        const auto at = [&](int k) { return Complex(flat_.points(row[k], 0), flat_.points(row[k], 1)); };
-        return WantedShape(reference).map_to(at(1) - at(0), at(2) - at(0));
+        const Corners at = corners(f);
+        return WantedShape(reference).map_to(at[1] - at[0], at[2] - at[0]);
     }
 
     double mean_area() const { return shapes_.areas.sum() / static_cast<double>(shapes_.areas.size()); }
@@ -197,28 +216,22 @@ private:
         problem.triangles = flat_.triangles;
         problem.reference = shapes_.references;
         problem.weight = shapes_.areas.cwiseMax(least_weight * mean_area()) / shapes_.areas.sum();
-        VectorXd areas = shapes_.areas;
-        for (Eigen::Index f = 0; f < areas.size(); ++f) {
-            const double now = area(flat_.points, flat_.triangles, f);
-            areas[f] = std::clamp(areas[f], now / longest_approach, now * longest_approach);
-            problem.reference[f] *= std::sqrt(areas[f] / shapes_.areas[f]);
+        problem.floor.resize(flat_.triangles.rows());
+        for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
+            const Corners at = corners(f);
+            const double now = area(at);
+            const double wanted = std::clamp(shapes_.areas[f], now / longest_approach, now * longest_approach);
+            problem.reference[f] *= std::sqrt(wanted / shapes_.areas[f]);
             const FaceMap map = face_map(problem.reference[f], f);
             problem.weight[f] *= std::min(1.0, hopeless * map.determinant() / map.squared_norm());
+            problem.floor[f] = std::min(0.5 * rounding * extent_ * longest_edge(at), 0.5 * now) / wanted;
         }
-        problem.floor.resize(flat_.triangles.rows());
-        for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f)
-            problem.floor[f] = floor_of(flat_.triangles, f, rounding * extent_) / areas[f];
         problem.mobility = mobility_;
         problem.track_of = track_of_;
         for (const RoundLoop& loop : flat_.round) problem.tracks.push_back(loop.track);
+        problem.lift = flat_.lift;
+        problem.periods = periods();
         return problem;
-    }
-
-    /// The area that a face must keep, to be as high as that. @param height in the unit of the points
-    double floor_of(const Triangles& triangles, Eigen::Index f, double height) const
-    {
-        return std::min(0.5 * height * longest_edge(flat_.points, triangles, f),
-                        0.5 * area(flat_.points, triangles, f));
     }
 
     void add_void(FoldoverProblem& problem) const
@@ -227,7 +240,7 @@ private:
         const Eigen::Index own = flat_.triangles.rows();
         std::vector<Index> kept;
         for (Eigen::Index f = 0; f < around.triangles.rows(); ++f)
-            if (area(around.points, around.triangles, f) > 0.0) kept.push_back(static_cast<Index>(f));
+            if (area(corners_of(around.points, around.triangles, f)) > 0.0) kept.push_back(static_cast<Index>(f));
         const Eigen::Index count = own + static_cast<Eigen::Index>(kept.size());
         const double weight = void_weight / static_cast<double>(own);
         problem.points = around.points;
@@ -244,7 +257,7 @@ private:
             problem.reference.push_back(edges);
             problem.weight[f] = weight;
             const double now = 0.5 * edges.determinant();
-            const double longest = longest_edge(around.points, around.triangles, kept[i]);
+            const double longest = longest_edge(corners_of(around.points, around.triangles, kept[i]));
             problem.floor[f] = std::min(0.5 * least_gap * extent_ * longest / now, 0.5);
         }
         problem.mobility.resize(static_cast<std::size_t>(around.points.rows()), Mobility::free);
@@ -257,8 +270,9 @@ private:
     {
         result.iterations += done.iterations;
         const PlanarPoints points = problem.points.topRows(flat_.points.rows());
-        if (!one_to_one(points)) return;
+        if (!one_to_one(points, problem.periods)) return;
         flat_.points = points;
+        if (flat_.periods) *flat_.periods = problem.periods;
         for (std::size_t k = 0; k < flat_.round.size(); ++k) flat_.round[k].track = problem.tracks[k];
         result.moved = true;
     }
@@ -277,6 +291,7 @@ private:
 
     FlatSurface flat_;
     double weight_, extent_;
+    int most_steps_;
     ExecutionContext& context_;
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
@@ -287,11 +302,13 @@ private:
 
 double area_weight(double even) { return even / (1.1 - even); }
 
-EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context)
+EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context, int most_steps)
 {
     EvenMap result;
-    EvenProblem problem(surface, even, extent, context);
-    if (even > 0.0 && problem.one_to_one(surface.points) && problem.relax_alone(result)) problem.relax_with_void(result);
+    EvenProblem problem(surface, even, extent, most_steps, context);
+    const std::vector<Complex> periods = surface.periods ? *surface.periods : std::vector<Complex>();
+    if (!(even > 0.0) || !problem.one_to_one(surface.points, periods)) return result;
+    if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result);
     return result;
 }
 

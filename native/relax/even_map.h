@@ -5,6 +5,7 @@
 #include "execution/execution.h"
 #include "foldover/foldover_free.h"
 
+#include <array>
 #include <vector>
 
 namespace koebe {
@@ -26,6 +27,10 @@ struct FlatSurface {
     const std::vector<VertexLoop>& loops;  ///< all boundary loops
     PlanarPoints& points;                  ///< (V, 2) one to one
     std::vector<RoundLoop>& round;         ///< loops that are not free
+    /// Of a tile: how many of each period are added to the places of a face's corners, and the periods, which are
+    /// relaxed too. Its loops are holes, of which no edge is lifted.
+    std::vector<std::array<std::array<int, 2>, 3>> lift = {};
+    std::vector<Complex>* periods = nullptr;
 };
 
 struct EvenMap {
@@ -42,7 +47,9 @@ struct EvenMap {
 ///
 /// A map that is not one to one to begin with is left as it is.
 /// @param extent of the square that the points are stored in as 32-bit floats, in their unit
+/// @param most_steps of Newton's method at the end, when all faces are near their size
 /// @throws Cancelled
-EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context);
+EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,
+                  int most_steps = 60);
 
 }  // namespace koebe

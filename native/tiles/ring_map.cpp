@@ -344,6 +344,8 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
                          ExecutionContext& context)
 {
     fix_product_blocks();
+    if (options.even > 0.0 && options.holes != RingHoles::circles)
+        throw InputError("slits have no area: a map with slits cannot be made more even");
     MapClock clock;
     context.begin_stage("topology", 0.0, 0.1);
     PeriodicSurface domain = periodic_ring(vertices, triangles, options.outer, options.inner);
@@ -367,9 +369,13 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
     }
     clock.end(&StageSeconds::iterate);
     context.begin_stage("finish", 0.9, 1.0);
-    TileResult result = tile_result(vertices, triangles, domain, shape, map, context);
+    TileResult result = tile_result(vertices, triangles, domain, options, shape, map, context);
     result.modulus = {0.0, height};
-    if (ring) {
+    if (result.even > 0.0) {
+        const double rise = map.z[domain.loops[1].front()].imag() - map.z[domain.loops[0].front()].imag();
+        result.modulus = {0.0, std::abs(rise) / map.periods[0].real()};
+    }
+    if (ring && result.even == 0.0)
         for (std::size_t k = 0; k < result.loops.size(); ++k) {
             result.loops[k].has_circle = true;
             result.loops[k].circle = ring->circles[k];
@@ -377,6 +383,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
             std::ranges::set_union(result.loops[k].off_circle, ring->off_circle[k], std::back_inserter(both));
             result.loops[k].off_circle = std::move(both);
         }
+    if (ring) {
         result.sweeps = ring->sweeps;
         result.warnings.insert(result.warnings.begin(), ring->warnings.begin(), ring->warnings.end());
     }

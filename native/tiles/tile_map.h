@@ -27,6 +27,8 @@ KOEBE_API const char* to_string(RingHoles holes) noexcept;
 struct TileOptions : SweepOptions {
     RingHoles holes = RingHoles::circles;  ///< of a ring
     Index outer = -1, inner = -1;          ///< of a ring, vertices of the two rims; -1: the longest loops
+    double even = 0.0;                     ///< 0: conformal, 1: true to size (tiles/even_tile.h)
+    LoopForm loops = LoopForm::round;      ///< of the holes, with `even`
     std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each is one by itself
 
     template <typename Visit>
@@ -36,6 +38,8 @@ struct TileOptions : SweepOptions {
         visit("inner", &TileOptions::inner);
         visit("holes", &TileOptions::holes);
         SweepOptions::each_option(visit);
+        visit("even", &TileOptions::even);
+        visit("loops", &TileOptions::loops);
         visit("polygon", &TileOptions::polygon);
     }
 };
@@ -45,7 +49,7 @@ struct TileLoop {
     VertexLoop vertices;  ///< in order, the surface on the left
     bool rim = false;     ///< of a ring: a straight line from one side of the tile to the other
     bool has_circle = false;
-    Circle circle;                  ///< of a torus in UVs, of a ring in the unit disk
+    Circle circle;                  ///< of a torus or a tile made more even in UVs, of another ring in the unit disk
     Roundness roundness;            ///< of the image before it was put on its circle
     std::vector<Index> off_circle;  ///< vertices that are not where the circle or the slit is, rising
     bool is_slit = false;
@@ -55,7 +59,8 @@ struct TileLoop {
 /// Its distortion is that of the tile, in units of UVs, which are 32-bit floats in [0, 1]^2.
 struct TileResult : CornerMapReport {
     std::vector<std::array<double, 2>> periods;  ///< in UVs: of a torus two, of a ring one, along u
-    /// Of a torus the ratio of its periods, reduced; of a ring i times its height over its period, log(R / r) / 2 pi.
+    /// Of a torus the ratio of its periods, reduced if it is conformal; of a ring i times its height over its period,
+    /// log(R / r) / 2 pi.
     Complex modulus;
     std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim first
     double cut_length = 0.0;      ///< of the cut in the UVs, over the root of the surface's area

@@ -3,8 +3,10 @@
 #include "canonical/corner_map.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
+#include "core/errors.h"
 #include "mesh/connectivity.h"
 #include "quality/shared_warnings.h"
+#include "tiles/even_tile.h"
 
 #include <Eigen/Geometry>
 
@@ -132,18 +134,30 @@ TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, 
         here.outer = mesh.vertex(options.outer);
         here.inner = mesh.vertex(options.inner);
         here.polygon = mesh.of_faces(options.polygon);
+        if (!(here.even >= 0.0 && here.even <= 1.0)) throw InputError("even must be from 0 to 1");
         return map(mesh.vertices, mesh.triangles, here, own);
     };
     return corner_map<TileResult>(vertices, triangles, context, compute, name_tile);
 }
 
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
-                       HoleShape holes, FlatMap& map, ExecutionContext& context)
+                       const TileOptions& options, HoleShape holes, FlatMap& map, ExecutionContext& context)
 {
     TileResult result;
+    const FlatMap conformal = map;
+    const bool is_even = options.even > 0.0 && make_tile_even(domain, options.even, options.loops, map, context);
+    result.even = is_even ? options.even : 0.0;
     turn_faces_back(domain, holes, map, context);
     const Tile tile = tile_of(domain, map);
     const TileFaults faults = find_faults(domain, tile, holes);
+    if (options.even > 0.0 && (!is_even || faults.any())) {
+        map = conformal;
+        TileOptions as_it_was = options;
+        as_it_was.even = 0.0;
+        result = tile_result(vertices, triangles, domain, as_it_was, holes, map, context);
+        warn_not_even({}, result.warnings);
+        return result;
+    }
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
     result.uv = corner_uvs(triangles, domain, tile);
@@ -161,11 +175,12 @@ TileResult tile_result(const Vertices& vertices, const Triangles& triangles, con
     result.changes = map.changes;
     result.distortion = {distortion_of(domain, tile), judge_corners(vertices, triangles, result.uv, result.turned)};
     warn(domain, map, faults, result);
-    if (domain.first_hole == 0)
+    if (domain.first_hole == 0 || is_even)
         for (std::size_t k = 0; k < map.circles.size(); ++k) {
-            result.loops[k].has_circle = map.apart;
-            result.loops[k].circle = {in_tile(map, tile, map.circles[k].center, corner_at(domain, k)),
-                                      tile.scale * map.circles[k].radius};
+            TileLoop& loop = result.loops[domain.first_hole + k];
+            loop.has_circle = map.apart;
+            loop.circle = {in_tile(map, tile, map.circles[k].center, corner_at(domain, domain.first_hole + k)),
+                           tile.scale * map.circles[k].radius};
         }
     return result;
 }

@@ -6,10 +6,10 @@
 
 namespace koebe {
 
-/// Flips turned back, the tile cut and checked, and all figures of it but seconds.
+/// Made more even, flips turned back, the tile cut and checked, and all figures of it but seconds.
 /// @param map converged or not
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
-                       HoleShape holes, FlatMap& map, ExecutionContext& context);
+                       const TileOptions& options, HoleShape holes, FlatMap& map, ExecutionContext& context);
 
 /// A map to a torus or a cylinder.
 using TileMap = TileResult(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,

@@ -23,7 +23,7 @@ TileResult torus_map_here(const Vertices& vertices, const Triangles& triangles, 
     FlatMap map = torus_circles(domain, iteration, context);
     clock.end(&StageSeconds::iterate);
     context.begin_stage("finish", 0.9, 1.0);
-    TileResult result = tile_result(vertices, triangles, domain, HoleShape::open, map, context);
+    TileResult result = tile_result(vertices, triangles, domain, options, HoleShape::open, map, context);
     result.modulus = map.periods[1] / map.periods[0];
     take_verdict({.most_lost = options.most_lost}, result);
     clock.finish(result, context);

@@ -54,10 +54,17 @@ class UniformizeOptions(SequenceOptions, RunOptions, total=False):
     record_steps: bool
 
 
-class TorusOptions(SweepOptions, RunOptions, total=False):
-    """Of `torus_map`."""
+class TileOptions(SweepOptions, RunOptions, total=False):
+    """Of all maps but that to the disk."""
 
     polygon: Any
+
+
+class TorusOptions(TileOptions, total=False):
+    """Of `torus_map`."""
+
+    even: float
+    loops: str
 
 
 class RingOptions(TorusOptions, total=False):
@@ -68,13 +75,13 @@ class RingOptions(TorusOptions, total=False):
     holes: str
 
 
-class SphereOptions(TorusOptions, total=False):
+class SphereOptions(TileOptions, total=False):
     """Of `sphere_map`."""
 
     layout: str
 
 
-class SchottkyOptions(TorusOptions, total=False):
+class SchottkyOptions(TileOptions, total=False):
     """Of `schottky_map`."""
 
     normalization: str

@@ -1,0 +1,102 @@
+#include "tiles/even_tile.h"
+
+#include "core/tolerances.h"
+#include "evenness/part_mesh.h"
+#include "planar/planar_predicates.h"
+#include "relax/even_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+using Lifts = std::vector<std::array<std::array<int, 2>, 3>>;
+
+/// Of each face's corners, by its half-edges from the first one on.
+Lifts lifts_of(const PeriodicSurface& domain)
+{
+    Lifts lifts(static_cast<std::size_t>(domain.surface.triangles.rows()));
+    for (std::size_t f = 0; f < lifts.size(); ++f)
+        for (int k = 1; k < 3; ++k) {
+            const std::array<int, 2> step = domain.shift(static_cast<Index>(3 * f) + k - 1);
+            for (int j = 0; j < 2; ++j) lifts[f][k][j] = lifts[f][k - 1][j] + step[j];
+        }
+    return lifts;
+}
+
+double image_area(const PeriodicSurface& domain, const Lifts& lifts, const FlatMap& map)
+{
+    double sum = 0.0;
+    for (std::size_t f = 0; f < lifts.size(); ++f) {
+        std::array<Complex, 3> at;
+        for (int k = 0; k < 3; ++k) {
+            at[k] = map.z[domain.surface.triangles(static_cast<Eigen::Index>(f), k)];
+            for (std::size_t j = 0; j < map.periods.size(); ++j)
+                at[k] += static_cast<double>(lifts[f][k][j]) * map.periods[j];
+        }
+        sum += 0.5 * cross(at[1] - at[0], at[2] - at[0]);
+    }
+    return sum;
+}
+
+std::vector<RoundLoop> round_loops(const PeriodicSurface& domain, LoopForm loops, const VectorXcd& z)
+{
+    std::vector<RoundLoop> round;
+    for (std::size_t k = 0; k < domain.loops.size(); ++k) {
+        const bool is_rim = k < domain.first_hole;
+        if (!is_rim && loops == LoopForm::free) break;
+        RoundLoop& loop = round.emplace_back(RoundLoop{domain.loops[k], {}});
+        loop.track.straight = is_rim;
+        if (is_rim)
+            loop.track.point = z[domain.loops[k].front()];
+        else
+            loop.track.circle = fit_circle_least_squares(z(domain.loops[k]));
+    }
+    return round;
+}
+
+}  // namespace
+
+bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, FlatMap& map, ExecutionContext& context)
+{
+    const Lifts lifts = lifts_of(domain);
+    const double scale =
+        std::sqrt(face_areas(domain.vertices, domain.surface.triangles).sum() / image_area(domain, lifts, map));
+    if (!std::isfinite(scale) || !(scale > 0.0)) return false;
+    const VectorXcd z = scale * map.z;
+    PlanarPoints points(z.size(), 2);
+    points << z.real(), z.imag();
+    std::vector<Complex> periods;
+    for (const Complex period : map.periods) periods.push_back(scale * period);
+    std::vector<RoundLoop> round = round_loops(domain, loops, z);
+    const std::vector<VertexLoop> holes(domain.loops.begin() + static_cast<std::ptrdiff_t>(domain.first_hole),
+                                        domain.loops.end());
+    const double extent = points.maxCoeff() - points.minCoeff();
+    if (!make_even({domain.vertices, domain.surface.triangles, holes, points, round, lifts, &periods}, even, extent,
+                   context)
+             .moved)
+        return false;
+    map.z = (points.col(0) + Complex(0.0, 1.0) * points.col(1)) / scale;
+    for (std::size_t j = 0; j < periods.size(); ++j) map.periods[j] = periods[j] / scale;
+    if (domain.first_hole > 0) map.z.array() -= Complex(0.0, round.front().track.point.imag() / scale);
+    map.circles.clear();
+    map.off_circle.clear();
+    map.apart = true;
+    for (std::size_t k = 0; k < domain.first_hole; ++k)
+        for (const Index v : domain.loops[k])
+            if (std::abs(points(v, 1) - round[k].track.point.imag()) > uv_resolution * scale)
+                map.off_circle.push_back(v);
+    for (std::size_t k = domain.first_hole; k < round.size(); ++k) {
+        const Circle circle{round[k].track.circle.center / scale, round[k].track.circle.radius / scale};
+        map.circles.push_back(circle);
+        for (const Index v : domain.loops[k])
+            if (std::abs(std::abs(map.z[v] - circle.center) - circle.radius) > inner_circle_tolerance)
+                map.off_circle.push_back(v);
+    }
+    std::ranges::sort(map.off_circle);
+    return true;
+}
+
+}  // namespace koebe
