@@ -5,6 +5,7 @@
 #include "core/counted.h"
 #include "mesh/connectivity.h"
 #include "quality/shared_warnings.h"
+#include "tiles/tile_repair.h"
 
 #include <Eigen/Geometry>
 
