@@ -208,12 +208,10 @@ const char* to_string(SchottkyNormalization normalization) noexcept
 SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                             ExecutionContext& context)
 {
-    const auto compute = [options](const CanonicalMesh& mesh, ExecutionContext& own) {
-        SchottkyOptions here = options;
-        here.polygon = mesh.of_faces(options.polygon);
+    const auto compute = [](const CanonicalMesh& mesh, const SchottkyOptions& here, ExecutionContext& own) {
         return schottky_map_here(mesh.vertices, mesh.triangles, here, own);
     };
-    return corner_map<SchottkyResult>(vertices, triangles, context, compute, name_schottky);
+    return corner_map<SchottkyResult>(vertices, triangles, options, context, compute, name_schottky);
 }
 
 }  // namespace koebe
