@@ -73,13 +73,11 @@ from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all 
 from koebe_uv_batch.headless.flags import in_flags  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
-from koebe_uv_batch.jobs.domain_job import SchottkyJob, SphereJob  # noqa: E402
+from koebe_uv_batch.jobs.domain_jobs import JOBS  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.jobs.parts_job import PartsJob  # noqa: E402
 from koebe_uv_batch.jobs.sequence_job import SequenceJob  # noqa: E402
-from koebe_uv_batch.jobs.tile_job import TileJob  # noqa: E402
 from koebe_uv_batch.maps import wording  # noqa: E402
-from koebe_uv_batch.maps.options import SchottkyChoice, SphereChoice  # noqa: E402
 from koebe_uv_batch.maps.stored import LostAreaError  # noqa: E402
 from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
 
@@ -263,11 +261,7 @@ def job_of(objects: list[MeshObject], request: Request) -> Job:
         return PartsJob(objects, request.options, request.parts)
     if request.domain is None:
         return Job(objects, request.options)
-    if isinstance(request.domain, SphereChoice):
-        return SphereJob(objects, request.options, request.domain)
-    if isinstance(request.domain, SchottkyChoice):
-        return SchottkyJob(objects, request.options, request.domain)
-    return TileJob(objects, request.options, request.domain)
+    return JOBS[request.domain.domain](objects, request.options, request.domain)
 
 
 def reasons(objects: list[MeshObject], request: Request) -> dict[str, str]:

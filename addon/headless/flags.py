@@ -3,13 +3,12 @@
 
 import re
 
+from ..maps.domains import DOMAINS
+
 # Texts of the rooms below name what the panel has.
 FLAGS = {
     "Unwrap to Parts": "--parts",
-    "Unwrap to Torus Tile": "--domain torus",
-    "Unwrap to Cylinder": "--domain ring",
-    "Unwrap to Sphere": "--domain sphere",
-    "Unwrap Handles": "--domain schottky",
+    **{domain.button: f"--domain {name}" for name, domain in DOMAINS.items()},
     "Koebe Uniformize": "--domain disk",
     "Tube: Annulus": "--tube annulus",
     "Fit: Inside": "--fit inside",

@@ -3,6 +3,7 @@
 
 import dataclasses
 from collections.abc import Callable
+from typing import Literal
 
 from .errors import MapError
 from .wording import counted
@@ -21,11 +22,15 @@ class DomainError(MapError):
 class Domain:
     """A canonical domain that is no disk: its UVs are a tile, the layout of a sphere, or cut open at the handles.
 
-    title  what one such map is called
-    check  of the number of handles and of boundary loops; raises DomainError
+    title   what one such map is called
+    button  what the operator is called, without "Koebe"
+    icon    of the button
+    check   of the number of handles and of boundary loops; raises DomainError
     """
 
     title: str
+    button: str
+    icon: Literal["MESH_TORUS", "MESH_CYLINDER", "MESH_UVSPHERE", "META_ELLIPSOID"]
     check: Callable[[int, int], None]
 
 
@@ -68,8 +73,8 @@ def _check_schottky(handles: int, loops: int) -> None:
 
 # By the names that the operators have, and `koebe.torus_map`, `ring_map`, `sphere_map` and `schottky_map`.
 DOMAINS = {
-    "torus": Domain("torus tile", _check_torus),
-    "ring": Domain("cylinder", _check_ring),
-    "sphere": Domain("sphere", _check_sphere),
-    "schottky": Domain("fundamental domain", _check_schottky),
+    "torus": Domain("torus tile", "Unwrap to Torus Tile", "MESH_TORUS", _check_torus),
+    "ring": Domain("cylinder", "Unwrap to Cylinder", "MESH_CYLINDER", _check_ring),
+    "sphere": Domain("sphere", "Unwrap to Sphere", "MESH_UVSPHERE", _check_sphere),
+    "schottky": Domain("fundamental domain", "Unwrap Handles", "META_ELLIPSOID", _check_schottky),
 }

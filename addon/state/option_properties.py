@@ -63,10 +63,6 @@ SETTING_NAMES = tuple(row.name for row in ROWS.values() if row.is_property)
 UniformizeProperties = mixin("UniformizeProperties", OPTION_NAMES)
 PartsProperties = mixin("PartsProperties", PART_OPTION_NAMES)
 SequenceProperties = mixin("SequenceProperties", SEQUENCE_OPTION_NAMES)
-TorusProperties = mixin("TorusProperties", option_names("torus"))
-RingProperties = mixin("RingProperties", option_names("ring"))
-SphereProperties = mixin("SphereProperties", option_names("sphere"))
-SchottkyProperties = mixin("SchottkyProperties", option_names("schottky"))
 
 
 class KoebeSettings(mixin("SettingProperties", SETTING_NAMES), bpy.types.PropertyGroup):

@@ -6,12 +6,21 @@ from typing import Any
 import bpy
 
 from ..blender.targets import target_objects
+from ..maps.domains import DOMAINS
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.run_operator import draw_option, is_used
 from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
-from ..state.option_properties import ACCURACY_NAMES, RANGE_NAMES, KoebeSettings, copy_options, settings_of
+from ..state.option_properties import (
+    ACCURACY_NAMES,
+    OPTION_NAMES,
+    RANGE_NAMES,
+    KoebeSettings,
+    copy_options,
+    option_names,
+    settings_of,
+)
 from .panel_parts import KoebePanel, draw_domain_button
 
 
@@ -73,15 +82,12 @@ class DomainsPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        draw_domain_button(column, settings, "torus")
-        draw_domain_button(column, settings, "ring")
-        for name in ("holes", "rims", "fit"):
-            draw_option(column, settings, name, context)
-        draw_domain_button(column, settings, "sphere")
-        for name in ("layout", "add_sphere"):
-            draw_option(column, settings, name, context)
-        draw_domain_button(column, settings, "schottky")
-        draw_option(column, settings, "normalization", context)
+        last_with = {name: domain for domain in DOMAINS for name in option_names(domain) if name not in OPTION_NAMES}
+        for domain in DOMAINS:
+            draw_domain_button(column, settings, domain)
+            for name in option_names(domain):
+                if last_with.get(name) == domain:
+                    draw_option(column, settings, name, context)
 
 
 class SequencePanel(ClosedPanel):

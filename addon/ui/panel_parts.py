@@ -2,10 +2,11 @@
 """What the panels have in common."""
 
 import textwrap
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import bpy
 
+from ..maps.domains import DOMAINS
 from ..operators.domains import OPERATORS
 from ..operators.parts import UV_OT_koebe_parts
 from ..state.option_properties import KoebeSettings, copy_options
@@ -46,18 +47,10 @@ def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial:
     copy_options(settings, run, "parts")
 
 
-DOMAIN_BUTTONS: dict[str, tuple[str, Literal["MESH_TORUS", "MESH_CYLINDER", "MESH_UVSPHERE", "META_ELLIPSOID"]]] = {
-    "torus": ("Unwrap to Torus Tile", "MESH_TORUS"),
-    "ring": ("Unwrap to Cylinder", "MESH_CYLINDER"),
-    "sphere": ("Unwrap to Sphere", "MESH_UVSPHERE"),
-    "schottky": ("Unwrap Handles", "META_ELLIPSOID"),
-}
-
-
 def draw_domain_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:
     """The button that maps to a domain that is no disk."""
-    text, icon = DOMAIN_BUTTONS[domain]
-    copy_options(settings, column.operator(OPERATORS[domain].bl_idname, text=text, icon=icon), domain)
+    of = DOMAINS[domain]
+    copy_options(settings, column.operator(OPERATORS[domain].bl_idname, text=of.button, icon=of.icon), domain)
 
 
 def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int:

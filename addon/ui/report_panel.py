@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 import bpy
 
+from ..maps.domains import DOMAINS
 from ..maps.wording import UNEVEN, counted, density_text
 from ..operators.select_from_report import (
     UV_OT_koebe_select_cuts,
@@ -17,7 +18,7 @@ from ..operators.select_from_report import (
 from ..operators.uniformize import UV_OT_koebe_uniformize
 from ..state.option_properties import copy_options, settings_of
 from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object, report_of
-from .panel_parts import DOMAIN_BUTTONS, KoebePanel, draw_domain_button, draw_message, draw_parts_button
+from .panel_parts import KoebePanel, draw_domain_button, draw_message, draw_parts_button
 
 MAX_LOOP_BUTTONS = 40
 MOST_LINES = 6  # of each message, until all is asked for
@@ -149,7 +150,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
 def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """The buttons of what takes a surface that is no such domain."""
     for offer in entry.offer.split():
-        if offer in DOMAIN_BUTTONS:
+        if offer in DOMAINS:
             draw_domain_button(column, settings_of(context), offer)
         elif offer == "uniformize":
             button = column.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE")

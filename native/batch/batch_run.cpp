@@ -4,6 +4,7 @@
 #include "batch/claim.h"
 #include "batch/content_hash.h"
 #include "batch/path_text.h"
+#include "batch/process_outcome.h"
 #include "batch/summary.h"
 #include "batch/whole_file.h"
 #include "io/file_error.h"
@@ -15,7 +16,6 @@
 #include <csignal>
 #include <cstdio>
 #include <deque>
-#include <fstream>
 #include <list>
 #include <optional>
 #include <sstream>
@@ -32,8 +32,6 @@ constexpr std::uint64_t look_ms = 500;       // and looked at, where another run
 constexpr std::uint64_t patience_ms = 5000;  // for a process that was asked to end
 constexpr std::uint64_t grace_ms = 300;      // in which what ended a process may be seen to end this one too
 constexpr std::uint64_t turn_ns = 50000000;  // for files that need no process, until signals are looked at again
-constexpr std::streamoff shown_log = 65536;  // bytes, the last ones that a process has printed
-enum : int { mapped = 0, not_converged = 4, interrupted = 130 };
 
 /// Whether the caller has a signal ignored, as nohup does.
 bool is_ignored(int signal)
@@ -46,42 +44,11 @@ bool is_ignored(int signal)
     return before == SIG_IGN;
 }
 
-std::string end_of_text(const fs::path& path)
-{
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) return {};
-    const std::streamoff size = file.tellg(), begin = std::max<std::streamoff>(size - shown_log, 0);
-    std::string text(static_cast<std::size_t>(size - begin), '\0');
-    file.seekg(begin);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    return text;
-}
-
 std::string tenths(double seconds)
 {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.1f s", seconds);
     return text.data();
-}
-
-Json end_error(const ProcessEnd& end, const fs::path& log, double time_limit)
-{
-    if (end.timed_out) {
-        std::array<char, 64> reason{};
-        std::snprintf(reason.data(), reason.size(), "it was not done after %g seconds", time_limit);
-        return {{"name", "TimeLimit"}, {"reason", reason.data()}, {"seconds", time_limit}};
-    }
-    const auto by = [&](const char* name, const std::string& reason) {
-        return Json{{"name", name}, {"reason", reason}};
-    };
-    if (end.signal == SIGKILL) return by("Killed", "its process was killed, as the system does when memory runs out");
-    if (end.signal == SIGTERM || end.signal == SIGINT || end.signal == SIGHUP || end.exit_status == interrupted)
-        return by("Killed", "its process was told to end");
-    if (end.signal != 0) return by("Crash", "its process ended by signal " + std::to_string(end.signal));
-    if (end.exit_status < 0 || end.exit_status > interrupted)
-        return by("Crash", "its process ended with status " + std::to_string(end.exit_status));
-    // These codes are the script's own: it has said why it refuses the file.
-    return error_of_lines(end_of_text(log), end.exit_status <= not_converged ? "Refused" : "Crash");
 }
 
 class Run {
@@ -333,12 +300,6 @@ private:
         if (!stopping_) start_some();
     }
 
-    static bool is_killed(const ProcessEnd& end)
-    {
-        return !end.timed_out && (end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP ||
-                                  end.signal == SIGKILL || (end.signal == 0 && end.exit_status == interrupted));
-    }
-
     void settle_killed()
     {
         for (; !killed_.empty(); killed_.pop_front()) settle_end(killed_.front());
@@ -348,16 +309,14 @@ private:
     void settle_end(Task& task)
     {
         const ProcessEnd& end = task.end;
-        const bool is_mapped =
-            end.signal == 0 && !end.timed_out && (end.exit_status == mapped || end.exit_status == not_converged);
         try {
             // While this run ends, a file counts only if it was done all the same.
             if (!task.claim.is_held()) {
                 if (!stopping_) waiting_.push_back({task.file, task.hash, true});
-            } else if (is_mapped) {
+            } else if (is_mapped(end)) {
                 keep_result(task);
             } else if (!stopping_) {
-                settle_failure(task, failure_of(task));
+                settle_failure(task, error_of(task.end, task.scratch.report, task.log, recipe(*task.file).time_limit));
             }
         } catch (...) {
             remove_scratch(task);
@@ -374,28 +333,11 @@ private:
         task.claim.release();
     }
 
-    /// What a process reports of itself, or an empty object.
-    static Json own_report(const Task& task)
-    {
-        std::ifstream file(task.scratch.report, std::ios::binary);
-        Json report = Json::parse(file, nullptr, false);
-        return report.is_object() ? report : Json::object();
-    }
-
-    Json failure_of(const Task& task) const
-    {
-        const ProcessEnd& end = task.end;
-        if (end.signal == 0 && !end.timed_out)
-            if (const Json report = own_report(task); report.contains("error") && report["error"].is_object())
-                return report["error"];
-        return end_error(end, task.log, recipe(*task.file).time_limit);
-    }
-
     void keep_result(const Task& task)
     {
         const ProcessEnd& end = task.end;
         const BatchFile& file = *task.file;
-        Json own = own_report(task);
+        Json own = own_report(task.scratch.report);
         std::error_code error;
         if (own.empty() || !fs::is_regular_file(task.scratch.output, error))
             return settle_failure(task, {{"name", "Crash"}, {"reason", "its process wrote no result"}});
@@ -431,13 +373,13 @@ private:
     {
         const Json error = report.contains("error") ? report["error"] : Json();
         const int code = report["exit_code"].get<int>();
-        ++(error.is_object() ? count_.failed : code == not_converged ? count_.not_converged : count_.done);
+        ++(error.is_object() ? count_.failed : code == not_converged_code ? count_.not_converged : count_.done);
         std::ostringstream line;
         line << '[' << count_.done + count_.not_converged + count_.failed << '/' << total_ << "] "
              << report["name"].get<std::string>() << ": " << how;
         if (error.is_object() && !is_lasting(error, {{}, 0.0, false}) && error_name(error) != "TimeLimit")
             ++count_.lost;
-        if (code == not_converged) line << ", not converged";
+        if (code == not_converged_code) line << ", not converged";
         if (error.is_object())
             line << ", " << error_name(error) << ": " << error.value("reason", "");
         else if (const Json seconds = summary_row(report)["seconds"]; seconds.is_number())

@@ -26,4 +26,18 @@ Result corner_map(const Vertices& vertices, const Triangles& triangles, Executio
     });
 }
 
+/// The same with options, whose polygons are made those of the canonical mesh.
+/// @param compute (const CanonicalMesh&, Options&, ExecutionContext&) -> Result
+template <class Result, class Options, class Compute, class Name>
+Result corner_map(const Vertices& vertices, const Triangles& triangles, const Options& options,
+                  ExecutionContext& context, const Compute& compute, const Name& name)
+{
+    const auto compute_here = [options, compute](const CanonicalMesh& mesh, ExecutionContext& own) {
+        Options here = options;
+        here.polygon = mesh.of_faces(options.polygon);
+        return compute(mesh, here, own);
+    };
+    return corner_map<Result>(vertices, triangles, context, compute_here, name);
+}
+
 }  // namespace koebe

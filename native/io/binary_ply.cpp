@@ -1,7 +1,7 @@
 #include "io/binary_ply.h"
 
 #include "execution/thread_share.h"
-#include "io/polygon_soup.h"
+#include "io/refusals.h"
 
 #include <algorithm>
 #include <bit>

@@ -26,9 +26,6 @@ MeshFile read_mesh_file(const std::filesystem::path& path);
 /// nearest 64-bit float. Normals, colours, texture coordinates, groups and materials are passed over
 /// here, and kept by the writers (mesh_writer.h).
 ///
-/// The parsers are CGAL's. OpenMesh's keep 32-bit positions, and leave a vertex that is not a number out, which
-/// renumbers all that follow.
-///
 /// @throws FileError the file cannot be read
 /// @throws InputError the format is not supported; it is not followed, or the file ends early (elements: the first
 ///         vertex or face that is not read); there is no vertex or no face; a face names a vertex that is not there

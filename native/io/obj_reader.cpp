@@ -1,6 +1,6 @@
 #include "io/format_readers.h"
 #include "io/obj_text.h"
-#include "io/polygon_soup.h"
+#include "io/refusals.h"
 #include "io/text_numbers.h"
 
 #include <algorithm>

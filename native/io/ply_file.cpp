@@ -1,7 +1,7 @@
 #include "io/ply_file.h"
 
 #include "core/errors.h"
-#include "io/polygon_soup.h"
+#include "io/refusals.h"
 #include "io/text_numbers.h"
 
 #include <fast_float/fast_float.h>
@@ -166,18 +166,6 @@ PlyFile parse_ply(std::string_view bytes)
     return file;
 }
 
-std::string_view PlyValues::next_word()
-{
-    constexpr std::string_view spaces = " \t\r\n\v\f";
-    const auto is_space = [&](char c) { return spaces.find(c) != spaces.npos; };
-    const char *here = data_.data(), *const last = here + data_.size();
-    while (here != last && is_space(*here)) ++here;
-    const char* const begin = here;
-    while (here != last && !is_space(*here)) ++here;
-    data_ = {here, last};
-    return {begin, here};
-}
-
 /// Calls use(number) with the next number of a binary file.
 template <class Use>
 bool PlyValues::with_number(PlyType type, const Use& use)
@@ -201,14 +189,14 @@ bool PlyValues::with_number(PlyType type, const Use& use)
 
 bool PlyValues::read(PlyType type, double& number)
 {
-    if (encoding_ == PlyEncoding::text) return to_number(next_word(), number);
+    if (encoding_ == PlyEncoding::text) return to_number(take_word(data_), number);
     return with_number(type, [&](auto value) { number = static_cast<double>(value); });
 }
 
 /// A number of 32 bits without a sign that is too large for an index becomes a negative one, which is out of range.
 bool PlyValues::read(PlyType type, Index& number)
 {
-    if (encoding_ == PlyEncoding::text) return to_number(next_word(), number);
+    if (encoding_ == PlyEncoding::text) return to_number(take_word(data_), number);
     return is_whole(type) && with_number(type, [&](auto value) { number = static_cast<Index>(value); });
 }
 
@@ -229,7 +217,7 @@ bool PlyValues::skip(const PlyProperty& property)
 {
     return with_items(property, [&](PlyType type) {
         if (encoding_ != PlyEncoding::text) return with_number(type, [](auto) {});
-        std::string_view word = next_word();
+        std::string_view word = take_word(data_);
         if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
         double number = 0.0;  // or none, as colours and qualities may be
         const auto [end, error] = fast_float::from_chars(word.data(), word.data() + word.size(), number);
@@ -247,7 +235,7 @@ bool PlyValues::copy(const PlyProperty& property, TextWriter& text, bool blank_f
     return with_items(property, [&](PlyType type) {
         if (std::exchange(blank_first, true)) text.add(' ');
         if (encoding_ != PlyEncoding::text) return with_number(type, [&](auto value) { text.add_number(value); });
-        const std::string_view word = next_word();
+        const std::string_view word = take_word(data_);
         text.add(word);
         return !word.empty();
     });

@@ -77,7 +77,6 @@ public:
     bool copy(const PlyProperty& property, TextWriter& text, bool blank_first);
 
 private:
-    std::string_view next_word();
     template <class Use>
     bool with_number(PlyType type, const Use& use);
     template <class Use>

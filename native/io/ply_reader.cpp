@@ -2,7 +2,7 @@
 #include "io/binary_ply.h"
 #include "io/format_readers.h"
 #include "io/ply_file.h"
-#include "io/polygon_soup.h"
+#include "io/refusals.h"
 
 #include <algorithm>
 #include <optional>

@@ -61,6 +61,18 @@ bool to_number(std::string_view word, Index& number)
     return !word.empty() && end == last && error == std::errc();
 }
 
+std::string_view take_word(std::string_view& text)
+{
+    constexpr std::string_view spaces = " \t\r\n\v\f";
+    const auto is_space = [&](char c) { return spaces.find(c) != spaces.npos; };
+    const char *here = text.data(), *const last = here + text.size();
+    while (here != last && is_space(*here)) ++here;
+    const char* const begin = here;
+    while (here != last && !is_space(*here)) ++here;
+    text = {here, last};
+    return {begin, here};
+}
+
 bool joins_next_line(std::string_view line)
 {
     const std::size_t last = line.find_last_not_of(blanks);

@@ -13,6 +13,9 @@ bool to_number(std::string_view word, double& number);
 /// The same for an integer of 32 bits.
 bool to_number(std::string_view word, Index& number);
 
+/// Takes the next word of the text, over ends of lines too; empty at its end.
+std::string_view take_word(std::string_view& text);
+
 /// Whether a backslash joins the line, which has no end, with the next one. One in a comment joins nothing.
 bool joins_next_line(std::string_view line);
 

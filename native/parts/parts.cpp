@@ -192,13 +192,11 @@ void name_parts(const CanonicalMesh& mesh, PartsResult& result)
 PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                      ExecutionContext& context)
 {
-    const auto compute_here = [options](const CanonicalMesh& mesh, ExecutionContext& own) {
-        PartsOptions here = options;
-        here.polygon = mesh.of_faces(options.polygon);
+    const auto compute_here = [](const CanonicalMesh& mesh, PartsOptions& here, ExecutionContext& own) {
         for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
         return compute(mesh.vertices, mesh.triangles, here, own);
     };
-    return corner_map<PartsResult>(vertices, triangles, context, compute_here, name_parts);
+    return corner_map<PartsResult>(vertices, triangles, options, context, compute_here, name_parts);
 }
 
 }  // namespace koebe

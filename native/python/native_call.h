@@ -1,6 +1,7 @@
 // How Python calls the library: without the GIL, stopped by Ctrl-C, and over before the interpreter is.
 #pragma once
 
+#include "core/not_copied.h"
 #include "execution/detachable_run.h"
 
 #include <pybind11/pybind11.h>
@@ -30,25 +31,21 @@ auto in_python(Act act)
 
 /// A call from Python: gives the GIL up for its lifetime, and counts. Once the interpreter ends, calls of other threads
 /// than the main one leave by SystemExit, and it waits for them.
-class Call {
+class Call : NotCopied {
 public:
     /// To be made with the GIL.
     Call();
     ~Call();
-    Call(const Call&) = delete;
-    Call& operator=(const Call&) = delete;
 
     /// To be called without the GIL, often: runs Python's signal handlers on the main thread, about every 20 ms, and
     /// throws what they raise, KeyboardInterrupt for one.
     void poll();
 
     /// The GIL taken back for its lifetime, on the thread of the call.
-    class WithGil {
+    class WithGil : NotCopied {
     public:
         explicit WithGil(Call& call);
         ~WithGil();
-        WithGil(const WithGil&) = delete;
-        WithGil& operator=(const WithGil&) = delete;
 
     private:
         Call& call_;

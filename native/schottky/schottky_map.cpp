@@ -1,112 +1,30 @@
 #include "schottky/schottky_map.h"
 
-#include "balance/area_balance.h"
 #include "canonical/corner_map.h"
 #include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
-#include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
 #include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
-#include "schottky/circle_cut.h"
 #include "schottky/finer_faces.h"
-#include "schottky/glued_state.h"
-#include "schottky/schottky_tile.h"
-#include "surface/intrinsic_metric.h"
+#include "schottky/laid_map.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr Index balanced_faces = 20000;  // that are looked at for it
-constexpr double least_circle = 1e-12;   // of a circle whose points 64-bit coordinates tell apart
+constexpr double least_circle = 1e-12;  // of a circle whose points 64-bit coordinates tell apart
 constexpr double large_misfit = 0.5;
 constexpr double equal_radii = 1e-6;  // a smaller difference, over the radius, is rounding
-constexpr double worst_spread = 1e3;  // worse than any where circles are apart
 constexpr Index enough_faces = 6000;  // a surface of fewer is split finer, at most so many times:
 constexpr int most_levels = 2;
-constexpr int circle_cuts = 2;  // after the first along edges
-
-std::vector<Index> all_loop_vertices(const HandleCut& cut)
-{
-    std::vector<Index> result;
-    for (const CutLoop& loop : cut.loops) result.insert(result.end(), loop.vertices.begin(), loop.vertices.end());
-    return result;
-}
-
-/// The inside harmonic between the loops. These were moved a little, onto circles and to fit each other: without a
-/// shift a flux would run to the smallest of them, and be all that the map is near there.
-void fill_inside(CondensedLaplacian& surface, const GluedState& state, SchottkyPlane& plane)
-{
-    plane.shift(state.shifts_without_flux(plane.images));
-    Eigen::Index count = 0, row = 0;
-    for (const VectorXcd& image : plane.images) count += image.size();
-    MatrixXd boundary(count, 2);
-    for (const VectorXcd& image : plane.images) {
-        boundary.middleRows(row, image.size()) << image.real(), image.imag();
-        row += image.size();
-    }
-    const MatrixXd z = surface.extend(boundary);
-    plane.z = z.col(0) + Complex(0.0, 1.0) * z.col(1);
-}
-
-PlanarPoints as_points(const VectorXcd& z)
-{
-    PlanarPoints points(z.size(), 2);
-    points << z.real(), z.imag();
-    return points;
-}
-
-/// With holes: the automorphism of the disk with the most even texels, or the nearest one with room for equal circles.
-/// The loops are solved for anew, not moved: where a handle's loops are tiny, a flux of the size of the mesh's errors
-/// would draw all of them to one side.
-SchottkyPlane plane_in_disk(const HandleCut& cut, CondensedLaplacian& surface, const GluedState& state,
-                            SchottkyNormalization normalization)
-{
-    const VectorXcd rim = state.rim();
-    SchottkyPlane plane = schottky_plane(cut, state.images_in_disk(rim));
-    fill_inside(surface, state, plane);
-    double left = 0.0;
-    const Moebius even = least_area_distortion(
-        face_scales(cut.vertices, cut.surface.triangles, as_points(plane.z), balanced_faces), left);
-    plane = schottky_plane(cut, state.images_in_disk(even(rim)));
-    if (normalization == SchottkyNormalization::circles)
-        plane = schottky_plane(cut, state.images_in_disk(nearest_with_room(plane)(even(rim))));
-    fill_inside(surface, state, plane);
-    return plane;
-}
-
-/// Without holes: of the handles whose generator can be z -> lambda z the one with the most even texels.
-SchottkyPlane annular_plane(const HandleCut& cut, CondensedLaplacian& surface, const GluedState& state)
-{
-    SchottkyPlane plane = schottky_plane(cut, state.images_round_infinity());
-    fill_inside(surface, state, plane);
-    SchottkyPlane best;
-    double least = std::numeric_limits<double>::infinity();
-    for (int handle = 0; handle < cut.handles; ++handle) {
-        SchottkyPlane tried = plane;
-        make_annular(tried, handle);
-        SchottkyPlane scaled = tried;
-        const bool apart = fundamental_circles(scaled).apart;
-        const double spread = measure_distortion(cut.vertices, cut.surface.triangles, as_points(tried.z)).area.log_sd +
-                              (apart ? 0.0 : worst_spread);
-        if (handle > 0 && !(spread < least)) continue;
-        least = spread;
-        best = std::move(tried);
-    }
-    return best;
-}
 
 /// (3F, 2) by the input's faces: a turned one has its second and third corner the other way round.
 PlanarPoints corner_uvs(const Triangles& triangles, const HandleCut& cut, const SchottkyTile& tile)
@@ -174,129 +92,6 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
                         {faults.boundary ? "the boundary of the UVs crosses itself" : ""}, result.warnings);
 }
 
-/// A cut surface and its map.
-struct CutMap {
-    HandleCut cut;
-    SchottkyPlane plane;
-    FundamentalCircles circles;
-    bool converged = false;
-    std::vector<double> changes;
-};
-
-CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& seconds, double from, double until,
-              ExecutionContext& context)
-{
-    Stopwatch stage;
-    context.begin_stage("factor", from, from + 0.6 * (until - from));
-    CutMap map;
-    map.cut = std::move(cut);
-    const IntrinsicMetric metric = intrinsic_metric(map.cut.vertices, map.cut.surface);
-    const SparseMatrix laplacian =
-        cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), map.cut.surface.vertex_count);
-    seconds.metric += stage.lap();
-    CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut));
-    seconds.factor += stage.lap();
-    context.begin_stage("iterate", from + 0.6 * (until - from), until);
-    GluedState state(surface, map.cut.loops);
-    while (!map.converged && static_cast<int>(map.changes.size()) < options.max_sweeps) {
-        context.checkpoint();
-        map.changes.push_back(state.sweep());
-        map.converged = map.changes.back() < options.tolerance;
-        context.advance(1.0 - std::pow(0.6, static_cast<double>(map.changes.size())));
-    }
-    map.plane = map.cut.holes > 0 ? plane_in_disk(map.cut, surface, state, options.normalization)
-                                  : annular_plane(map.cut, surface, state);
-    map.circles = fundamental_circles(map.plane);
-    seconds.iterate += stage.lap();
-    return map;
-}
-
-/// A map, put together to the UVs.
-struct LaidMap {
-    CutMap map;
-    SchottkyTile tile;
-    SchottkyFaults faults;
-    bool by_circles = false;
-
-    bool tangled() const { return faults.flipped.size() > faults.below_resolution.size(); }
-    /// So many flips that repairs would take long and leave some.
-    bool hopeless() const { return faults.flipped.size() > faults.below_resolution.size() + tile.triangles.rows() / 5; }
-};
-
-/// All of it as large as fits into the unit square's scale, |x| and |y| up to 1, and then judged.
-void fit_and_judge(LaidMap& map)
-{
-    const double largest = map.tile.points.cwiseAbs().maxCoeff();
-    if (largest > 1.0 && std::isfinite(largest)) {
-        map.tile.points /= largest;
-        map.map.plane.move(linear_fractional(1.0 / largest, 0.0, 0.0, 1.0));
-        for (auto& pair : map.map.circles.pairs)
-            for (Circle& circle : pair) circle = {circle.center / largest, circle.radius / largest};
-    }
-    map.faults = find_faults(map.tile);
-}
-
-/// Flipped faces are turned back in tiles that are bounded elsewhere, too: their boundaries are held.
-LaidMap laid(CutMap map, const FinerFaces& faces, const std::vector<Index>& polygon, ExecutionContext& context)
-{
-    LaidMap result;
-    result.map = std::move(map);
-    SchottkyPlane& plane = result.map.plane;
-    const FundamentalCircles& circles = result.map.circles;
-    const SchottkyTiling tiling(result.map.cut, faces, polygon);
-    result.by_circles = circles.apart;
-    const auto put_together = [&] {
-        result.tile = circles.apart ? tiling.by_circles(plane, circles) : tiling.as_cut(plane);
-        fit_and_judge(result);
-    };
-    const auto repair = [&](const SchottkyTile& tile) {
-        tiling.turn_back(tile, plane, context);
-        put_together();
-    };
-    put_together();
-    if (result.hopeless()) return result;
-    if (result.tangled()) repair(result.tile);
-    if (circles.apart)
-        for (const double factor : {1.6, 0.6}) {
-            if (!result.tangled()) break;
-            const FundamentalCircles beside = circles_beside(plane, circles, factor);
-            if (beside.apart) repair(tiling.by_circles(plane, beside));
-        }
-    if (!circles.apart || !result.faults.any()) return result;
-    // The boundary of the UVs may be wrong on one circle and right on another.
-    for (const double factor : {1.6, 0.6, 2.5, 0.4}) {
-        const FundamentalCircles beside = circles_beside(plane, circles, factor);
-        if (!beside.apart) continue;
-        SchottkyTile tile = tiling.by_circles(plane, beside);
-        if (find_faults(tile).any()) continue;
-        result.tile = std::move(tile);
-        result.map.circles = beside;
-        fit_and_judge(result);
-        return result;
-    }
-    SchottkyTile by_cut = tiling.as_cut(plane);
-    if (find_faults(by_cut).any()) return result;
-    result.tile = std::move(by_cut);
-    result.by_circles = false;
-    fit_and_judge(result);
-    return result;
-}
-
-/// Maps of the surface cut along edges, and then along circles as long as there are some.
-std::vector<CutMap> maps_of(HandleCut cut, const FinerFaces& faces, const SchottkyOptions& options,
-                            StageSeconds& seconds, ExecutionContext& context)
-{
-    std::vector<CutMap> maps;
-    maps.push_back(map_of(std::move(cut), options, seconds, 0.15, 0.5, context));
-    for (int i = 0; i < circle_cuts && maps.back().circles.apart; ++i) {
-        std::optional<HandleCut> again =
-            cut_along_circles(maps.back().cut, faces, maps.back().plane, maps.back().circles);
-        if (!again) break;
-        maps.push_back(map_of(std::move(*again), options, seconds, 0.5 + 0.2 * i, 0.7 + 0.2 * i, context));
-    }
-    return maps;
-}
-
 /// @param finer how often coarse faces are split
 SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                          int finer, ExecutionContext& context)
@@ -321,15 +116,15 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
             if (first.original[v] < result.vertex_count) path.push_back(first.original[v]);
     }
     StageSeconds of_maps;
-    std::vector<CutMap> maps = maps_of(std::move(first), faces, options, of_maps, context);
+    std::vector<CutMap> maps = cut_maps(std::move(first), faces, options, of_maps, context);
     clock.take(of_maps);
 
     context.begin_stage("finish", 0.9, 1.0);
     LaidMap best;
     for (std::size_t i = maps.size(); i-- > 0;) {  // the last one is the best, if it is one to one
-        LaidMap laid_map = laid(std::move(maps[i]), faces, options.polygon, context);
-        const bool better = i + 1 == maps.size() || !laid_map.faults.any();
-        if (better) best = std::move(laid_map);
+        LaidMap tried = laid_map(std::move(maps[i]), faces, options.polygon, context);
+        const bool better = i + 1 == maps.size() || !tried.faults.any();
+        if (better) best = std::move(tried);
         if (!best.faults.any()) break;
     }
     const HandleCut& cut = best.map.cut;
@@ -413,12 +208,10 @@ const char* to_string(SchottkyNormalization normalization) noexcept
 SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                             ExecutionContext& context)
 {
-    const auto compute = [options](const CanonicalMesh& mesh, ExecutionContext& own) {
-        SchottkyOptions here = options;
-        here.polygon = mesh.of_faces(options.polygon);
+    const auto compute = [](const CanonicalMesh& mesh, const SchottkyOptions& here, ExecutionContext& own) {
         return schottky_map_here(mesh.vertices, mesh.triangles, here, own);
     };
-    return corner_map<SchottkyResult>(vertices, triangles, context, compute, name_schottky);
+    return corner_map<SchottkyResult>(vertices, triangles, options, context, compute, name_schottky);
 }
 
 }  // namespace koebe

@@ -385,12 +385,7 @@ const char* to_string(SphereLayout layout) noexcept
 SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, const SphereOptions& options,
                         ExecutionContext& context)
 {
-    const auto compute = [options](const CanonicalMesh& mesh, ExecutionContext& own) {
-        SphereOptions here = options;
-        here.polygon = mesh.of_faces(options.polygon);
-        return sphere_map_here(mesh, here, own);
-    };
-    return corner_map<SphereResult>(vertices, triangles, context, compute, name_sphere);
+    return corner_map<SphereResult>(vertices, triangles, options, context, sphere_map_here, name_sphere);
 }
 
 }  // namespace koebe

@@ -1,13 +1,14 @@
 #include "circles/moebius.h"
 #include "core/errors.h"
-#include "core/tolerances.h"
 #include "linear/dense_spd.h"
-#include "linear/sparse_cholesky.h"
 #include "mesh/connectivity.h"
 #include "pipeline/loop_numbers.h"
 #include "pipeline/uniformize.h"
 #include "quality/map_clock.h"
 #include "quality/take_verdict.h"
+#include "tiles/floating_loops.h"
+#include "tiles/rim_bends.h"
+#include "tiles/slit_map.h"
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
 
@@ -22,221 +23,6 @@ namespace koebe {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-/// A harmonic function with one free value for each of some loops, through which no flux runs.
-class FloatingLoops {
-public:
-    FloatingLoops(const PeriodicSurface& domain, bool holes_float)
-        : domain_(domain), representative_(domain.surface.vertex_count)
-    {
-        for (Index v = 0; v < domain.surface.vertex_count; ++v) representative_[v] = v;
-        for (std::size_t k = domain.first_hole; holes_float && k < domain.loops.size(); ++k)
-            for (const Index v : domain.loops[k]) representative_[v] = domain.loops[k].front();
-        std::vector<Index> number(representative_.size(), -1);
-        for (std::size_t v = 0; v < representative_.size(); ++v)
-            if (representative_[v] == static_cast<Index>(v)) number[v] = count_++;
-        for (Index& v : representative_) v = number[v];
-        const SparseMatrix laplacian = laplacian_of(domain);
-        std::vector<Eigen::Triplet<double, Index>> entries;
-        for (Index c = 0; c < static_cast<Index>(laplacian.cols()); ++c)
-            for (SparseMatrix::InnerIterator it(laplacian, c); it; ++it)
-                entries.emplace_back(representative_[it.row()], representative_[c], it.value());
-        matrix_.resize(count_, count_);
-        matrix_.setFromTriplets(entries.begin(), entries.end());
-    }
-
-    /// 0 on the outer rim, 1 on the inner one.
-    VectorXd between_rims() const
-    {
-        std::vector<char> fixed(static_cast<std::size_t>(count_), 0);
-        MatrixXd values = MatrixXd::Zero(count_, 1);
-        for (int rim = 0; rim < 2; ++rim)
-            for (const Index v : domain_.loops[rim]) {
-                fixed[representative_[v]] = 1;
-                values(representative_[v], 0) = rim;
-            }
-        return spread(DirichletSolver(matrix_, fixed).solve(values).col(0));
-    }
-
-    /// What makes the shift harmonic.
-    VectorXd round() const
-    {
-        const VectorXd load = jump_load(domain_, domain_.metric_shifts[0]);
-        MatrixXd sums = MatrixXd::Zero(count_, 1);
-        for (Index v = 0; v < static_cast<Index>(load.size()); ++v) sums(representative_[v], 0) += load[v];
-        // One vertex is tied to 0: as constants are in the kernel that draws nothing.
-        SparseMatrix tied = matrix_;
-        tied.coeffRef(0, 0) += matrix_.diagonal().mean();
-        return spread(SparseCholesky(tied).solve(sums).col(0));
-    }
-
-private:
-    VectorXd spread(const VectorXd& values) const
-    {
-        if (!values.allFinite()) throw SolverError("no finite harmonic function: the metric is degenerate");
-        return values(representative_);
-    }
-
-    const PeriodicSurface& domain_;
-    std::vector<Index> representative_;
-    Index count_ = 0;
-    SparseMatrix matrix_;
-};
-
-/// Integral of |du + form|^2.
-double energy(const PeriodicSurface& domain, const VectorXd& u, const OneForm& form)
-{
-    return squared_norm(half_cotangents(domain.metric.lengths), form + exterior_derivative(domain.metric.triangles, u));
-}
-
-/// What hangs on a straight rim by one edge would have no area. So the rim runs along a parabola there, inward at the
-/// ends of the edge: as deep as the arc of the disk would be, and deeper where 32-bit UVs need it.
-/// @param places of the boundary, the rims straight; changed
-void make_room_on_rims(const PeriodicSurface& domain, VectorXcd& places, FlatMap& map)
-{
-    constexpr double arc = 0.7, deepest = 0.25;  // over the squared width, and over the width
-    constexpr double steps = 32.0;               // of the grid between neighbours
-    const Triangles& triangles = domain.surface.triangles;
-    const double height = places[domain.loops[1].front()].imag();
-    VectorXd depth = VectorXd::Zero(domain.surface.vertex_count);
-    for (int rim = 0; rim < 2; ++rim) {
-        const VertexLoop& loop = domain.loops[rim];
-        const Index n = static_cast<Index>(loop.size());
-        std::vector<Index> place(domain.surface.vertex_count, -1);
-        for (Index b = 0; b < n; ++b) place[loop[b]] = b;
-        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
-            const Index a = origin(triangles, h), b = target(triangles, h);
-            if (domain.surface.twin[h] == no_twin || place[a] < 0 || place[b] < 0) continue;
-            const double width = places[b].real() - places[a].real() + domain.shifts[0][h];
-            if (rim == 0 ? width <= 0.0 : width >= 0.0) continue;  // its twin looks along the rim
-            double thinnest = std::abs(width);
-            std::vector<double> along;  // from a to b on the rim
-            for (Index i = place[a]; i != place[b]; i = (i + 1) % n) {
-                along.push_back(std::abs(std::remainder(places[loop[i]].real() - places[a].real(), 1.0)));
-                if (along.size() > 1 && along.back() < along[along.size() - 2])
-                    along.back() = 1.0 - along.back();  // past half a turn
-                const double step =
-                    std::abs(std::remainder(places[loop[(i + 1) % n]].real() - places[loop[i]].real(), 1.0));
-                if (step > 0.0) thinnest = std::min(thinnest, step);
-            }
-            const double w = std::abs(width), grid = uv_grid * std::max(1.0, height);
-            const double bend = std::min(std::max(arc, steps * grid / (thinnest * thinnest)), deepest / w);
-            along.push_back(w);
-            for (std::size_t i = 0; i < along.size(); ++i) {
-                double& own = depth[loop[(place[a] + static_cast<Index>(i)) % n]];
-                own = std::max(own, bend * (2.0 * along[i] - w) * (2.0 * along[i] - w));
-            }
-        }
-        for (const Index v : loop) {
-            if (depth[v] == 0.0) continue;
-            places[v] += Complex(0.0, rim == 0 ? depth[v] : -depth[v]);
-            if (depth[v] > uv_resolution) map.off_circle.push_back(v);
-        }
-    }
-    std::ranges::sort(map.off_circle);
-}
-
-/// Which vertex is the tip near an extreme one: on the edges before and behind it the surface must lie on opposite
-/// sides of the slit, as the other corners of their faces have it.
-/// @param side of the edge from each vertex to the next: how far that corner lies to the left of a slit that runs up
-/// @param sign 1 for the upper tip, -1 for the lower one
-Eigen::Index tip_near(Eigen::Index extreme, const VectorXd& side, double sign)
-{
-    const Eigen::Index m = side.size();
-    Eigen::Index best = extreme;
-    int fewest = 5;
-    for (const Eigen::Index offset : {0, -1, 1}) {
-        int wrong = 0;
-        for (Eigen::Index e = -2; e < 2; ++e)
-            wrong += (e < offset ? 1.0 : -1.0) * sign * side[(extreme + e + m) % m] > 0.0 ? 0 : 1;
-        if (wrong >= fewest) continue;
-        fewest = wrong;
-        best = (extreme + offset + m) % m;
-    }
-    return best;
-}
-
-/// Where the vertices of a slit lie along it, its ends at the tips: a tip lies between two vertices as a rule, and a
-/// face on the edge between these would have no area. So one of them is moved to where the parabola through the
-/// extreme vertex and its neighbours turns, by O(h^2). Between the tips each side runs one way.
-/// @param along of at least 4 vertices, changed @param side as above
-void sharpen_tips(VectorXd& along, const VectorXd& side)
-{
-    const Eigen::Index m = along.size();
-    const auto turning_point = [&](Eigen::Index b) {
-        const double before = along[(b + m - 1) % m], after = along[(b + 1) % m];
-        const double bend = 2.0 * along[b] - before - after;
-        return bend == 0.0 ? along[b] : along[b] + (after - before) * (after - before) / (8.0 * bend);
-    };
-    Eigen::Index high = 0, low = 0;
-    along.maxCoeff(&high);
-    along.minCoeff(&low);
-    if (high == low || m < 4) return;
-    const double top = turning_point(high), bottom = turning_point(low);
-    high = tip_near(high, side, 1.0);
-    low = tip_near(low, side, -1.0);
-    if (high == low) return;
-    along[high] = top;
-    along[low] = bottom;
-    for (const Eigen::Index step : {Eigen::Index{1}, m - 1}) {
-        std::vector<Eigen::Index> way;
-        for (Eigen::Index b = high; b != low; b = (b + step) % m) way.push_back(b);
-        way.push_back(low);
-        const double least = 1e-3 * (top - bottom) / static_cast<double>(m);
-        for (std::size_t i = 1; i + 1 < way.size(); ++i)
-            along[way[i]] = std::min(along[way[i]], along[way[i - 1]] - least);
-        for (std::size_t i = way.size() - 2; i > 0; --i)
-            along[way[i]] = std::max(along[way[i]], along[way[i + 1]] + least);
-    }
-}
-
-/// How far the corners opposite to the edges of a slit lie to its left.
-VectorXd sides_of(const PeriodicSurface& domain, const VectorXcd& z, std::size_t k, bool along_u)
-{
-    const Triangles& triangles = domain.surface.triangles;
-    const VertexLoop& loop = domain.loops[k];
-    std::vector<Index> place(domain.surface.vertex_count, -1);
-    for (std::size_t b = 0; b < loop.size(); ++b) place[loop[b]] = static_cast<Index>(b);
-    VectorXd side = VectorXd::Zero(static_cast<Eigen::Index>(loop.size()));
-    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
-        const Index a = origin(triangles, h), back = previous_halfedge(h);
-        if (domain.surface.twin[h] != no_twin || place[a] < 0) continue;
-        const Complex arm = z[origin(triangles, back)] - z[a] - domain.shifts[0][back];
-        side[place[a]] = along_u ? arm.imag() : -arm.real();
-    }
-    return side;
-}
-
-/// Rims straight, holes slits: u and v of the two harmonic functions.
-FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height)
-{
-    const VectorXd f = FloatingLoops(domain, holes == RingHoles::concentric).between_rims();
-    const VectorXd g = FloatingLoops(domain, holes == RingHoles::radial).round();
-    // The conjugate function of g has the same energy.
-    const OneForm none = OneForm::Zero(static_cast<Eigen::Index>(domain.metric_shifts[0].size()));
-    height = std::sqrt(energy(domain, g, domain.metric_shifts[0]) / energy(domain, f, none));
-    if (!std::isfinite(height) || !(height > 0.0))
-        throw SolverError("the ring has no height: the metric is degenerate");
-    FlatMap map;
-    map.periods = {1.0};
-    map.z = g + Complex(0.0, height) * f;
-    VectorXcd places = map.z;
-    std::vector<char> moved = boundary_mask(domain.surface);
-    for (std::size_t k = domain.first_hole; k < domain.loops.size(); ++k) {
-        const VectorXcd loop = gather_loop(map.z, domain.loops[k]);
-        VectorXd along = loop.imag();
-        if (holes == RingHoles::concentric) along = loop.real();
-        sharpen_tips(along, sides_of(domain, map.z, k, holes == RingHoles::concentric));
-        for (Eigen::Index b = 0; b < along.size(); ++b) {
-            Complex& place = places[domain.loops[k][static_cast<std::size_t>(b)]];
-            place =
-                holes == RingHoles::concentric ? Complex(along[b], loop[0].imag()) : Complex(loop[0].real(), along[b]);
-        }
-    }
-    make_room_on_rims(domain, places, map);
-    move_boundary(domain, places, moved, map.z);
-    return map;
-}
 
 /// The automorphism that makes the inner rim concentric, from the circle domain.
 struct RoundRing {
@@ -331,7 +117,7 @@ FlatMap unrolled(const PeriodicSurface& domain, const RoundRing& ring, double he
             moved[v] = 1;
         }
     if (!places.allFinite()) throw SolverError("the annulus cannot be unrolled: a vertex lies at its centre");
-    make_room_on_rims(domain, places, map);
+    bend_rims(domain, places, map);
     move_boundary(domain, places, moved, map.z);
     map.circles = ring.circles;
     map.roundness = ring.roundness;

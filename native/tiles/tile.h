@@ -1,7 +1,6 @@
 // A map to a torus or a cylinder as UVs: one tile, cut in the UVs alone, whose copies fill the plane or a strip.
 #pragma once
 
-#include "execution/execution.h"
 #include "tiles/flat_map.h"
 
 #include <array>
@@ -25,9 +24,8 @@ struct Tile {
     std::vector<Index> seams;              ///< half-edges whose other side lies elsewhere
 };
 
-/// Every face, or polygon of faces, goes where its middle lies in the parallelogram of the periods; what hangs on the
-/// others by no edge goes to its neighbours, so that the tile is one piece.
-/// @param origin of the parallelogram, in periods; it is chosen so that few holes are cut
+/// The map on the grid, cut as cut_tile has it.
+/// @param origin of its cell; it is chosen so that few holes are cut
 Tile tile_of(const PeriodicSurface& domain, const FlatMap& map);
 Tile tile_of(const PeriodicSurface& domain, const FlatMap& map, std::array<double, 2> origin);
 
@@ -49,10 +47,5 @@ struct TileFaults {
 /// map covers each point of the torus, or of the cylinder between its rims, equally often: by the sum of the areas,
 /// once.
 TileFaults find_faults(const PeriodicSurface& domain, const Tile& tile, HoleShape holes);
-
-/// Turns flipped faces back in their neighbourhoods (untangle), in tiles cut elsewhere.
-/// Vertices of slits stay; those of holes slide along their circles, if they have some, or leave their places.
-/// @return how many faces are flipped still
-std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, FlatMap& map, ExecutionContext& context);
 
 }  // namespace koebe

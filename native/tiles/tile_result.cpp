@@ -7,6 +7,7 @@
 #include "mesh/connectivity.h"
 #include "quality/shared_warnings.h"
 #include "tiles/even_tile.h"
+#include "tiles/tile_repair.h"
 
 #include <Eigen/Geometry>
 
@@ -129,15 +130,13 @@ void name_tile(const CanonicalMesh& mesh, TileResult& result)
 TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                           ExecutionContext& context, TileMap* map)
 {
-    const auto compute = [options, map](const CanonicalMesh& mesh, ExecutionContext& own) {
-        TileOptions here = options;
-        here.outer = mesh.vertex(options.outer);
-        here.inner = mesh.vertex(options.inner);
-        here.polygon = mesh.of_faces(options.polygon);
+    const auto compute = [map](const CanonicalMesh& mesh, TileOptions& here, ExecutionContext& own) {
         if (!(here.even >= 0.0 && here.even <= 1.0)) throw InputError("even must be from 0 to 1");
+        here.outer = mesh.vertex(here.outer);
+        here.inner = mesh.vertex(here.inner);
         return map(mesh.vertices, mesh.triangles, here, own);
     };
-    return corner_map<TileResult>(vertices, triangles, context, compute, name_tile);
+    return corner_map<TileResult>(vertices, triangles, options, context, compute, name_tile);
 }
 
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,

@@ -210,6 +210,7 @@ TEST(MeshReader, LineEndsBlanksAndCommentsChangeNothing)
     expect_same_faces(parse("bom.obj", "\xEF\xBB\xBF" + obj.substr(12)), expected);
     expect_same_faces(parse("no_final_newline.obj", obj.substr(0, obj.size() - 1)), expected);
     expect_same_faces(parse("one_line.off", "OFF " + off.substr(4)), expected);
+    expect_same_faces(parse("notes.off", "# a note\nOFF # one\n4 # more\n#\n2 5# last\n" + off.substr(10)), expected);
 }
 
 TEST(MeshReader, ObjFacesInAllTheirForms)
@@ -442,6 +443,9 @@ TEST(MeshReader, RefusesWhatIsNoMeshAndSaysWhere)
         {"a.stl", "solid a\nfacet normal 0 0 1\nvertex 0 0\nendfacet\n", "facet 0 is missing or cut short", {0}},
         {"a.stl", "solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n", "facet 0 is missing", {0}},
         {"a.stl", "solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n", "or endsolid is", {1}},
+        {"a.stl", "solid_a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n", "or endsolid is", {1}},
+        {"a.stl", "solid a\nsolid b\nendsolid\n", "or endsolid is", {0}},
+        {"a.stl", "solid a\nfacet\nvertex 0 0 x\nendfacet\nendsolid\n", "facet 0 is missing", {0}},
         {"a.stl", std::string(80, ' ') + "\xff\xff\xff\x7f" + std::string(50, '\0'), "of the length it says", {}},
         {"a.stl", binary_stl("", {{0, 0, 0}, {0, nan, 0}, {0, 1, 0}}), "NaN or infinite", {1}},
         {"a.glb", "glTF", "format not supported: '.glb'; supported are OBJ, OFF, PLY, STL", {}},

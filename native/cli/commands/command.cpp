@@ -70,10 +70,9 @@ int run_command(int argc, char** argv)
                "130 interrupted (nothing is written; batch leaves what is done).\n"
                "A file is written as .koebe-PROCESS-NUMBER.tmp in its folder and then renamed: it is whole or absent.\n"
                "Where it is a symbolic link, the link stays and its target is replaced.");
-    const std::vector<Subcommand> commands{add_uniformize(app), add_batch(app),    add_fill(app),   add_module(app),
-                                           add_compare(app),    add_transfer(app), add_ricci(app),  add_parts(app),
-                                           add_torus(app),      add_ring(app),     add_sphere(app), add_schottky(app),
-                                           add_sequence(app)};
+#define KOEBE_ADD(name) add_##name(app),
+    const std::vector<Subcommand> commands{KOEBE_SUBCOMMANDS(KOEBE_ADD)};
+#undef KOEBE_ADD
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -25,11 +25,10 @@ namespace {
 
 constexpr const char* to_standard_output = "-";
 
-struct Request {
-    std::string first, second, json, csv, reference;
+struct Request : FamilyRequest {
+    std::string first, second, json;
     std::string loops = "match";
-    bool any_outer = false, with_json = false, with_error = false;
-    UniformizeOptions options;
+    bool any_outer = false, with_json = false;
 
     bool to_file() const { return with_json && json != to_standard_output; }
     std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}, {"--csv", csv}}; }
@@ -55,7 +54,7 @@ int run_family(const Request& request, const CancelToken& token)
     std::vector<std::string> paths{request.first};
     if (!request.second.empty()) paths.push_back(request.second);
     const ShapeFamily family = read_family(
-        {mesh_files(paths), request.reference, request.with_error, request.options},
+        request, mesh_files(paths),
         [](const ShapeInput& shape) {
             std::vector<int> order(shape.circles.size());
             std::iota(order.begin(), order.end(), 0);
@@ -113,8 +112,7 @@ void settle_words(Request& request, const CLI::Option& json)
         require_different_files(request.files(), {request.first, request.second}, false);
         return;
     }
-    if (request.with_error || !request.reference.empty())
-        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "goes with --csv");
+    require_csv(request);
     if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
     if (request.any_outer && request.loops != "match")
         throw CLI::ValidationError("--any-outer", "goes with --loops match");
@@ -137,17 +135,10 @@ Subcommand add_compare(CLI::App& app)
         ->capture_default_str();
     options->add_flag("--any-outer", request->any_outer,
                       "with match: the outer loop of one may correspond to a hole of the other");
-    options
-        ->add_option(
-            "--csv", request->csv,
-            "a row each pair of the folder's shapes, in one order of the loops: so the triangle inequality holds")
-        ->type_name("FILE");
-    options
-        ->add_option("--reference", request->reference,
-                     "with --csv: the file in the folder whose loops the others' correspond to, by default the first")
-        ->type_name("NAME");
-    options->add_flag("--error", request->with_error,
-                      "with --csv: also bars of the error that the meshes make, from maps of finer meshes");
+    add_family_options(*options, *request,
+                       "a row each pair of the folder's shapes, in one order of the loops: so the triangle inequality "
+                       "holds",
+                       "the meshes make, from maps of finer meshes");
     const CLI::Option* json =
         options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")
             ->expected(0, 1)

@@ -6,6 +6,16 @@
 
 namespace koebe::cli {
 
+/// Writes the mesh with UVs of corners.
+template <typename Result>
+auto corner_writer(WrittenFormat format)
+{
+    return [format](AtomicFile& file, const MeshInput& input, const Result& result) {
+        return write_with_corner_uvs(file, format, input.polygons,
+                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
+    };
+}
+
 /// The kind of a map whose result is a CornerMapReport; what it draws and its first words are left out.
 template <typename Result, typename Options>
 MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen,
@@ -21,10 +31,7 @@ MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen
         add_input_warnings(input, result.warnings);
         return result;
     };
-    kind.write_mesh = [format = request.format](AtomicFile& file, const MeshInput& input, const Result& result) {
-        return write_with_corner_uvs(file, format, input.polygons,
-                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
-    };
+    kind.write_mesh = corner_writer<Result>(request.format);
     kind.report = [](const Result& result) { return to_json(result); };
     return kind;
 }

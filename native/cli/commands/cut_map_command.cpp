@@ -1,9 +1,8 @@
 #include "cli/commands/cut_map_command.h"
 
-#include "cli/commands/map_run.h"
+#include "cli/commands/corner_map.h"
 #include "cli/options/loop_options.h"
 #include "core/counted.h"
-#include "io/corner_uvs.h"
 #include "opened/cut_uniformize.h"
 #include "report/cut_json.h"
 #include "report/svg.h"
@@ -35,11 +34,6 @@ void name_filed_faces(const MeshInput& input, CutUniformizeResult& result)
     add_input_warnings(input, result.warnings);
 }
 
-PlanarPoints corners_of(const MeshInput& input, const CutUniformizeResult& result)
-{
-    return polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
-}
-
 }  // namespace
 
 int run_cut_map(const MapRequest& request)
@@ -54,11 +48,9 @@ int run_cut_map(const MapRequest& request)
         name_filed_faces(input, result);
         return result;
     };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput& input, const CutUniformizeResult& result) {
-        return write_with_corner_uvs(file, request.format, input.polygons, corners_of(input, result), {input.file});
-    };
+    kind.write_mesh = corner_writer<CutUniformizeResult>(request.format);
     kind.draw = [](const MeshInput& input, const CutUniformizeResult& result) {
-        return to_svg(result, input.polygons, corners_of(input, result));
+        return to_svg(result, input.polygons, polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
     };
     kind.report = [](const CutUniformizeResult& result) { return to_json(result); };
     kind.first_words = [](const CutUniformizeResult& result) {

@@ -21,12 +21,10 @@
 namespace koebe::cli {
 namespace {
 
-struct Request {
-    std::string input, csv, reference;
-    bool with_error = false;
+struct Request : FamilyRequest {
+    std::string input;
     std::vector<std::string> loops{"length"};
     bool any_outer = false;
-    UniformizeOptions options;
 
     std::vector<OutputFile> files() const { return {{"--csv", csv}}; }
 };
@@ -59,8 +57,8 @@ int run_family(const Request& request, const CancelToken& token)
 {
     require_writable_files(request.files(), false);
     const ShapeFamily family = read_family(
-        {mesh_files({request.input}), request.reference, request.with_error, request.options},
-        [&](const ShapeInput& shape) { return chosen_order(shape, request); }, token);
+        request, mesh_files({request.input}), [&](const ShapeInput& shape) { return chosen_order(shape, request); },
+        token);
     return write_table(family, module_table(family), request.csv, token);
 }
 
@@ -85,8 +83,7 @@ void require_loop_words(const Request& request)
         throw CLI::ValidationError("--any-outer", "goes with --loops canonical");
     if (request.csv.empty() && std::filesystem::is_directory(request.input))
         throw CLI::ValidationError("IN", "is a folder, which needs --csv FILE");
-    if (request.csv.empty() && (request.with_error || !request.reference.empty()))
-        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "goes with --csv");
+    require_csv(request);
     require_different_files(request.files(), {request.input}, false);
 }
 
@@ -106,16 +103,9 @@ Subcommand add_module(CLI::App& app)
         ->delimiter(',')
         ->type_name("length|canonical|RANKS")
         ->capture_default_str();
-    options
-        ->add_option("--csv", request->csv,
-                     "a table instead of JSON: a row a shape, the loops of all in the order of the reference's")
-        ->type_name("FILE");
-    options
-        ->add_option("--reference", request->reference,
-                     "with --csv: the file in the folder whose loops the others' correspond to, by default the first")
-        ->type_name("NAME");
-    options->add_flag("--error", request->with_error,
-                      "with --csv: also bars of the error that the mesh makes, each from a map of a finer mesh");
+    add_family_options(*options, *request,
+                       "a table instead of JSON: a row a shape, the loops of all in the order of the reference's",
+                       "the mesh makes, each from a map of a finer mesh");
     options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
     add_options(*options, "shapes", request->options);
     options->callback([request] { require_loop_words(*request); });

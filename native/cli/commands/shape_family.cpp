@@ -91,8 +91,23 @@ std::vector<std::string> mesh_files(const std::vector<std::string>& paths)
     return files;
 }
 
-ShapeFamily read_family(const FamilyRequest& request, const std::function<std::vector<int>(const ShapeInput&)>& order,
-                        const CancelToken& token)
+void add_family_options(CLI::App& app, FamilyRequest& request, const std::string& table, const std::string& bars)
+{
+    app.add_option("--csv", request.csv, table)->type_name("FILE");
+    app.add_option("--reference", request.reference,
+                   "with --csv: the file in the folder whose loops the others' correspond to, by default the first")
+        ->type_name("NAME");
+    app.add_flag("--error", request.with_error, "with --csv: also bars of the error that " + bars);
+}
+
+void require_csv(const FamilyRequest& request)
+{
+    if (request.csv.empty() && (request.with_error || !request.reference.empty()))
+        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "goes with --csv");
+}
+
+ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::string>& files,
+                        const std::function<std::vector<int>(const ShapeInput&)>& order, const CancelToken& token)
 {
     const auto name = [](const std::string& path) { return fs::path(path).filename().string(); };
     const auto read = [&](const std::string& file) {
@@ -102,28 +117,27 @@ ShapeFamily read_family(const FamilyRequest& request, const std::function<std::v
     ShapeInput reference;
     if (!request.reference.empty()) {
         const auto found =
-            std::ranges::find_if(request.files, [&](const auto& file) { return name(file) == request.reference; });
-        if (found == request.files.end())
-            throw InputError("the reference " + request.reference + " is none of the files");
-        first = static_cast<std::size_t>(found - request.files.begin());
-        reference = read(request.files[first]);
+            std::ranges::find_if(files, [&](const auto& file) { return name(file) == request.reference; });
+        if (found == files.end()) throw InputError("the reference " + request.reference + " is none of the files");
+        first = static_cast<std::size_t>(found - files.begin());
+        reference = read(files[first]);
     } else {
         for (;; ++first) try {
-                reference = read(request.files[first]);
+                reference = read(files[first]);
                 break;
             } catch (const Cancelled&) {
                 throw;
             } catch (const KoebeError&) {
-                if (first + 1 == request.files.size()) throw;
+                if (first + 1 == files.size()) throw;
             }
     }
     const std::vector<int> wanted = order(reference);
 
     ShapeFamily family{module_names(wanted.size()), {}, true};
-    for (std::size_t i = 0; i < request.files.size(); ++i) {
-        FamilyRow row{name(request.files[i]), false, {}, {}, {}};
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        FamilyRow row{name(files[i]), false, {}, {}, {}};
         try {
-            const ShapeInput shape = i == first ? reference : read(request.files[i]);
+            const ShapeInput shape = i == first ? reference : read(files[i]);
             const std::vector<int> own = i == first ? wanted : like(reference, shape, wanted, token);
             row.module = conformal_module(shape.circles, own);
             if (request.with_error) row.error = module_error(row.module, conformal_module(shape.refined, own));
@@ -135,7 +149,7 @@ ShapeFamily read_family(const FamilyRequest& request, const std::function<std::v
         } catch (const OutOfMemory&) {
             throw;
         } catch (const KoebeError& error) {
-            row = {name(request.files[i]), false, {}, {}, error_line(error)};
+            row = {name(files[i]), false, {}, {}, error_line(error)};
         }
         family.rows.push_back(std::move(row));
     }

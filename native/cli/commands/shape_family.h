@@ -3,19 +3,28 @@
 
 #include "cli/commands/shape_input.h"
 
+#include <CLI/CLI.hpp>
+
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace koebe::cli {
 
+/// What is asked for of many shapes.
 struct FamilyRequest {
-    std::vector<std::string> files;
-    std::string reference;    ///< the name of one of them, whose loops the others' correspond to; empty: the first that
-                              ///< can be mapped
+    std::string csv;          ///< where the table is written; empty: there is none
+    std::string reference;    ///< the name of one of the files, whose loops the others' correspond to; empty: the first
+                              ///< that can be mapped
     bool with_error = false;  ///< bars of the numbers, each from a map of a finer mesh
     UniformizeOptions options;
 };
+
+/// --csv, --reference, --error. @param table what is written for --csv @param bars what --error adds
+void add_family_options(CLI::App& app, FamilyRequest& request, const std::string& table, const std::string& bars);
+
+/// @throws CLI::ValidationError an option of a table where none is asked for
+void require_csv(const FamilyRequest& request);
 
 struct FamilyRow {
     std::string label;   ///< the file's name
@@ -37,8 +46,8 @@ std::vector<std::string> mesh_files(const std::vector<std::string>& paths);
 
 /// Maps all shapes, one after the other; the loops of each correspond to those of the reference (match_loops).
 /// @param order chooses the order of the reference's loops @throws what read_shape throws for the reference; Cancelled
-ShapeFamily read_family(const FamilyRequest& request, const std::function<std::vector<int>(const ShapeInput&)>& order,
-                        const CancelToken& token);
+ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::string>& files,
+                        const std::function<std::vector<int>(const ShapeInput&)>& order, const CancelToken& token);
 
 /// Writes a table of the family to a file; a line on stderr if shapes have no module. @return what the command ends
 /// with

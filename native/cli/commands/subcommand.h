@@ -12,18 +12,24 @@ struct Subcommand {
     std::function<int()> run;  ///< returns an ExitCode; errors are thrown
 };
 
-Subcommand add_batch(CLI::App& app);
-Subcommand add_compare(CLI::App& app);
-Subcommand add_fill(CLI::App& app);
-Subcommand add_module(CLI::App& app);
-Subcommand add_parts(CLI::App& app);
-Subcommand add_ricci(CLI::App& app);
-Subcommand add_ring(CLI::App& app);
-Subcommand add_schottky(CLI::App& app);
-Subcommand add_sequence(CLI::App& app);
-Subcommand add_sphere(CLI::App& app);
-Subcommand add_torus(CLI::App& app);
-Subcommand add_transfer(CLI::App& app);
-Subcommand add_uniformize(CLI::App& app);
+/// X(name), in the order of the help: `add_name` adds the sub-command.
+#define KOEBE_SUBCOMMANDS(X)                                                                                           \
+    X(uniformize)                                                                                                      \
+    X(batch)                                                                                                           \
+    X(fill)                                                                                                            \
+    X(module)                                                                                                          \
+    X(compare)                                                                                                         \
+    X(transfer)                                                                                                        \
+    X(ricci)                                                                                                           \
+    X(parts)                                                                                                           \
+    X(torus)                                                                                                           \
+    X(ring)                                                                                                            \
+    X(sphere)                                                                                                          \
+    X(schottky)                                                                                                        \
+    X(sequence)
+
+#define KOEBE_DECLARE(name) Subcommand add_##name(CLI::App& app);
+KOEBE_SUBCOMMANDS(KOEBE_DECLARE)
+#undef KOEBE_DECLARE
 
 }  // namespace koebe::cli

@@ -12,12 +12,7 @@ from ._cut_result import CutResult
 from ._domain_map import DomainMap
 from ._parts import PartsResult
 from ._result import Source, UniformizeResult
-from ._schottky import SchottkyMap
-from ._sphere import SphereMap
-from ._tiles import TileMap
 from .errors import InputError
-
-_DOMAIN_MAPS: dict[str, type[DomainMap]] = {kind.__name__: kind for kind in (SchottkyMap, SphereMap, TileMap)}
 
 
 def load(path: str | os.PathLike[str]) -> Any:
@@ -37,6 +32,7 @@ def load(path: str | os.PathLike[str]) -> Any:
                 return CutResult(report, uv, flipped, source)
             if kind == "PartsResult":
                 return PartsResult(report, uv, file["part"], flipped, source)
-            return _DOMAIN_MAPS[kind](report, SimpleNamespace(**file), source)
+            domain_maps = {of.__name__: of for of in DomainMap.__subclasses__()}
+            return domain_maps[kind](report, SimpleNamespace(**file), source)
     except (KeyError, ValueError, TypeError, IndexError, AttributeError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(f"{os.fspath(path)} is no result of koebe: {error}") from None

@@ -1,0 +1,29 @@
+// The map of a surface whose handles are cut open, before it is put together to UVs.
+#pragma once
+
+#include "execution/execution.h"
+#include "quality/report.h"
+#include "schottky/finer_faces.h"
+#include "schottky/handle_cut.h"
+#include "schottky/schottky_group.h"
+#include "schottky/schottky_map.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// A cut surface and its map.
+struct CutMap {
+    HandleCut cut;
+    SchottkyPlane plane;
+    FundamentalCircles circles;
+    bool converged = false;
+    std::vector<double> changes;
+};
+
+/// Maps of the surface cut along edges, and then along circles as long as there are some.
+/// @param seconds of their metrics, factors and iterations, added up
+std::vector<CutMap> cut_maps(HandleCut cut, const FinerFaces& faces, const SchottkyOptions& options,
+                             StageSeconds& seconds, ExecutionContext& context);
+
+}  // namespace koebe

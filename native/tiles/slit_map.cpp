@@ -1,0 +1,123 @@
+#include "tiles/slit_map.h"
+
+#include "core/errors.h"
+#include "mesh/connectivity.h"
+#include "tiles/floating_loops.h"
+#include "tiles/rim_bends.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace koebe {
+namespace {
+
+/// Integral of |du + form|^2.
+double energy(const PeriodicSurface& domain, const VectorXd& u, const OneForm& form)
+{
+    return squared_norm(half_cotangents(domain.metric.lengths), form + exterior_derivative(domain.metric.triangles, u));
+}
+
+/// Which vertex is the tip near an extreme one: on the edges before and behind it the surface must lie on opposite
+/// sides of the slit, as the other corners of their faces have it.
+/// @param side of the edge from each vertex to the next: how far that corner lies to the left of a slit that runs up
+/// @param sign 1 for the upper tip, -1 for the lower one
+Eigen::Index tip_near(Eigen::Index extreme, const VectorXd& side, double sign)
+{
+    const Eigen::Index m = side.size();
+    Eigen::Index best = extreme;
+    int fewest = 5;
+    for (const Eigen::Index offset : {0, -1, 1}) {
+        int wrong = 0;
+        for (Eigen::Index e = -2; e < 2; ++e)
+            wrong += (e < offset ? 1.0 : -1.0) * sign * side[(extreme + e + m) % m] > 0.0 ? 0 : 1;
+        if (wrong >= fewest) continue;
+        fewest = wrong;
+        best = (extreme + offset + m) % m;
+    }
+    return best;
+}
+
+/// Where the vertices of a slit lie along it, its ends at the tips: a tip lies between two vertices as a rule, and a
+/// face on the edge between these would have no area. So one of them is moved to where the parabola through the
+/// extreme vertex and its neighbours turns, by O(h^2). Between the tips each side runs one way.
+/// @param along of at least 4 vertices, changed @param side as above
+void sharpen_tips(VectorXd& along, const VectorXd& side)
+{
+    const Eigen::Index m = along.size();
+    const auto turning_point = [&](Eigen::Index b) {
+        const double before = along[(b + m - 1) % m], after = along[(b + 1) % m];
+        const double bend = 2.0 * along[b] - before - after;
+        return bend == 0.0 ? along[b] : along[b] + (after - before) * (after - before) / (8.0 * bend);
+    };
+    Eigen::Index high = 0, low = 0;
+    along.maxCoeff(&high);
+    along.minCoeff(&low);
+    if (high == low || m < 4) return;
+    const double top = turning_point(high), bottom = turning_point(low);
+    high = tip_near(high, side, 1.0);
+    low = tip_near(low, side, -1.0);
+    if (high == low) return;
+    along[high] = top;
+    along[low] = bottom;
+    for (const Eigen::Index step : {Eigen::Index{1}, m - 1}) {
+        std::vector<Eigen::Index> way;
+        for (Eigen::Index b = high; b != low; b = (b + step) % m) way.push_back(b);
+        way.push_back(low);
+        const double least = 1e-3 * (top - bottom) / static_cast<double>(m);
+        for (std::size_t i = 1; i + 1 < way.size(); ++i)
+            along[way[i]] = std::min(along[way[i]], along[way[i - 1]] - least);
+        for (std::size_t i = way.size() - 2; i > 0; --i)
+            along[way[i]] = std::max(along[way[i]], along[way[i + 1]] + least);
+    }
+}
+
+/// How far the corners opposite to the edges of a slit lie to its left.
+VectorXd sides_of(const PeriodicSurface& domain, const VectorXcd& z, std::size_t k, bool along_u)
+{
+    const Triangles& triangles = domain.surface.triangles;
+    const VertexLoop& loop = domain.loops[k];
+    std::vector<Index> place(domain.surface.vertex_count, -1);
+    for (std::size_t b = 0; b < loop.size(); ++b) place[loop[b]] = static_cast<Index>(b);
+    VectorXd side = VectorXd::Zero(static_cast<Eigen::Index>(loop.size()));
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
+        const Index a = origin(triangles, h), back = previous_halfedge(h);
+        if (domain.surface.twin[h] != no_twin || place[a] < 0) continue;
+        const Complex arm = z[origin(triangles, back)] - z[a] - domain.shifts[0][back];
+        side[place[a]] = along_u ? arm.imag() : -arm.real();
+    }
+    return side;
+}
+
+}  // namespace
+
+FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height)
+{
+    const VectorXd f = FloatingLoops(domain, holes == RingHoles::concentric).between_rims();
+    const VectorXd g = FloatingLoops(domain, holes == RingHoles::radial).round();
+    // The conjugate function of g has the same energy.
+    const OneForm none = OneForm::Zero(static_cast<Eigen::Index>(domain.metric_shifts[0].size()));
+    height = std::sqrt(energy(domain, g, domain.metric_shifts[0]) / energy(domain, f, none));
+    if (!std::isfinite(height) || !(height > 0.0))
+        throw SolverError("the ring has no height: the metric is degenerate");
+    FlatMap map;
+    map.periods = {1.0};
+    map.z = g + Complex(0.0, height) * f;
+    VectorXcd places = map.z;
+    std::vector<char> moved = boundary_mask(domain.surface);
+    for (std::size_t k = domain.first_hole; k < domain.loops.size(); ++k) {
+        const VectorXcd loop = gather_loop(map.z, domain.loops[k]);
+        VectorXd along = loop.imag();
+        if (holes == RingHoles::concentric) along = loop.real();
+        sharpen_tips(along, sides_of(domain, map.z, k, holes == RingHoles::concentric));
+        for (Eigen::Index b = 0; b < along.size(); ++b) {
+            Complex& place = places[domain.loops[k][static_cast<std::size_t>(b)]];
+            place =
+                holes == RingHoles::concentric ? Complex(along[b], loop[0].imag()) : Complex(loop[0].real(), along[b]);
+        }
+    }
+    bend_rims(domain, places, map);
+    move_boundary(domain, places, moved, map.z);
+    return map;
+}
+
+}  // namespace koebe
