@@ -2,7 +2,6 @@
 
 #include "balance/area_balance.h"
 #include "canonical/corner_map.h"
-#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
