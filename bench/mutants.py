@@ -76,7 +76,7 @@ MUTANTS = [
     ("native/python/koebe/_options.py", "name not in defaults and name not in positional", "False"),
     ("native/python/koebe/_domain_map.py", 'options.polygon = polygons_of(given["polygon"], source)', "pass"),
     ("native/python/koebe/_result.py", "self.uv.flags.writeable = False", "self.uv.flags.writeable = True"),
-    ("native/options/options.json", '"(0, inf)", "default": 0.0037', '"[0, inf)", "default": 0.0037'),
+    ("native/options/options.json", '{"above": 0}, "default": 0.0037', '{"min": 0}, "default": 0.0037'),
     ("native/core/map_options.h", "int max_sweeps = 50", "int max_sweeps = 49"),
 ]
 

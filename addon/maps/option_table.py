@@ -4,13 +4,15 @@
 import dataclasses
 import json
 import math
-import re
+import operator
 from pathlib import Path
 from typing import Any
 
 PACKED = Path(__file__).with_name("options.json")
 LARGEST = 2**31 - 1  # of whole numbers, here and in the native module
 SOURCE = Path(__file__).parents[2] / "native" / "options" / "options.json"  # of a checkout
+RANGE = {"above": (operator.gt, "above"), "min": (operator.ge, "from"),
+         "max": (operator.le, "to"), "below": (operator.lt, "to below")}  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True)
@@ -20,7 +22,7 @@ class Row:
     kind     "number", "integer", "flag", "choice", "loop", "vertex", "weights" or "text"
     maps     that have it
     choices  (word, label, what it means) each
-    bounds   of a number: least, most, and whether these themselves are left out
+    range    of a number: min, max, and what it must be above or below
     blender  what is other, or more, for the property
     """
 
@@ -31,7 +33,7 @@ class Row:
     does: str
     more: list[str]
     choices: list[list[str]]
-    bounds: tuple[float, float, bool, bool]
+    range: dict[str, float]
     unit: str | None
     is_property: bool
     is_flag: bool
@@ -49,23 +51,15 @@ class Row:
             return "" if value >= 0 else f"{value} is not a vertex index"
         if self.choices:
             return "" if value in self.words else f"{value!r} is not one of {', '.join(self.words)}"
-        least, most, above, below = self.bounds
         if self.kind not in ("number", "integer"):
             return ""
-        inside = (least < value if above else least <= value) and (value < most if below else value <= most)
-        if inside and math.isfinite(value):
+        if math.isfinite(value) and all(RANGE[key][0](value, bound) for key, bound in self.range.items()):
             return ""
-        if above and most == math.inf:
-            return f"{value} is not a number above {least:g}"
-        if most >= LARGEST:
-            return f"{value} is less than {least:g}"
-        return f"{value} is not from {least:g} to {'below ' if below else ''}{most:g}"
+        return f"{value} is not a number {' '.join(f'{RANGE[key][1]} {bound}' for key, bound in self.range.items())}"
 
 
 def _row(entry: dict[str, Any]) -> Row:
     blender = entry.get("blender", {})
-    found = re.fullmatch(r"([\[(])(\S+), (\S+)([\])])", entry.get("range", "(-inf, inf)"))
-    assert found
     default = blender.get("default", entry["default"])
     own = [choice for choice in entry.get("choices", []) if choice[1]]  # those with a label
     fronts = entry.get("in", "command python blender batch").split()
@@ -74,7 +68,7 @@ def _row(entry: dict[str, Any]) -> Row:
         float(default) if entry["kind"] == "number" else default, blender.get("does", entry["does"]),
         [*([] if "more" in blender else entry.get("more", [])), *blender.get("more", [])],
         [*own, *blender.get("choices", [])],
-        (float(found[2]), float(found[3]), found[1] == "(", found[4] == ")"),
+        entry.get("range", {}),
         entry.get("unit"), "blender" in fronts, "batch" in fronts, "python" in fronts, blender,
     )  # fmt: skip
 

@@ -7,23 +7,24 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from ..maps.option_table import LARGEST, ROWS, Row, rows_of
+from ..maps.option_table import ROWS, rows_of
 from ..maps.options import CHOICES, WRITTEN, Options, PartsChoice, TileChoice
 
 PROPERTIES = {"number": FloatProperty, "integer": IntProperty, "flag": BoolProperty, "text": StringProperty,
               "weights": StringProperty}  # fmt: skip
+OWN = ("precision", "subtype", "maxlen", "soft_max")  # of a property, as the table has them
 
 
 def option(name: str) -> Any:
     """The property of an option, for whatever has it."""
     row = ROWS[name]
-    own: dict[str, Any] = {key: row.blender[key] for key in ("precision", "subtype", "maxlen") if key in row.blender}
+    own: dict[str, Any] = {key: row.blender[key] for key in OWN if key in row.blender}
     if "options" in row.blender:
         own["options"] = set(row.blender["options"])
     if row.choices:
         own["items"] = [(word, label, _sentence(means)) for word, label, means in row.choices]
     elif row.kind in ("number", "integer"):
-        own.update(_range(row))
+        own.update(row.blender.get("range", row.range))
     kind = EnumProperty if row.choices else PROPERTIES[row.kind]
     description = ". ".join(map(_sentence, (row.does, *row.more)))
     return kind(name=row.blender["label"], description=description, default=row.default, **own)
@@ -31,16 +32,6 @@ def option(name: str) -> Any:
 
 def _sentence(text: str) -> str:
     return text[0].upper() + text[1:]
-
-
-def _range(row: Row) -> dict[str, Any]:
-    """What the panel offers of a number's range: Blender has no open ones."""
-    least, most = row.blender.get("range", row.bounds[:2])
-    number = int if row.kind == "integer" else float
-    limits = {key: number(value) for key, value in (("min", least), ("max", most)) if abs(value) < LARGEST}
-    if "soft" in row.blender:
-        limits["soft_max"] = row.blender["soft"]
-    return limits
 
 
 def option_names(of: str) -> tuple[str, ...]:

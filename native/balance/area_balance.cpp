@@ -15,7 +15,6 @@ constexpr int most_halvings = 6;
 constexpr double longest_step = 0.8;        // keeps a damped step inside the disk
 constexpr double least_gain = 1e-7;         // of the distortion, in a step
 constexpr double weight_of_the_mean = 0.1;  // squared mean against variance
-constexpr double worth_changing = 0.8;  // of the distortion with the present outer loop: it turns the map inside out
 
 struct Spread {
     double mean, variance;
@@ -120,29 +119,6 @@ Moebius least_area_distortion(const FaceScales& scales, double& distortion)
         return {};
     }
     return total;
-}
-
-int balanced_outer_loop(const FaceScales& scales, const std::vector<Circle>& circles,
-                        const std::vector<int>& candidates)
-{
-    double least = 0.0;
-    least_area_distortion(scales, least);
-    least *= worth_changing;
-    int best = 0;
-    for (const int k : candidates) {
-        if (k == 0) continue;
-        FaceScales turned = scales;
-        const auto arm = scales.centers.array() - circles[k].center;
-        turned.centers = circles[k].radius / arm;
-        turned.log_ratio.array() += 2.0 * std::log(circles[k].radius) - 4.0 * arm.abs().log();  // 2 log |w'|
-        double distortion = 0.0;
-        least_area_distortion(turned, distortion);
-        if (distortion < least) {
-            least = distortion;
-            best = k;
-        }
-    }
-    return best;
 }
 
 }  // namespace koebe

@@ -34,10 +34,4 @@ FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, con
 /// @param distortion the root of the sum that is left
 Moebius least_area_distortion(const FaceScales& scales, double& distortion);
 
-/// The loop that, put on the unit circle by w = r / (z - c) and balanced, leaves the least area distortion.
-/// @param circles of all loops, the outer one, the unit circle, first
-/// @param candidates ranks in circles to choose from, 0 among them; another one must beat it by a fifth
-int balanced_outer_loop(const FaceScales& scales, const std::vector<Circle>& circles,
-                        const std::vector<int>& candidates);
-
 }  // namespace koebe

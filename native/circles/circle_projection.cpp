@@ -1,5 +1,7 @@
 #include "circles/circle_projection.h"
 
+#include "core/tolerances.h"
+
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -82,6 +84,11 @@ VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int
     for (Eigen::Index i = 0; i < n; ++i)
         result[(first + i) % n] = circle.center + circle.radius * arms[first] * std::polar(1.0, turn * angles[i]);
     return result;
+}
+
+bool is_off_circle(const Circle& circle, Complex point)
+{
+    return !(std::abs(std::abs(point - circle.center) - circle.radius) <= circle_tolerance);
 }
 
 }  // namespace koebe

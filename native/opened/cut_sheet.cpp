@@ -1,8 +1,8 @@
 #include "opened/cut_sheet.h"
 
-#include "circles/off_circle.h"
 #include "foldover/untangle.h"
 #include "mesh/topology.h"
+#include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>

@@ -32,7 +32,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double opening_share = 0.1;  // of the progress
 constexpr double small_share = 0.1;    // of all faces: smaller pieces are mapped side by side
 constexpr double least_share = 0.1;    // dimensionless: no disk is smaller than this part of the mean one
-constexpr double disk_margin = 0.02;   // between two disks, in units of the UV square
 constexpr int most_packings = 5;  // pieces with flips, which come from rounding, are drawn twice as large each time
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -193,7 +192,7 @@ std::vector<double> radii_by_area(const std::vector<SurfacePiece>& pieces, const
 /// Disks in the square [-1, 1]^2.
 std::vector<Circle> packed(const std::vector<double>& radii)
 {
-    std::vector<Circle> disks = pack_disks(radii, disk_margin);
+    std::vector<Circle> disks = pack_disks(radii);
     for (Circle& disk : disks) disk = {2.0 * disk.center - Complex(1.0, 1.0), 2.0 * disk.radius};
     return disks;
 }

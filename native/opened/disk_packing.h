@@ -14,6 +14,6 @@ namespace koebe {
 /// @param radii positive, any unit
 /// @param margin between two disks, and half of it to the border, in units of the square; of many disks less, such that
 /// they have room
-KOEBE_API std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin);
+KOEBE_API std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin = 0.02);
 
 }  // namespace koebe

@@ -1,7 +1,7 @@
 #include "pipeline/map_report.h"
 
 #include "circles/circle_fit.h"
-#include "circles/off_circle.h"
+#include "circles/circle_projection.h"
 
 #include <algorithm>
 #include <utility>

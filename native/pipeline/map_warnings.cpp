@@ -1,6 +1,5 @@
 #include "pipeline/map_warnings.h"
 
-#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "mesh/connectivity.h"
 #include "quality/shared_warnings.h"

@@ -1,7 +1,5 @@
 #include "pipeline/outer_loop.h"
 
-#include "balance/area_balance.h"
-
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -10,7 +8,8 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t most_candidates = 8;  // the longest loops
-constexpr Eigen::Index sample = 2000;       // faces to judge by
+constexpr double worth_changing = 0.8;  // of the distortion with the present outer loop: it turns the map inside out
+constexpr Eigen::Index sample = 2000;   // faces to judge by
 
 template <typename T>
 void move_to_front(std::vector<T>& list, int place)
@@ -19,6 +18,29 @@ void move_to_front(std::vector<T>& list, int place)
 }
 
 }  // namespace
+
+int balanced_outer_loop(const FaceScales& scales, const std::vector<Circle>& circles,
+                        const std::vector<int>& candidates)
+{
+    double least = 0.0;
+    least_area_distortion(scales, least);
+    least *= worth_changing;
+    int best = 0;
+    for (const int k : candidates) {
+        if (k == 0) continue;
+        FaceScales turned = scales;
+        const auto arm = scales.centers.array() - circles[k].center;
+        turned.centers = circles[k].radius / arm;
+        turned.log_ratio.array() += 2.0 * std::log(circles[k].radius) - 4.0 * arm.abs().log();  // 2 log |w'|
+        double distortion = 0.0;
+        least_area_distortion(turned, distortion);
+        if (distortion < least) {
+            least = distortion;
+            best = k;
+        }
+    }
+    return best;
+}
 
 int better_outer_loop(const MapInput& input, const CircleMap& map)
 {

@@ -34,4 +34,14 @@ void warn_not_one_to_one(const std::vector<Index>& flipped, const std::vector<In
     warnings.push_back(std::move(warning));
 }
 
+void warn_off_circle(std::vector<Index> vertices, std::vector<Warning>& warnings)
+{
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    if (vertices.empty()) return;
+    std::string sentence =
+        counted(vertices.size(), "vertex") + " taken off the circle, where straight triangles cannot follow it";
+    warnings.push_back({WarningKind::off_circle, std::move(sentence), std::move(vertices)});
+}
+
 }  // namespace koebe

@@ -19,4 +19,7 @@ void warn_not_even(const std::vector<Index>& faces, std::vector<Warning>& warnin
 void warn_not_one_to_one(const std::vector<Index>& flipped, const std::vector<Index>& below_resolution,
                          const std::vector<std::string>& others, std::vector<Warning>& warnings);
 
+/// That loop vertices are not on their circles, if there are any. @param vertices in any order, each once or more
+void warn_off_circle(std::vector<Index> vertices, std::vector<Warning>& warnings);
+
 }  // namespace koebe

@@ -1,7 +1,6 @@
 #include "schottky/schottky_map.h"
 
 #include "canonical/corner_map.h"
-#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"

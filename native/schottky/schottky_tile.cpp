@@ -1,6 +1,6 @@
 #include "schottky/schottky_tile.h"
 
-#include "circles/off_circle.h"
+#include "circles/circle_projection.h"
 #include "core/errors.h"
 #include "core/tolerances.h"
 #include "foldover/untangle.h"

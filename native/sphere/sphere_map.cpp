@@ -1,7 +1,6 @@
 #include "sphere/sphere_map.h"
 
 #include "canonical/corner_map.h"
-#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"

@@ -68,7 +68,7 @@ struct TileResult : CornerMapReport {
     std::vector<double> changes;  ///< of the circles in each sweep
 };
 
-/// Maps a surface of genus 1 with any number of holes conformally to a flat torus, its holes round (torus_circles.h).
+/// Maps a surface of genus 1 with any number of holes conformally to a flat torus, its holes round.
 /// The UVs are a parallelogram of the torus, cut along edges in the UVs alone; the two sides of the cut differ by
 /// periods to the last bit of 32-bit floats, so its copies tile the plane.
 /// @throws InputError, TopologyError, SolverError, Cancelled; what is not one to one is reported as not converged

@@ -1,7 +1,6 @@
 #include "tiles/tile_result.h"
 
 #include "canonical/corner_map.h"
-#include "circles/off_circle.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "mesh/connectivity.h"

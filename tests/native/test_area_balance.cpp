@@ -2,6 +2,7 @@
 #include "circle_domain.h"
 #include "circles/circle_fit.h"
 #include "core/errors.h"
+#include "pipeline/outer_loop.h"
 #include "pipeline/uniformize.h"
 
 #include <gtest/gtest.h>

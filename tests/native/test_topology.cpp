@@ -84,10 +84,13 @@ TEST(Topology, loops_keep_the_surface_on_their_left)
 TEST(Topology, faces_are_turned_to_the_majority)
 {
     Triangles mesh = torus(6, {0});
-    std::swap(mesh(3, 0), mesh(3, 1));
-    std::swap(mesh(40, 1), mesh(40, 2));
+    std::vector<Index> turned;
+    for (Index f = 3; f < mesh.rows(); f += f % 5 == 3 ? 1 : 4) {  // two of five
+        std::swap(mesh(f, 0), mesh(f, 1));
+        turned.push_back(f);
+    }
     const Surface surface = analyze_surface(mesh, 36);
-    EXPECT_EQ(surface.reoriented, (std::vector<Index>{3, 40}));
+    EXPECT_EQ(surface.reoriented, turned);
     for (Index h = 0; h < surface.triangles.size(); ++h)
         if (surface.twin[h] != no_twin) {
             EXPECT_EQ(origin(surface.triangles, h), target(surface.triangles, surface.twin[h]));

@@ -20,6 +20,12 @@ def test_disks_keep_their_proportions_their_distance_and_to_the_square(count, ma
         assert np.pi * (radii**2).sum() > 0.4  # and it wastes no more than this
 
 
+@pytest.mark.parametrize("count", [12, 14, 16])
+def test_small_disks_nest_beside_a_large_one(count):
+    _, radii = koebe.pack_disks([3.0] + [1.0] * (count - 1), 0.0)
+    assert np.pi * (radii**2).sum() > 0.65  # of the square; 0.71 to 0.77 were found
+
+
 def test_cut_maps_lie_as_their_disks_are_packed():
     """Two tetrahedra, one twice as large: their disks have the places that pack_disks gives."""
     tetrahedron = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])

@@ -79,14 +79,14 @@ void add_batch_options(CLI::App& app, Request& request)
         ->check(whole_number(0))
         ->capture_default_str();
     app.add_option("--time-limit", request.time_limit, "seconds for a file; none if it is not given")
-        ->check(positive_number())
+        ->check(number_in({.above = 0.0}))
         ->type_name("SECONDS");
     app.add_option("--format", request.format, "of the meshes that are written")
         ->check(CLI::IsMember({"obj", "ply"}))
         ->capture_default_str();
     app.add_flag("--retry", request.retry, "try meshes again that could not be mapped");
     app.add_option("--stale", request.stale, "seconds without a sign of life until another host's claim is taken over")
-        ->check(positive_number())
+        ->check(number_in({.above = 0.0}))
         ->capture_default_str()
         ->type_name("SECONDS");
     CLI::Option* const list =

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <utility>
 
 namespace koebe::cli {
@@ -84,8 +83,7 @@ const OptionRow* find_row(std::string_view map, std::string_view name)
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value)
 {
     CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));
-    return finished(option->check(number_between(row.least, row.most, row.above, row.below))->capture_default_str(),
-                    row);
+    return finished(option->check(number_in(row.range))->capture_default_str(), row);
 }
 
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double>& value)
@@ -97,7 +95,7 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value)
 {
     CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));
-    option->check(whole_number(static_cast<int>(row.least)));
+    option->check(whole_number(static_cast<int>(std::max(row.range.min, 0.0))));
     if (row.kind != "vertex") option->capture_default_str();
     return finished(option, row);
 }

@@ -1,6 +1,7 @@
 // Flags made of the table of options (options/options.json), and what they were set to, for reports.
 #pragma once
 
+#include "cli/options/validators.h"
 #include "core/types.h"
 #include "iteration/sweep_order.h"
 #include "pipeline/options.h"
@@ -21,8 +22,7 @@ namespace koebe::cli {
 /// A row of the table, as far as the command has it.
 struct OptionRow {
     std::string_view name, maps, does, kind, unit, words, with;
-    double least, most;  ///< of a number
-    bool above, below;   ///< not these themselves
+    NumberRange range;
 
     bool is_of(std::string_view map) const;
     std::string flag() const;  ///< "--max-sweeps"

@@ -30,23 +30,18 @@ CLI::Validator whole_number(int least)
     return {check, "", "whole_number"};
 }
 
-CLI::Validator positive_number() { return number_between(0.0, INFINITY, true, true); }
-
-CLI::Validator number_between(double least, double most, bool above, bool below)
+CLI::Validator number_in(const NumberRange& range)
 {
-    const auto text = [](double bound) {
-        std::ostringstream stream;
-        stream << bound;
-        return stream.str();
-    };
-    std::string range = (above ? "above " : "from ") + text(least);
-    if (std::isfinite(most)) range += (below ? " to below " : " to ") + text(most);
-    const auto check = [=](const std::string& word) -> std::string {
+    std::ostringstream words;
+    words << (std::isfinite(range.above) ? "above " : "from ") << std::max(range.above, range.min);
+    if (std::isfinite(range.max)) words << " to " << range.max;
+    if (std::isfinite(range.below)) words << " to below " << range.below;
+    const auto check = [range, said = words.str()](const std::string& word) -> std::string {
         double number = 0.0;
-        if (parse(word, number) && std::isfinite(number) && (above ? number > least : number >= least) &&
-            (below ? number < most : number <= most))
+        if (parse(word, number) && std::isfinite(number) && number > range.above && number >= range.min &&
+            number <= range.max && number < range.below)
             return {};
-        return "must be a finite number " + range + "; got '" + word + "'";
+        return "must be a finite number " + said + "; got '" + word + "'";
     };
     return {check, "", "number"};
 }

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,13 @@ namespace koebe::cli {
 /// A whole number from `least` on that a 32-bit int can hold.
 CLI::Validator whole_number(int least);
 
-/// A finite number above zero.
-CLI::Validator positive_number();
+/// From `min` to `max`, above `above`, below `below`: the words of the table of options, sorted.
+struct NumberRange {
+    double above = -INFINITY, below = INFINITY, max = INFINITY, min = -INFINITY;
+};
 
-/// A finite number between bounds.
-/// @param above, below whether the bounds themselves are left out
-CLI::Validator number_between(double least, double most, bool above, bool below);
+/// A finite number of a range.
+CLI::Validator number_in(const NumberRange& range);
 
 /// One of the words or a vertex, counted from 0.
 CLI::Validator outer_loop_choice(std::vector<std::string> words);

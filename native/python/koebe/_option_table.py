@@ -2,14 +2,15 @@
 
 import functools
 import json
-import math
-import re
+import operator
 import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 _BULLET = 13  # characters of a name in a docstring
+_RANGE = {"above": (operator.gt, "above"), "min": (operator.ge, "from"),
+          "max": (operator.le, "to"), "below": (operator.lt, "to below")}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,7 @@ class Row:
     default   what it is without the option
     given     the same as a call has it: None where the call may leave it to the table
     words     of a choice, or of a loop, with what each means
-    bounds    of a number: least, most, and whether these themselves are left out
+    range     of a number: min, max, and what it must be above or below
     """
 
     name: str
@@ -29,21 +30,17 @@ class Row:
     does: str
     more: tuple[str, ...]
     words: dict[str, str]
-    bounds: tuple[float, float, bool, bool]
+    range: dict[str, Any]
     of_mesh_engine: bool
 
     @property
     def range_text(self) -> str:
         """The range of a number in words."""
-        least, most, above, below = self.bounds
-        if (least, most, above) == (0.0, math.inf, True):
-            return "positive and finite"
-        return f"from {least:g} to {most:g}" if not below else f"from {least:g} to below {most:g}"
+        return " ".join(f"{_RANGE[key][1]} {bound}" for key, bound in self.range.items())
 
     def has(self, number: float) -> bool:
         """Whether a number is in the range."""
-        least, most, above, below = self.bounds
-        return (least < number if above else least <= number) and (number < most if below else number <= most)
+        return all(_RANGE[key][0](number, bound) for key, bound in self.range.items())
 
     def text(self) -> str:
         """What a docstring says of the option."""
@@ -59,14 +56,6 @@ class Row:
         )
 
 
-def _bounds(text: str) -> tuple[float, float, bool, bool]:
-    """The range as mathematics writes it: [0, 1) is from 0 to below 1."""
-    found = re.fullmatch(r"([\[(])(\S+), (\S+)([\])])", text)
-    if not found:
-        raise ValueError(f"{text!r} is no range")
-    return float(found[2]), float(found[3]), found[1] == "(", found[4] == ")"
-
-
 @functools.cache
 def rows(of: str) -> dict[str, Row]:
     """The options of a map in Python, by their names."""
@@ -80,7 +69,7 @@ def rows(of: str) -> dict[str, Row]:
             row.get("of", {}).get(of, row["does"]),
             tuple(row.get("more", ())),
             {word: means for word, _, means in row.get("choices", ())},
-            _bounds(row.get("range", "(-inf, inf)")),
+            row.get("range", {}),
             "with" in row,
         )
         for row in table

@@ -83,7 +83,7 @@ def _checked(row: Row, value: Any) -> Any:
     if row.kind == "number":
         return number(value, row)
     if row.kind == "integer":
-        return whole(value, row.name, *map(int, row.bounds[:2]))
+        return whole(value, row.name, row.range["min"], row.range["max"])
     if row.kind == "flag":
         return flag(value, row.name)
     if row.kind == "choice":
@@ -153,7 +153,7 @@ def number(value: Any, row: Row) -> float:
     except OverflowError:
         found = math.inf
     if not (math.isfinite(found) and row.has(found)):
-        raise OptionError(f"{row.name} must be {row.range_text}, not {value!r}")
+        raise OptionError(f"{row.name} must be a finite number {row.range_text}, not {value!r}")
     return found
 
 

@@ -1,0 +1,20 @@
+// When the Koebe iteration ends: laws.
+#include "iteration/convergence.h"
+
+#include <gtest/gtest.h>
+
+namespace koebe {
+
+TEST(Convergence, circles_change_by_the_distance_of_their_centres_and_radii)
+{
+    CircleState before, after;
+    before.circles = {{{0.0, 0.0}, 1.0}, {{0.1, 0.2}, 0.3}, {{-0.4, 0.1}, 0.2}};
+    after = before;
+    after.circles[1].center += Complex(0.03, 0.04);
+    after.circles[2].radius -= 0.12;
+    EXPECT_NEAR(circle_change(before, after), 0.13, 1e-15);
+    EXPECT_FALSE(has_converged(before, after, 0.129));
+    EXPECT_TRUE(has_converged(before, after, 0.131));
+}
+
+}  // namespace koebe
