@@ -89,7 +89,7 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value)
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double>& value)
 {
     CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));
-    return finished(option->check(number_between(row.least, row.most, row.above, row.below)), row);
+    return finished(option->check(number_in(row.range)), row);
 }
 
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value)
