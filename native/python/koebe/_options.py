@@ -78,7 +78,7 @@ def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, d
 
 def _checked(row: Row, value: Any) -> Any:
     """The value of an option of any kind, as reports have it."""
-    if value is None and row.default is None:
+    if value is None and row.default is None and row.kind in ("number", "vertex"):
         return None
     if row.kind == "number":
         return number(value, row)
