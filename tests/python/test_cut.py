@@ -106,6 +106,14 @@ def test_faces_without_a_place_stay_in_the_file(tmp_path):
     assert kinds["left_out"] == [len(faces) - 2]
 
 
+def test_a_turned_face_is_named_as_the_file_counts_it(tmp_path):
+    vertices, quads = torus()
+    quads[5] = quads[5][::-1]
+    (tmp_path / "in.obj").write_text(obj_text(vertices, quads))
+    assert command("torus", "in.obj", "out.obj", "--json", "r.json", cwd=tmp_path).returncode == 0
+    assert json.loads((tmp_path / "r.json").read_text())["turned"] == [5]
+
+
 def test_a_polygon_that_is_none_is_left_out(tmp_path):
     vertices, quads = perforated()
     faces = [*quads.tolist(), [0, 1, 0, 2]]
