@@ -20,6 +20,7 @@ using Mobility = FoldoverProblem::Mobility;
 constexpr double least_epsilon = 1e-6;  // Garanzha et al. 2021, section 3.2
 constexpr double shift = 1e-9;          // of the Hessian's diagonal, over itself
 constexpr double armijo = 1e-4;
+constexpr double rounded = 1e-14;  // of a sum whose least value is known: what rounding may add to it
 constexpr int halvings = 24;
 constexpr int patience = 30;  // iterations without a better worst determinant, while folded
 
@@ -467,7 +468,7 @@ private:
             PlanarPoints trial = moved(step, share, tracks);
             const Worth there = worth(trial, periods);
             if (options_.strict && !(there.worst > 0.0)) continue;
-            if (there.energy <= before + armijo * share * slope) {
+            if (there.energy <= before + armijo * share * slope + (options_.least > 0.0 ? rounded * before : 0.0)) {
                 if (options_.refuses && options_.refuses(trial)) {
                     hindered_ = true;
                     continue;

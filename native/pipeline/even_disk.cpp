@@ -16,6 +16,8 @@
 namespace koebe {
 namespace {
 
+constexpr double shortest_drawn = 1e-7;  // disk units: a narrower loop tells nothing of its turn
+
 Complex at(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
 std::vector<RoundLoop> round_loops(const MapInput& whole, const CircleMap& map, double scale)
@@ -96,7 +98,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     if (loops == LoopForm::round) remove_flips(whole, relaxed, context);
     MapFaults faults = find_faults(triangles, whole.loops, relaxed.uv, relaxed.circles);
     faults.bad_circles.clear();  // that of a coarse loop may meet another, though the loops are apart
-    if (faults.any()) return false;
+    if (faults.any() || !turned_loops(whole.loops, relaxed.uv, shortest_drawn).empty()) return false;
     map = std::move(relaxed);
     return true;
 }

@@ -34,6 +34,7 @@ constexpr double hopeless = 100.0;      // ratio of a face's stretches: one that
 constexpr std::size_t any_circle = 3;   // points lie on a circle wherever they are
 constexpr double least_gap = 1e-4;      // between loops, over the extent
 constexpr double rounding = 1.5e-7;     // twice the area a face can lose by 32-bit floats, over its edge and the extent
+constexpr double roomy = 1000.0;         // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
 
 using Corners = std::array<Complex, 3>;
@@ -61,6 +62,7 @@ public:
         std::iota(all.begin(), all.end(), 0);
         shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
         ride();
+        if (!apart(flat.points)) shortest_ = shortest_drawn * extent;
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
         track_of_.assign(mobility_.size(), -1);
         for (std::size_t k = 0; k < flat.round.size(); ++k)
@@ -184,10 +186,10 @@ private:
         if (flat_.periods)
             return std::ranges::all_of(flat_.loops, [&](const VertexLoop& loop) {
                 return enclosed_area(loop, points) < 0.0 &&
-                       crossing_boundary_edges({loop}, points, shortest_drawn * extent_).empty();
+                       crossing_boundary_edges({loop}, points, shortest_).empty();
             });
-        return crossing_boundary_edges(flat_.loops, points, shortest_drawn * extent_).empty() &&
-               turned_loops(flat_.loops, points, shortest_drawn * extent_).empty();
+        return crossing_boundary_edges(flat_.loops, points, shortest_).empty() &&
+               turned_loops(flat_.loops, points, shortest_).empty();
     }
 
     /// The share of the surface's area in faces that are far from their size.
@@ -224,7 +226,8 @@ private:
             problem.reference[f] *= std::sqrt(wanted / shapes_.areas[f]);
             const FaceMap map = face_map(problem.reference[f], f);
             problem.weight[f] *= std::min(1.0, hopeless * map.determinant() / map.squared_norm());
-            problem.floor[f] = std::min(0.5 * rounding * extent_ * longest_edge(at), 0.5 * now) / wanted;
+            const double least = 0.5 * rounding * extent_ * longest_edge(at);
+            problem.floor[f] = std::min(now, wanted) > roomy * least ? 0.0 : std::min(least, 0.5 * now) / wanted;
         }
         problem.mobility = mobility_;
         problem.track_of = track_of_;
@@ -292,6 +295,7 @@ private:
     FlatSurface flat_;
     double weight_, extent_;
     int most_steps_;
+    double shortest_ = 0.0;  // edges that are looked at, in the unit of the points
     ExecutionContext& context_;
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
