@@ -10,6 +10,7 @@
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
+#include "relax/even_map.h"
 
 #include <algorithm>
 #include <array>
@@ -139,7 +140,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
 {
     const auto begin = std::chrono::steady_clock::now();
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
-    if (options.even && !(*options.even >= 0.0 && *options.even <= 1.0)) throw InputError("even must be from 0 to 1");
+    if (options.even) require_even(*options.even);
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     PartsLayout layout = parts_layout(vertices, triangles, options, context);

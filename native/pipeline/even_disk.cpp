@@ -1,7 +1,6 @@
 #include "pipeline/even_disk.h"
 
 #include "core/errors.h"
-#include "evenness/part_mesh.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
 #include "pipeline/normalization.h"
@@ -57,9 +56,9 @@ void bring_home(const Circle& outer, PlanarPoints& points)
 
 }  // namespace
 
-void require_even(double even, Index center)
+void require_even_disk(double even, Index center)
 {
-    if (!(even >= 0.0 && even <= 1.0)) throw InputError("even must be from 0 to 1");
+    require_even(even);
     if (even > 0.0 && center >= 0)
         throw InputError("a map that is made more even keeps no vertex at the centre", ElementKind::vertices, {center});
 }
@@ -69,7 +68,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     const Triangles& triangles = whole.surface.triangles;
     double image = std::abs(enclosed_area(whole.loops[0], map.uv));
     for (std::size_t k = 1; k < whole.loops.size(); ++k) image -= std::abs(enclosed_area(whole.loops[k], map.uv));
-    const double scale = std::sqrt(face_areas(whole.vertices, triangles).sum() / image);
+    const double scale = scale_to_size(whole.vertices, triangles, image);
     if (!std::isfinite(scale) || !(scale > 0.0)) return false;
     CircleMap relaxed = map;
     relaxed.uv *= scale;
@@ -87,7 +86,8 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
             continue;
         }
         circle = round[k].track.circle;
-        circle = k == 0 ? Circle{} : Circle{(circle.center - outer.center) / outer.radius, circle.radius / outer.radius};
+        circle =
+            k == 0 ? Circle{} : Circle{(circle.center - outer.center) / outer.radius, circle.radius / outer.radius};
         for (const Index v : round[k].vertices) {
             const Complex arm = at(relaxed.uv, v) - circle.center;
             const Complex place = circle.center + circle.radius / std::abs(arm) * arm;

@@ -9,7 +9,7 @@
 namespace koebe {
 
 /// @throws InputError even is not from 0 to 1, or the surface names a centre, which would not stay at 0
-void require_even(double even, Index center);
+void require_even_disk(double even, Index center);
 
 /// Relaxes the map (relax/even_map.h). Round loops: each stays on a circle, that of the outer one brought back to the
 /// unit circle. Free ones: the map lies in the unit disk, its circles are those that fit the loops best.

@@ -139,8 +139,8 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
                              ExecutionContext& context)
 {
     UniformizeResult result;
-    require_even(options.even, options.center);
-    result.even = 0.0;
+    require_even_disk(options.even, options.center);
+    result.even = 0.0;  // unless it is made more even below
     result.method = options.method;
     result.engine = options.engine;
     result.center = options.center;

@@ -7,6 +7,9 @@
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 #include "relax/void_mesh.h"
+#include "surface/laplacian.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -34,7 +37,7 @@ constexpr double hopeless = 100.0;      // ratio of a face's stretches: one that
 constexpr std::size_t any_circle = 3;   // points lie on a circle wherever they are
 constexpr double least_gap = 1e-4;      // between loops, over the extent
 constexpr double rounding = 1.5e-7;     // twice the area a face can lose by 32-bit floats, over its edge and the extent
-constexpr double roomy = 1000.0;         // times that: a face as large is not hindered
+constexpr double roomy = 1000.0;        // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
 
 using Corners = std::array<Complex, 3>;
@@ -185,8 +188,7 @@ private:
     {
         if (flat_.periods)
             return std::ranges::all_of(flat_.loops, [&](const VertexLoop& loop) {
-                return enclosed_area(loop, points) < 0.0 &&
-                       crossing_boundary_edges({loop}, points, shortest_).empty();
+                return enclosed_area(loop, points) < 0.0 && crossing_boundary_edges({loop}, points, shortest_).empty();
             });
         return crossing_boundary_edges(flat_.loops, points, shortest_).empty() &&
                turned_loops(flat_.loops, points, shortest_).empty();
@@ -303,6 +305,20 @@ private:
 };
 
 }  // namespace
+
+void require_even(double even)
+{
+    if (!(even >= 0.0 && even <= 1.0)) throw InputError("even must be from 0 to 1");
+}
+
+double scale_to_size(const Vertices& vertices, const Triangles& triangles, double image_area)
+{
+    const EdgeLengths lengths = edge_lengths(vertices, triangles);
+    double area = 0.0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        area += triangle_area(lengths(f, 0), lengths(f, 1), lengths(f, 2));
+    return std::sqrt(area / image_area);
+}
 
 double area_weight(double even) { return even / (1.1 - even); }
 

@@ -10,6 +10,12 @@
 
 namespace koebe {
 
+/// @throws InputError E is not from 0 to 1
+void require_even(double even);
+
+/// What a map is to be scaled by for its area to be the surface's. @param image_area of the map
+double scale_to_size(const Vertices& vertices, const Triangles& triangles, double image_area);
+
 /// What areas weigh against angles: t = E / (1.1 - E), 0 at the conformal end, 1/10 of E = 0.1, and 10 at E = 1.
 /// @param even E, 0 to 1
 double area_weight(double even);

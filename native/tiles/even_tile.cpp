@@ -1,7 +1,6 @@
 #include "tiles/even_tile.h"
 
 #include "core/tolerances.h"
-#include "evenness/part_mesh.h"
 #include "planar/planar_predicates.h"
 #include "relax/even_map.h"
 
@@ -62,8 +61,7 @@ std::vector<RoundLoop> round_loops(const PeriodicSurface& domain, LoopForm loops
 bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, FlatMap& map, ExecutionContext& context)
 {
     const Lifts lifts = lifts_of(domain);
-    const double scale =
-        std::sqrt(face_areas(domain.vertices, domain.surface.triangles).sum() / image_area(domain, lifts, map));
+    const double scale = scale_to_size(domain.vertices, domain.surface.triangles, image_area(domain, lifts, map));
     if (!std::isfinite(scale) || !(scale > 0.0)) return false;
     const VectorXcd z = scale * map.z;
     PlanarPoints points(z.size(), 2);

@@ -2,9 +2,9 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
-#include "core/errors.h"
 #include "mesh/connectivity.h"
 #include "quality/shared_warnings.h"
+#include "relax/even_map.h"
 #include "tiles/even_tile.h"
 #include "tiles/tile_repair.h"
 
@@ -130,7 +130,7 @@ TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, 
                           ExecutionContext& context, TileMap* map)
 {
     const auto compute = [map](const CanonicalMesh& mesh, TileOptions& here, ExecutionContext& own) {
-        if (!(here.even >= 0.0 && here.even <= 1.0)) throw InputError("even must be from 0 to 1");
+        require_even(here.even);
         here.outer = mesh.vertex(here.outer);
         here.inner = mesh.vertex(here.inner);
         return map(mesh.vertices, mesh.triangles, here, own);

@@ -53,7 +53,7 @@ def test_every_row_is_of_the_form():
         assert row["kind"] != "choice" or row["default"] in [word for word, _, _ in row["choices"]], row["name"]
         if row["kind"] == "number":
             assert {*row["range"]} in ({"above"}, {"min", "max"}, {"min", "below"}), row["name"]
-            if "python" in row.get("in", "python"):
+            if "python" in row.get("in", "python") and row["default"] is not None:
                 assert _option_table.rows(row["maps"].split()[0])[row["name"]].has(row["default"]), row["name"]
 
 
@@ -66,12 +66,17 @@ def test_a_name_is_one_option_of_a_map_and_one_property():
     assert len(names) == len(set(names))
 
 
+def may_be_none(row):
+    """Whether a number need not be given: then the map finds it."""
+    return row["kind"] == "number" and row["default"] is None
+
+
 @pytest.mark.parametrize("of", MAPS)
 def test_a_functions_types_are_the_tables(of):
     function, typed, _ = MAPS[of]
     hints = {name: name_of(hint) for name, hint in typing.get_type_hints(typed).items() if name not in BESIDE}
     expected = {
-        name: TYPES[row["kind"]] + (" | None" if "python" in row else "")
+        name: TYPES[row["kind"]] + (" | None" if "python" in row or may_be_none(row) else "")
         for name, row in rows_in("python", of).items()
         if (of, name) != ("uniformize", "cut")  # by which the result's type is known
     }
@@ -131,7 +136,7 @@ def test_the_commands_flags_are_the_tables(of):
     assert flags - files == expected
     shown = " ".join(text.split())
     for row in rows_in("command", of).values():
-        if row["kind"] == "number":  # CLI11 writes =1 or [1]
+        if row["kind"] == "number" and row["default"] is not None:  # CLI11 writes =1 or [1]
             number = re.search(
                 rf"--{row['name'].replace('_', '-')} \w+(?:=| \[)([^]\s]+)", shown
             )  # newer or older CLI11
@@ -194,8 +199,10 @@ def test_docstrings_say_what_the_table_says(of):
 
 def test_defaults_may_be_left_to_the_table():
     _, said = _options.filled("parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | {
-        "cut": True, "round_cuts": False, "most_lost": 0.5})  # fmt: skip
-    assert said == {"price": 0.0037, "cut": True, "round_cuts": False, "most_lost": 0.5}
+        "cut": True, "loops": "free", "round_cuts": False, "most_lost": 0.5})  # fmt: skip
+    assert said == {
+        "even": None, "loops": "free", "price": 0.0037, "cut": True, "round_cuts": False, "most_lost": 0.5
+    }  # fmt: skip
     with pytest.raises(TypeError, match="most_lost"):
         koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)
 
@@ -215,7 +222,7 @@ def test_the_addon_hands_every_option_to_the_solver(addon):
     chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(), "sphere": options.SphereChoice(),
               "torus": options.TileChoice("torus"), "ring": options.TileChoice("ring"),
               "schottky": options.SchottkyChoice()}  # fmt: skip
-    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance"}
+    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "even", "loops"}
     engine = {row["name"] for row in TABLE if "with" in row}
     for of, choice in chosen.items():
         assert {*choice.solver_arguments()} == {*rows_in("python", of)} - by_island - engine, of
