@@ -71,7 +71,8 @@ public:
             const bool has_moved = newton_step(before, now);
             result.hindered = hindered_;
             if (!has_moved || hindered_) break;
-            if (before - now.energy < (was_right ? options_.settled : options_.stalled) * (before - options_.least)) break;
+            if (before - now.energy < (was_right ? options_.settled : options_.stalled) * (before - options_.least))
+                break;
         }
         result.foldover_free = now.worst > 0.0;
         return result;
@@ -343,8 +344,8 @@ private:
         double energy = 0.0;
         for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
             const WantedShape& shape = shapes_[f];
-            const FaceDerivatives face =
-                energy_.derivatives(face_map(problem_.points, problem_.periods, f), problem_.floor[f], weight(f), shape);
+            const FaceDerivatives face = energy_.derivatives(face_map(problem_.points, problem_.periods, f),
+                                                             problem_.floor[f], weight(f), shape);
             energy += face.term;
             if (is_shared(f)) {
                 add_by_columns(f, face);
@@ -443,8 +444,7 @@ private:
         const Track& before = problem_.tracks[problem_.track_of[v]];
         const Track& after = tracks[problem_.track_of[v]];
         const Complex place(problem_.points(v, 0), problem_.points(v, 1));
-        if (after.straight)
-            return after.point + (dot(place - before.point, before.direction) + way) * after.direction;
+        if (after.straight) return after.point + (dot(place - before.point, before.direction) + way) * after.direction;
         const double angle = std::arg(place - before.circle.center) + way / before.circle.radius;
         return after.circle.center + std::polar(after.circle.radius, angle);
     }

@@ -15,7 +15,7 @@ namespace koebe {
 /// A circle, or a straight line, that is itself an unknown: its centre and radius, or its distance along its normal.
 struct Track {
     bool straight = false;
-    Circle circle;                      ///< unless it is straight
+    Circle circle;                       ///< unless it is straight
     Complex point, direction{1.0, 0.0};  ///< a point of a straight one, and where it leads, of length 1
 };
 
@@ -37,7 +37,7 @@ struct FoldoverProblem {
     std::vector<Track> tracks;               ///< changed with the points
     /// How many of each period are added to the places of a face's corners; empty: none.
     std::vector<std::array<std::array<int, 2>, 3>> lift;
-    std::vector<Complex> periods;            ///< unknowns too: the first one's length, the second one
+    std::vector<Complex> periods;  ///< unknowns too: the first one's length, the second one
 };
 
 struct FoldoverOptions {

@@ -19,7 +19,8 @@ struct PatchShapes {
 };
 
 /// Areas are the surface's by the local conformal factor, which is taken from edges, as the areas of the map may be
-/// folded, but for true size; for equilateral shapes, their mean around each face. A face is at least 1e-2 of its longest edge high.
+/// folded, but for true size; for equilateral shapes, their mean around each face. A face is at least 1e-2 of its
+/// longest edge high.
 /// @param uv (V, 2) the map as it is @param faces the faces to take
 PatchShapes patch_shapes(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
                          const std::vector<Index>& faces, PatchShape shape);

@@ -5,8 +5,8 @@
 #include "execution/execution.h"
 #include "parts/flat_part.h"
 
-#include <optional>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -20,6 +20,6 @@ struct EvenParts {
 /// @param even E; none: the largest of some at which the mean angle error is no worse than that of the flat parts
 /// @param loops whether vertices that are held stay on the circles and lines of their rims
 EvenParts make_parts_even(std::vector<FlatPart>& flats, std::optional<double> even, LoopForm loops, int threads,
-                       ExecutionContext& context);
+                          ExecutionContext& context);
 
 }  // namespace koebe

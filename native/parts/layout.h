@@ -20,9 +20,9 @@ struct PartsLayout {
     std::vector<Index> crossing;    ///< and their faces
     double slit_length = 0.0;
     int handles_cut = 0;
-    double even = 0.0;              ///< as the parts were made,
-    std::vector<Index> not_even;    ///< but for these faces
-    double maps = 0.0;  ///< faces mapped, in faces of the mesh
+    double even = 0.0;            ///< as the parts were made,
+    std::vector<Index> not_even;  ///< but for these faces
+    double maps = 0.0;            ///< faces mapped, in faces of the mesh
 };
 
 /// @throws as parts_of

@@ -26,8 +26,8 @@ struct PartsOptions : MapOptions {
     /// Rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges, which
     /// costs no angles. The surface's own loops lie on circles and straight ends either way.
     bool round_cuts = false;
-    /// From 0, conformal, to 1, true to size (relax/even_map.h); none: the largest of some at which the mean angle error
-    /// is no worse than at 0.
+    /// From 0, conformal, to 1, true to size (relax/even_map.h); none: the largest of some at which the mean angle
+    /// error is no worse than at 0.
     std::optional<double> even = {};
     LoopForm loops = LoopForm::round;  ///< of the surface's own loops, with `even`; rims at cuts are free
     int threads = 0;  ///< at most; 0: as many as the machine has. The result is the same for any number

@@ -24,7 +24,7 @@ struct UniformizeOptions : IterationOptions {
     /// With Balance::area, of each vertex, 0 to 1: the balance takes the surface there for most_important^w times as
     /// large in length, so that it gets more texels; empty: all alike. Equal ones change nothing.
     std::vector<double> importance = {};
-    bool polish = false;  ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    bool polish = false;               ///< least angle error with the circles as they are, at the end (angle_polish.h)
     double even = 0.0;                 ///< 0: conformal, 1: true to size (pipeline/even_disk.h)
     LoopForm loops = LoopForm::round;  ///< with `even`
     bool repair = true;  ///< false: as the iteration leaves it, faces may be turned over; for maps that are only judged

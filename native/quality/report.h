@@ -32,7 +32,7 @@ struct MapReport {
     Index vertex_count = 0, face_count = 0;
     std::optional<double> even = {};  ///< of a map that can be made more even: how much it is (relax/even_map.h)
     Index overlaps = 0;               ///< of such a map: pairs of boundary edges that cross, or parts with such
-    bool converged = false;  ///< false: the map is not done, and a warning says why
+    bool converged = false;           ///< false: the map is not done, and a warning says why
     Distortion distortion;
     StageSeconds seconds;
     double peak_memory_mb = 0.0;
