@@ -78,7 +78,8 @@ bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, 
         return false;
     map.z = (points.col(0) + Complex(0.0, 1.0) * points.col(1)) / scale;
     for (std::size_t j = 0; j < periods.size(); ++j) map.periods[j] = periods[j] / scale;
-    if (domain.first_hole > 0) map.z.array() -= Complex(0.0, round.front().track.point.imag() / scale);
+    const Complex lower = domain.first_hole > 0 ? Complex(0.0, round.front().track.point.imag() / scale) : 0.0;
+    map.z.array() -= lower;
     map.circles.clear();
     map.off_circle.clear();
     map.apart = true;
@@ -87,7 +88,7 @@ bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, 
             if (std::abs(points(v, 1) - round[k].track.point.imag()) > uv_resolution * scale)
                 map.off_circle.push_back(v);
     for (std::size_t k = domain.first_hole; k < round.size(); ++k) {
-        const Circle circle{round[k].track.circle.center / scale, round[k].track.circle.radius / scale};
+        const Circle circle{round[k].track.circle.center / scale - lower, round[k].track.circle.radius / scale};
         map.circles.push_back(circle);
         for (const Index v : domain.loops[k])
             if (std::abs(std::abs(map.z[v] - circle.center) - circle.radius) > inner_circle_tolerance)

@@ -11,7 +11,7 @@ import pytest
 from cli_support import USAGE, obj_text
 from cli_support import koebe as command
 from domain_surfaces import holed_ring, holed_torus
-from test_domains import assert_tile
+from test_domains import HOLES, assert_tile
 from test_parts import TRIANGLES, VERTICES, areas
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
@@ -112,11 +112,16 @@ def test_parts_are_more_even_at_no_cost_of_angles():
 
 @pytest.mark.parametrize("even", DIAL[1:])
 def test_tiles_still_tile(even):
-    for vertices, triangles, rims in ((*holed_torus(6)[:2], 0), (*holed_ring(6)[:2], 2)):
+    for vertices, triangles, rims in ((*holed_torus(6)[:2], 0), (*holed_ring(6, holes=HOLES)[:2], 2)):
         make = koebe.ring_map if rims else koebe.torus_map
         conformal, tile = make(vertices, triangles), make(vertices, triangles, even=even)
         assert tile.even == even and tile.converged and tile.overlaps == 0
         assert_tile(tile, triangles, rims)
+        holes = [loop for loop in tile.loops if not loop["rim"]]
+        assert len(holes) == len(conformal.loops) - rims > 0
+        for hole in holes:
+            corners = tile.uv[np.isin(triangles, hole["vertices"])] - hole["center"]  # perhaps in several copies
+            assert hole["off_circle"] == [] and np.isclose(np.hypot(*corners.T), hole["radius"], atol=1e-6).any()
         before, after = (spread(one.uv, vertices, triangles) for one in (conformal, tile))
         assert after < before
 
