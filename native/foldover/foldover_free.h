@@ -1,44 +1,12 @@
 // Foldover-free planar maps: the regularized variational method of Garanzha et al. 2021.
 #pragma once
 
-#include "circles/circle.h"
 #include "execution/execution.h"
+#include "foldover/foldover_problem.h"
 
-#include <Eigen/Core>
-
-#include <array>
 #include <functional>
-#include <vector>
 
 namespace koebe {
-
-/// A circle, or a straight line, that is itself an unknown: its centre and radius, or its distance along its normal.
-struct Track {
-    bool straight = false;
-    Circle circle;                       ///< unless it is straight
-    Complex point, direction{1.0, 0.0};  ///< a point of a straight one, and where it leads, of length 1
-};
-
-/// A planar triangle mesh with the shape each face is to take.
-struct FoldoverProblem {
-    /// sliding: along its circle, which stays. riding: along its track, which moves.
-    enum class Mobility : char { held, sliding, free, riding };
-
-    PlanarPoints points;                     ///< (V, 2)
-    Triangles triangles;                     ///< (F, 3)
-    std::vector<Eigen::Matrix2d> reference;  ///< (F) columns: edges 0-1 and 0-2 of the wanted shape, of positive area
-    VectorXd floor;                          ///< (F) the determinant to stay above, in the reference's areas
-    VectorXd weight;                         ///< (F) of each face in the sum; empty: 1
-    std::vector<Mobility> mobility;          ///< (V)
-    std::vector<Circle> circles;             ///< (V) of sliding and of pulled vertices
-    VectorXd pull;                           ///< (V) of free vertices to their circles, dimensionless; empty: none
-    std::vector<char> pull_inside;           ///< (V) 1: to the circle's centre instead; empty: nowhere
-    std::vector<int> track_of;               ///< (V) of riding vertices; empty: none rides
-    std::vector<Track> tracks;               ///< changed with the points
-    /// How many of each period are added to the places of a face's corners; empty: none.
-    std::vector<std::array<std::array<int, 2>, 3>> lift;
-    std::vector<Complex> periods;  ///< unknowns too: the first one's length, the second one
-};
 
 struct FoldoverOptions {
     int max_iterations = 60;

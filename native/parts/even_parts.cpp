@@ -2,7 +2,6 @@
 
 #include "circles/circle_fit.h"
 #include "execution/side_by_side.h"
-#include "quality/distortion.h"
 #include "relax/even_map.h"
 
 #include <algorithm>
@@ -13,8 +12,7 @@
 namespace koebe {
 namespace {
 
-constexpr double square_side = 1.25;  // of the square that parts of area 1 are packed into, about
-constexpr double on_track = 1e-6;     // of a circle's radius, or a line's length: what lies farther off is free
+constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: what lies farther off is free
 constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
 constexpr int search_steps = 12, most_steps = 60;        // Newton steps for one, and for one that was asked for
 constexpr double step = 1.5;                             // from one to the next
@@ -59,18 +57,6 @@ std::vector<RoundLoop> round_loops(const FlatPart& flat)
     return loops;
 }
 
-/// Mean angle error of the parts' faces, in degrees.
-double angle_error(const std::vector<FlatPart>& flats)
-{
-    double sum = 0.0, faces = 0.0;
-    for (const FlatPart& flat : flats) {
-        const auto count = static_cast<double>(flat.faces.size());
-        sum += count * measure_distortion(flat.vertices, flat.surface.triangles, flat.points).angle_error_deg.mean;
-        faces += count;
-    }
-    return faces > 0.0 ? sum / faces : 0.0;
-}
-
 class PartRelaxation {
 public:
     PartRelaxation(std::vector<FlatPart>& flats, LoopForm loops, int threads, ExecutionContext& context)
@@ -87,7 +73,7 @@ public:
         side_by_side(flats_.size(), threads_, context_, [&](std::size_t k, ExecutionContext& own) {
             FlatPart& flat = flats_[k];
             moved[k] = make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round_[k]},
-                                 even, square_side, own, most_steps)
+                                 even, packed_side, own, most_steps)
                            .moved;
         });
         std::vector<std::size_t> left;

@@ -230,6 +230,17 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
 
 }  // namespace
 
+double angle_error(const std::vector<FlatPart>& parts)
+{
+    double sum = 0.0, faces = 0.0;
+    for (const FlatPart& part : parts) {
+        const auto count = static_cast<double>(part.faces.size());
+        sum += count * measure_distortion(part.vertices, part.surface.triangles, part.points).angle_error_deg.mean;
+        faces += count;
+    }
+    return sum / faces;
+}
+
 FlatDensity flat_density(const FlatPart& flat, const VectorXd& areas, double floor)
 {
     FlatDensity density{VectorXd::Zero(areas.size()), std::vector<char>(static_cast<std::size_t>(areas.size()), 0)};

@@ -33,6 +33,11 @@ struct FlatOptions {
 /// than the disk's overflow, becomes a disk. Then free_rims.
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
 
+constexpr double packed_side = 1.25;  ///< of the square that parts of area 1 are packed into, about
+
+/// Mean angle error of the parts' faces, in degrees.
+double angle_error(const std::vector<FlatPart>& parts);
+
 /// Texel densities of a flat part.
 struct FlatDensity {
     VectorXd u;              ///< (F) 1/2 log(UV area / area); 0 where it is lost

@@ -16,7 +16,6 @@
 namespace koebe {
 namespace {
 
-constexpr double square_side = 1.25;     // of the square that parts of area 1 are packed into, about
 constexpr double most_lost = 0.005;      // of a part's area, in faces without area as stored
 constexpr double lost_anyway = 1e-5;     // of the surface's area: not worth a cut
 constexpr int most_halvings = 6;         // of one part
@@ -89,7 +88,7 @@ class Frame {
 public:
     explicit Frame(const PlanarPoints& points) : low_(points.colwise().minCoeff())
     {
-        side_ = std::max(square_side, (points.rowwise() - low_).maxCoeff());
+        side_ = std::max(packed_side, (points.rowwise() - low_).maxCoeff());
     }
     PlanarPoints uv(const PlanarPoints& points) const { return (points.rowwise() - low_) / side_; }
     PlanarPoints points(const PlanarPoints& uv) const { return (side_ * uv).rowwise() + low_; }
@@ -134,17 +133,6 @@ void polish(FlatPart& flat, ExecutionContext& context)
 double summed_angle_error(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
 {
     return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
-}
-
-/// Mean angle error, in degrees.
-double angle_error(const std::vector<FlatPart>& parts)
-{
-    double sum = 0.0, faces = 0.0;
-    for (const FlatPart& part : parts) {
-        sum += summed_angle_error(part.vertices, part.surface.triangles, part.points);
-        faces += static_cast<double>(part.faces.size());
-    }
-    return sum / faces;
 }
 
 /// Flips turned back, and what that has cost, if it is more than a part: the part may be far less even than the map

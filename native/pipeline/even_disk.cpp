@@ -89,8 +89,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
         circle =
             k == 0 ? Circle{} : Circle{(circle.center - outer.center) / outer.radius, circle.radius / outer.radius};
         for (const Index v : round[k].vertices) {
-            const Complex arm = at(relaxed.uv, v) - circle.center;
-            const Complex place = circle.center + circle.radius / std::abs(arm) * arm;
+            const Complex place = Track{.circle = circle}.nearest(at(relaxed.uv, v));
             relaxed.uv.row(v) << place.real(), place.imag();
         }
     }

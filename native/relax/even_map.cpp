@@ -40,18 +40,9 @@ constexpr double rounding = 1.5e-7;     // twice the area a face can lose by 32-
 constexpr double roomy = 1000.0;        // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
 
-using Corners = std::array<Complex, 3>;
+double area(const CornerPlaces& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }
 
-Corners corners_of(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
-{
-    Corners corners;
-    for (int k = 0; k < 3; ++k) corners[k] = {points(triangles(f, k), 0), points(triangles(f, k), 1)};
-    return corners;
-}
-
-double area(const Corners& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }
-
-double longest_edge(const Corners& at)
+double longest_edge(const CornerPlaces& at)
 {
     return std::max({std::abs(at[1] - at[0]), std::abs(at[2] - at[1]), std::abs(at[0] - at[2])});
 }
@@ -78,6 +69,7 @@ public:
             *free = Mobility::held;
     }
 
+    bool one_to_one() const { return one_to_one(flat_.points, periods()); }
     bool one_to_one(const PlanarPoints& points, const std::vector<Complex>& periods) const
     {
         if (!points.allFinite()) return false;
@@ -90,10 +82,12 @@ public:
     /// @return whether a loop was in the way
     bool relax_alone(EvenMap& result)
     {
-        double far = 2.0, high = std::numeric_limits<double>::infinity();
-        while (far_off() > few_far && (far_off() < nearer * far || energy() < nearer * high)) {
-            far = far_off();
-            high = energy();
+        double before = std::numeric_limits<double>::infinity(), energy_before = before;
+        for (double far = far_off(); far > few_far; far = far_off()) {
+            const double now = energy();
+            if (!(far < nearer * before) && !(now < nearer * energy_before)) break;
+            before = far;
+            energy_before = now;
             if (relax_once(result, steps_an_approach)) return true;
         }
         return relax_once(result, most_steps_);
@@ -146,7 +140,7 @@ private:
         const PlanarPoints before = flat_.points;
         for (const RoundLoop& loop : flat_.round)
             for (const Index v : loop.vertices) {
-                const Complex place = on_track(loop.track, {before(v, 0), before(v, 1)});
+                const Complex place = loop.track.nearest({before(v, 0), before(v, 1)});
                 flat_.points.row(v) << place.real(), place.imag();
             }
         std::vector<char> freed(static_cast<std::size_t>(before.rows()), 0);
@@ -165,24 +159,13 @@ private:
         }
     }
 
-    static Complex on_track(const Track& track, Complex place)
+    CornerPlaces corners(const PlanarPoints& points, const std::vector<Complex>& periods, Eigen::Index f) const
     {
-        if (track.straight) return track.point + dot(place - track.point, track.direction) * track.direction;
-        const Complex arm = place - track.circle.center;
-        return track.circle.center + track.circle.radius / std::abs(arm) * arm;
+        return corners_of(points, flat_.triangles, flat_.lift, periods, f);
     }
+    CornerPlaces corners(Eigen::Index f) const { return corners(flat_.points, periods(), f); }
 
-    /// Of a face, in a tile beside each other.
-    Corners corners(const PlanarPoints& points, const std::vector<Complex>& periods, Eigen::Index f) const
-    {
-        Corners places = corners_of(points, flat_.triangles, f);
-        for (std::size_t j = 0; j < periods.size(); ++j)
-            for (int k = 0; k < 3; ++k) places[k] += static_cast<double>(flat_.lift[f][k][j]) * periods[j];
-        return places;
-    }
-    Corners corners(Eigen::Index f) const { return corners(flat_.points, periods(), f); }
-
-    std::vector<Complex> periods() const { return flat_.periods ? *flat_.periods : std::vector<Complex>(); }
+    const std::vector<Complex>& periods() const { return flat_.periods ? *flat_.periods : none_; }
 
     bool apart(const PlanarPoints& points) const
     {
@@ -207,7 +190,7 @@ private:
 
     FaceMap face_map(const Eigen::Matrix2d& reference, Eigen::Index f) const
     {
-        const Corners at = corners(f);
+        const CornerPlaces at = corners(f);
         return WantedShape(reference).map_to(at[1] - at[0], at[2] - at[0]);
     }
 
@@ -222,7 +205,7 @@ private:
         problem.weight = shapes_.areas.cwiseMax(least_weight * mean_area()) / shapes_.areas.sum();
         problem.floor.resize(flat_.triangles.rows());
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
-            const Corners at = corners(f);
+            const CornerPlaces at = corners(f);
             const double now = area(at);
             const double wanted = std::clamp(shapes_.areas[f], now / longest_approach, now * longest_approach);
             problem.reference[f] *= std::sqrt(wanted / shapes_.areas[f]);
@@ -302,6 +285,7 @@ private:
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
     std::vector<int> track_of_;
+    const std::vector<Complex> none_;  // the periods of what has none
 };
 
 }  // namespace
@@ -326,8 +310,7 @@ EvenMap make_even(const FlatSurface& surface, double even, double extent, Execut
 {
     EvenMap result;
     EvenProblem problem(surface, even, extent, most_steps, context);
-    const std::vector<Complex> periods = surface.periods ? *surface.periods : std::vector<Complex>();
-    if (!(even > 0.0) || !problem.one_to_one(surface.points, periods)) return result;
+    if (!(even > 0.0) || !problem.one_to_one()) return result;
     if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result);
     return result;
 }

@@ -5,7 +5,6 @@
 #include "execution/execution.h"
 #include "foldover/foldover_free.h"
 
-#include <array>
 #include <vector>
 
 namespace koebe {
@@ -35,7 +34,7 @@ struct FlatSurface {
     std::vector<RoundLoop>& round;         ///< loops that are not free
     /// Of a tile: how many of each period are added to the places of a face's corners, and the periods, which are
     /// relaxed too. Its loops are holes, of which no edge is lifted.
-    std::vector<std::array<std::array<int, 2>, 3>> lift = {};
+    CornerLifts lift = {};
     std::vector<Complex>* periods = nullptr;
 };
 

@@ -11,12 +11,10 @@
 namespace koebe {
 namespace {
 
-using Lifts = std::vector<std::array<std::array<int, 2>, 3>>;
-
 /// Of each face's corners, by its half-edges from the first one on.
-Lifts lifts_of(const PeriodicSurface& domain)
+CornerLifts lifts_of(const PeriodicSurface& domain)
 {
-    Lifts lifts(static_cast<std::size_t>(domain.surface.triangles.rows()));
+    CornerLifts lifts(static_cast<std::size_t>(domain.surface.triangles.rows()));
     for (std::size_t f = 0; f < lifts.size(); ++f)
         for (int k = 1; k < 3; ++k) {
             const std::array<int, 2> step = domain.shift(static_cast<Index>(3 * f) + k - 1);
@@ -25,16 +23,12 @@ Lifts lifts_of(const PeriodicSurface& domain)
     return lifts;
 }
 
-double image_area(const PeriodicSurface& domain, const Lifts& lifts, const FlatMap& map)
+double image_area(const PeriodicSurface& domain, const CornerLifts& lifts, const PlanarPoints& points,
+                  const std::vector<Complex>& periods)
 {
     double sum = 0.0;
-    for (std::size_t f = 0; f < lifts.size(); ++f) {
-        std::array<Complex, 3> at;
-        for (int k = 0; k < 3; ++k) {
-            at[k] = map.z[domain.surface.triangles(static_cast<Eigen::Index>(f), k)];
-            for (std::size_t j = 0; j < map.periods.size(); ++j)
-                at[k] += static_cast<double>(lifts[f][k][j]) * map.periods[j];
-        }
+    for (Eigen::Index f = 0; f < domain.surface.triangles.rows(); ++f) {
+        const CornerPlaces at = corners_of(points, domain.surface.triangles, lifts, periods, f);
         sum += 0.5 * cross(at[1] - at[0], at[2] - at[0]);
     }
     return sum;
@@ -60,15 +54,16 @@ std::vector<RoundLoop> round_loops(const PeriodicSurface& domain, LoopForm loops
 
 bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, FlatMap& map, ExecutionContext& context)
 {
-    const Lifts lifts = lifts_of(domain);
-    const double scale = scale_to_size(domain.vertices, domain.surface.triangles, image_area(domain, lifts, map));
+    const CornerLifts lifts = lifts_of(domain);
+    PlanarPoints points(map.z.size(), 2);
+    points << map.z.real(), map.z.imag();
+    const double scale =
+        scale_to_size(domain.vertices, domain.surface.triangles, image_area(domain, lifts, points, map.periods));
     if (!std::isfinite(scale) || !(scale > 0.0)) return false;
-    const VectorXcd z = scale * map.z;
-    PlanarPoints points(z.size(), 2);
-    points << z.real(), z.imag();
+    points *= scale;
     std::vector<Complex> periods;
     for (const Complex period : map.periods) periods.push_back(scale * period);
-    std::vector<RoundLoop> round = round_loops(domain, loops, z);
+    std::vector<RoundLoop> round = round_loops(domain, loops, scale * map.z);
     const std::vector<VertexLoop> holes(domain.loops.begin() + static_cast<std::ptrdiff_t>(domain.first_hole),
                                         domain.loops.end());
     const double extent = points.maxCoeff() - points.minCoeff();

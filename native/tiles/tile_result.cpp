@@ -124,38 +124,24 @@ void name_tile(const CanonicalMesh& mesh, TileResult& result)
     }
 }
 
-}  // namespace
-
-TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
-                          ExecutionContext& context, TileMap* map)
-{
-    const auto compute = [map](const CanonicalMesh& mesh, TileOptions& here, ExecutionContext& own) {
-        require_even(here.even);
-        here.outer = mesh.vertex(here.outer);
-        here.inner = mesh.vertex(here.inner);
-        return map(mesh.vertices, mesh.triangles, here, own);
-    };
-    return corner_map<TileResult>(vertices, triangles, options, context, compute, name_tile);
-}
-
-TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
-                       const TileOptions& options, HoleShape holes, FlatMap& map, ExecutionContext& context)
-{
-    TileResult result;
-    const FlatMap conformal = map;
-    const bool is_even = options.even > 0.0 && make_tile_even(domain, options.even, options.loops, map, context);
-    result.even = is_even ? options.even : 0.0;
-    turn_faces_back(domain, holes, map, context);
-    const Tile tile = tile_of(domain, map);
-    const TileFaults faults = find_faults(domain, tile, holes);
-    if (options.even > 0.0 && (!is_even || faults.any())) {
-        map = conformal;
-        TileOptions as_it_was = options;
-        as_it_was.even = 0.0;
-        result = tile_result(vertices, triangles, domain, as_it_was, holes, map, context);
-        warn_not_even({}, result.warnings);
-        return result;
+/// Flips turned back, the tile cut and looked at.
+struct CheckedTile {
+    CheckedTile(const PeriodicSurface& domain, HoleShape holes, FlatMap& map, ExecutionContext& context)
+    {
+        turn_faces_back(domain, holes, map, context);
+        tile = tile_of(domain, map);
+        faults = find_faults(domain, tile, holes);
     }
+    Tile tile;
+    TileFaults faults;
+};
+
+TileResult reported(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain, double even,
+                    HoleShape holes, const FlatMap& map, const CheckedTile& checked)
+{
+    const auto& [tile, faults] = checked;
+    TileResult result;
+    result.even = even;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
     result.uv = corner_uvs(triangles, domain, tile);
@@ -173,13 +159,46 @@ TileResult tile_result(const Vertices& vertices, const Triangles& triangles, con
     result.changes = map.changes;
     result.distortion = {distortion_of(domain, tile), judge_corners(vertices, triangles, result.uv, result.turned)};
     warn(domain, map, faults, result);
-    if (domain.first_hole == 0 || is_even)
+    if (domain.first_hole == 0 || even > 0.0)
         for (std::size_t k = 0; k < map.circles.size(); ++k) {
             TileLoop& loop = result.loops[domain.first_hole + k];
             loop.has_circle = map.apart;
             loop.circle = {in_tile(map, tile, map.circles[k].center, corner_at(domain, domain.first_hole + k)),
                            tile.scale * map.circles[k].radius};
         }
+    return result;
+}
+
+}  // namespace
+
+TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
+                          ExecutionContext& context, TileMap* map)
+{
+    const auto compute = [map](const CanonicalMesh& mesh, TileOptions& here, ExecutionContext& own) {
+        require_even(here.even);
+        here.outer = mesh.vertex(here.outer);
+        here.inner = mesh.vertex(here.inner);
+        return map(mesh.vertices, mesh.triangles, here, own);
+    };
+    return corner_map<TileResult>(vertices, triangles, options, context, compute, name_tile);
+}
+
+TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
+                       const TileOptions& options, HoleShape holes, FlatMap& map, ExecutionContext& context)
+{
+    if (options.even > 0.0) {
+        FlatMap even = map;
+        if (make_tile_even(domain, options.even, options.loops, even, context)) {
+            const CheckedTile checked(domain, holes, even, context);
+            if (!checked.faults.any()) {
+                map = std::move(even);
+                return reported(vertices, triangles, domain, options.even, holes, map, checked);
+            }
+        }
+    }
+    const CheckedTile checked(domain, holes, map, context);
+    TileResult result = reported(vertices, triangles, domain, 0.0, holes, map, checked);
+    if (options.even > 0.0) warn_not_even({}, result.warnings);
     return result;
 }
 

@@ -1,0 +1,74 @@
+// The unknowns of a planar problem, and Newton's equations for them.
+#pragma once
+
+#include "foldover/face_energy.h"
+#include "foldover/foldover_problem.h"
+#include "linear/sparse_cholesky.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace koebe {
+
+/// A free vertex has two unknowns, a sliding or riding one the way along its circle or track. Tracks and periods are
+/// unknowns that many faces share; theirs come last. The Hessian has one pattern.
+class NewtonSystem {
+public:
+    /// @param problem whose places may change while the system is in use, and nothing else of it
+    explicit NewtonSystem(const FoldoverProblem& problem);
+
+    Index unknowns() const { return unknowns_; }
+
+    void clear();
+    void add_face(Eigen::Index f, const FaceDerivatives& face, const WantedShape& shape);
+    /// @param gradient, hessian by the place of a free vertex
+    void add_vertex(Index vertex, const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian);
+    /// After all faces: the bend of circles that are ridden on, where the gradient pulls outward.
+    void add_bends();
+
+    /// -H^-1 gradient, the Hessian's diagonal a little larger; where that leads not down, less the gradient over the
+    /// diagonal. @return the slope, not below 0 if neither leads down
+    std::pair<VectorXd, double> descent();
+
+    /// Where a share of a step leads.
+    FoldoverPlaces moved(const VectorXd& step, double share) const;
+
+private:
+    using Mobility = FoldoverProblem::Mobility;
+
+    /// An unknown, and where it moves a corner of a face.
+    struct Column {
+        Index unknown;
+        int corner;
+        Eigen::Vector2d way;
+    };
+
+    Index unknowns_of(Index v) const;
+    bool rides(Index v) const { return problem_.mobility[v] == Mobility::riding; }
+    const Track& track_of(Index v) const { return problem_.tracks[problem_.track_of[v]]; }
+    bool is_shared(Eigen::Index f) const;
+    std::vector<Column> columns(Eigen::Index f) const;
+    std::pair<Index, Index> ends(Eigen::Index f, int k) const;
+    Eigen::Vector2d tangent(Index v) const;
+    void set_pattern();
+    void add_shared_pairs(Eigen::Index f, std::vector<std::pair<Index, Index>>& pairs) const;
+    void add(Index column_vertex, Index row_vertex, Index place, const Eigen::Matrix2d& block);
+    void add_by_columns(Eigen::Index f, const FaceDerivatives& face, const WantedShape& shape);
+    VectorXd newton_direction();
+
+    const FoldoverProblem& problem_;
+    std::vector<Index> first_unknown_;  // per vertex, -1 if held
+    std::vector<Index> first_of_track_, first_of_period_;
+    Index unknowns_ = 0;
+    std::vector<std::array<Index, 3>> places_;  // per face and corner: see set_pattern
+    VectorXd gradient_;
+    std::vector<double> outward_force_;  // (V) on riding vertices: less the gradient, along the radius
+    SparseMatrix hessian_;
+    std::optional<SparseCholesky> solver_;
+};
+
+}  // namespace koebe
