@@ -6,9 +6,7 @@
 #include "batch/path_text.h"
 #include "batch/process_outcome.h"
 #include "batch/summary.h"
-#include "batch/whole_file.h"
 #include "io/file_error.h"
-#include "report/json.h"
 
 #include <uv.h>
 
@@ -24,7 +22,6 @@
 namespace koebe::batch {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t beat_ms = 10000;     // a claim is renewed so often
@@ -87,14 +84,8 @@ private:
         bool elsewhere;    ///< another run has it
     };
 
-    struct Task {
-        const BatchFile* file;
-        std::string hash;
-        Claims::Claim claim;
-        Scratch scratch;
-        fs::path log;
-        std::shared_ptr<ChildProcess> process;
-        ProcessEnd end;
+    struct Task : ClaimedFile {
+        std::shared_ptr<ChildProcess> process = nullptr;
     };
 
     // ------------------------------------------------------------------ the loop
@@ -229,7 +220,7 @@ private:
             return true;
         }
         if (!unreadable.is_null()) {
-            settle_failure({&file, {}, *claim, {}, {}, nullptr, {}}, unreadable);
+            settle(keep_failure({&file, {}, *claim, {}, {}}, recipe(file), unreadable));
             claim->release();
             return true;
         }
@@ -248,38 +239,17 @@ private:
 
     void start(const BatchFile& file, const std::string& hash, Claims::Claim claim)
     {
-        tasks_.push_back({&file, hash, std::move(claim), {}, {}, nullptr, {}});
+        tasks_.push_back({{&file, hash, std::move(claim), {}, {}}});
         const auto task = std::prev(tasks_.end());
-        const fs::path work = task->claim.work(), name = file.output.filename();
-        std::error_code error;
-        fs::create_directories(file.output.parent_path(), error);
-        // A .blend names other files from where it lies itself, so it is written in the folder that it will be in.
-        if (file.is_blend) remove_left_blends(file, task->claim);
-        task->scratch.output = file.is_blend ? file.output.parent_path() / (".koebe-" + task->claim.word() + ".blend")
-                                             : work / ("result" + utf8(name.extension()));
-        task->scratch.report = work / "report.json";
-        task->log = work / "log";
+        task->scratch = make_scratch(file, task->claim);
         try {
-            task->process =
-                ChildProcess::start(loop_, options_.command(file, task->scratch), task->log, recipe(file).time_limit,
-                                    [this, task](const ProcessEnd& end) { guarded([&] { finish(task, end); }); });
+            task->process = ChildProcess::start(
+                loop_, options_.command(file, task->scratch), task->scratch.log, recipe(file).time_limit,
+                [this, task](const ProcessEnd& end) { guarded([&] { finish(task, end); }); });
         } catch (...) {
             task->claim.release();
             tasks_.erase(task);
             throw;
-        }
-    }
-
-    /// What runs that were killed have left in the folder of a .blend.
-    static void remove_left_blends(const BatchFile& file, const Claims::Claim& claim)
-    {
-        std::error_code error;
-        const std::string begin = ".koebe-" + claim.key() + ".";
-        for (fs::directory_iterator entry(file.output.parent_path(), error), end; !error && entry != end;) {
-            const fs::path path = entry->path();
-            entry.increment(error);
-            std::error_code ignored;
-            if (utf8(path.filename()).starts_with(begin)) fs::remove(path, ignored);
         }
     }
 
@@ -308,15 +278,17 @@ private:
 
     void settle_end(Task& task)
     {
-        const ProcessEnd& end = task.end;
+        const Recipe& of_file = recipe(*task.file);
         try {
             // While this run ends, a file counts only if it was done all the same.
             if (!task.claim.is_held()) {
                 if (!stopping_) waiting_.push_back({task.file, task.hash, true});
-            } else if (is_mapped(end)) {
-                keep_result(task);
+            } else if (is_mapped(task.end)) {
+                settle(keep_result(task, of_file, options_.output));
             } else if (!stopping_) {
-                settle_failure(task, error_of(task.end, task.scratch.report, task.log, recipe(*task.file).time_limit));
+                const Scratch& scratch = task.scratch;
+                const Json error = error_of(task.end, scratch.report, scratch.log, of_file.time_limit);
+                settle(keep_failure(task, of_file, error));
             }
         } catch (...) {
             remove_scratch(task);
@@ -325,48 +297,7 @@ private:
         remove_scratch(task);
     }
 
-    static void remove_scratch(Task& task) noexcept
-    {
-        std::error_code error;
-        fs::remove(task.scratch.output, error);
-        if (task.file->is_blend) remove_left_blends(*task.file, task.claim);  // what Blender wrote beside it
-        task.claim.release();
-    }
-
-    void keep_result(const Task& task)
-    {
-        const ProcessEnd& end = task.end;
-        const BatchFile& file = *task.file;
-        Json own = own_report(task.scratch.report);
-        std::error_code error;
-        if (own.empty() || !fs::is_regular_file(task.scratch.output, error))
-            return settle_failure(task, {{"name", "Crash"}, {"reason", "its process wrote no result"}});
-        Json report = report_head(file, task.hash, recipe(file));
-        for (const char* name : {"name", "input", "options"}) own.erase(name);
-        report.update(own);  // with a hash of its own, of the bytes that it read
-        if (!own.contains("seconds")) report["seconds"] = {{"total", end.seconds}};
-        report["exit_code"] = end.exit_status;
-        report["output"] = generic_utf8(file.output.lexically_relative(options_.output));
-        report["output_sha256"] = sha256_of_file(task.scratch.output);
-        move_whole(task.scratch.output, file.output);
-        write_whole(task.claim.work(), file.report, json_text(report));
-        settle(report, "done");
-    }
-
-    /// The report of a mesh that could not be mapped, in place of a result that was made of other bytes.
-    void settle_failure(const Task& task, const Json& error)
-    {
-        const BatchFile& file = *task.file;
-        Json report = report_head(file, task.hash, recipe(file));
-        report["error"] = error;
-        report["exit_code"] = 3;
-        report["seconds"] = {{"total", task.end.seconds}};
-        std::error_code ignored;
-        fs::create_directories(file.output.parent_path(), ignored);
-        fs::remove(file.output, ignored);
-        write_whole(task.claim.work(), file.report, json_text(report));
-        settle(report, "failed");
-    }
+    void settle(const Json& report) { settle(report, report.contains("error") ? "failed" : "done"); }
 
     /// Counts a file and tells of it.
     void settle(const Json& report, const std::string& how)

@@ -3,6 +3,7 @@
 
 #include "batch/file_list.h"
 #include "batch/file_report.h"
+#include "batch/file_result.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -11,11 +12,6 @@
 #include <vector>
 
 namespace koebe::batch {
-
-/// Where a process is to write. All of it is moved to its place once it is whole.
-struct Scratch {
-    std::filesystem::path output, report;
-};
 
 // NOLINTNEXTLINE(bugprone-exception-escape): JSON is moved without exceptions, by functions that could throw some
 struct BatchOptions {
