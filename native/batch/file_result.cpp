@@ -31,7 +31,8 @@ void remove_left_blends(const BatchFile& file, const Claims::Claim& claim)
 
 Scratch make_scratch(const BatchFile& file, const Claims::Claim& claim)
 {
-    const fs::path work = claim.work(), folder = file.output.parent_path();
+    const fs::path& work = claim.work();
+    const fs::path folder = file.output.parent_path();
     std::error_code error;
     fs::create_directories(folder, error);
     // A .blend names other files from where it lies itself, so it is written in the folder that it will be in.
