@@ -7,7 +7,6 @@
 
 namespace koebe::kernels {
 namespace KOEBE_OF_SET {
-namespace {
 
 using Place = std::ptrdiff_t;
 
@@ -71,7 +70,7 @@ private:
 
 /// Panels of so many rows, column by column, the last one filled up with zeros.
 template <int Rows>
-void pack(View a, int rows, int columns, double* to)
+static void pack(View a, int rows, int columns, double* to)
 {
     for (int i = 0; i < rows; i += Rows) {
         const int count = least(Rows, rows - i);
@@ -90,7 +89,7 @@ void pack(View a, int rows, int columns, double* to)
 }
 
 /// The product of two packed panels, column by column.
-void multiply_panels(const double* a, const double* b, int inner, double* tile)
+static void multiply_panels(const double* a, const double* b, int inner, double* tile)
 {
     Lanes sum[2 * tile_columns] = {};
     for (int p = 0; p < inner; ++p, a += tile_rows, b += tile_columns) {
@@ -108,7 +107,7 @@ void multiply_panels(const double* a, const double* b, int inner, double* tile)
 enum class Share { all, lower };
 
 /// Adds alpha times a tile to a matrix. @param above rows of the tile above the diagonal's in its first column
-void add_tile(const double* tile, int rows, int columns, double alpha, int above, Target c)
+static void add_tile(const double* tile, int rows, int columns, double alpha, int above, Target c)
 {
     for (int j = 0; j < columns; ++j) {
         const int first = above + j > 0 ? above + j : 0;
@@ -122,7 +121,7 @@ void add_tile(const double* tile, int rows, int columns, double alpha, int above
 }
 
 /// The sum of x[i] y[i], eight sums side by side.
-double scalar_product(int count, const double* x, const double* y)
+static double scalar_product(int count, const double* x, const double* y)
 {
     alignas(64) double sums[chains];
     Lanes sum[chains / lanes] = {};
@@ -140,7 +139,7 @@ double scalar_product(int count, const double* x, const double* y)
 }
 
 /// C += alpha A B for a few columns, where A is read once: not worth packing.
-void add_narrow_product(int m, int n, int k, double alpha, View a, View b, Target c)
+static void add_narrow_product(int m, int n, int k, double alpha, View a, View b, Target c)
 {
     const bool by_rows = a.row_step != 1;
     const Buffer buffer(k);
@@ -168,7 +167,7 @@ void add_narrow_product(int m, int n, int k, double alpha, View a, View b, Targe
 }
 
 /// C += alpha A B. @param a (m, k) @param b (k, n) @param part lower: nothing above the diagonal of C is touched
-void add_product(int m, int n, int k, double alpha, View a, View b, Target c, Share part = Share::all)
+static void add_product(int m, int n, int k, double alpha, View a, View b, Target c, Share part = Share::all)
 {
     if (m <= 0 || n <= 0 || k <= 0) return;
     if (part == Share::all && c.row_step != 1) {  // by columns of the result
@@ -203,6 +202,5 @@ void add_product(int m, int n, int k, double alpha, View a, View b, Target c, Sh
         }
 }
 
-}  // namespace
 }  // namespace KOEBE_OF_SET
 }  // namespace koebe::kernels

@@ -6,7 +6,6 @@
 
 namespace koebe::kernels {
 namespace KOEBE_OF_SET {
-namespace {
 
 constexpr int triangle = 32;  // the same in all sets: columns of a triangle that is solved by itself
 
@@ -41,7 +40,7 @@ void solve_some(const SmallTriangle& t, int count, Target b)
 }
 
 /// Solves T X = B in place, T a triangle of at most `triangle` rows. @param forward T is lower
-void solve_small(int n, int count, View t, bool forward, bool unit, Target b)
+static void solve_small(int n, int count, View t, bool forward, bool unit, Target b)
 {
     SmallTriangle small;
     small.order = n;
@@ -64,10 +63,10 @@ void solve_small(int n, int count, View t, bool forward, bool unit, Target b)
 }
 
 /// How many columns the first half of a large triangle has.
-int half(int n) { return up_to(n / 2, triangle); }
+static int half(int n) { return up_to(n / 2, triangle); }
 
 /// Solves T X = B in place, by halves. @param t (n, n) a triangle @param forward it is lower
-void solve_triangle(int n, int count, View t, bool forward, bool unit, Target b)
+static void solve_triangle(int n, int count, View t, bool forward, bool unit, Target b)
 {
     if (n <= triangle) return solve_small(n, count, t, forward, unit, b);
     const int first = forward ? half(n) : n - half(n), at = forward ? 0 : n - first;
@@ -78,7 +77,7 @@ void solve_triangle(int n, int count, View t, bool forward, bool unit, Target b)
 }
 
 /// The Cholesky factor of at most `triangle` columns. @return the number of the first bad minor, or 0
-int factorize_small(int n, Target a)
+static int factorize_small(int n, Target a)
 {
     double own[triangle * triangle];
     for (int j = 0; j < n; ++j)
@@ -100,7 +99,7 @@ int factorize_small(int n, Target a)
 }
 
 /// The Cholesky factor of the lower triangle in its place, by halves. @return the first bad minor's number, or 0
-int factorize(int n, Target a)
+static int factorize(int n, Target a)
 {
     if (n <= triangle) return factorize_small(n, a);
     const int first = half(n), others = n - first;
@@ -113,7 +112,7 @@ int factorize(int n, Target a)
 }
 
 /// B = alpha T B in place, T a triangle. @param lower it is
-void multiply_triangle(int n, int count, double alpha, View t, bool lower, bool unit, Target b)
+static void multiply_triangle(int n, int count, double alpha, View t, bool lower, bool unit, Target b)
 {
     double whole[triangle * triangle];
     const Buffer buffer(Place{triangle} * count);
@@ -136,6 +135,5 @@ void multiply_triangle(int n, int count, double alpha, View t, bool lower, bool 
     }
 }
 
-}  // namespace
 }  // namespace KOEBE_OF_SET
 }  // namespace koebe::kernels
