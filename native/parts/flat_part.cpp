@@ -175,6 +175,7 @@ FlatPart unopened(const PartMesh& mesh)
     flat.original = mesh.original;
     flat.vertices = mesh.vertices;
     flat.surface = mesh.surface;
+    flat.polygon = mesh.polygon;
     return flat;
 }
 
@@ -196,6 +197,7 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
 {
     FlatPart flat;
     flat.faces = part.mesh.faces;
+    flat.polygon = part.mesh.polygon;
     flat.kind = PartKind::tube;
     const TubeSlit slit = tube_slit(part);
     if (slit.lift.empty()) return flat;

@@ -19,7 +19,9 @@ struct FlatPart {
     std::vector<VertexLoop> loops;         ///< of the part before it is opened, by vertices of the whole
     std::vector<std::vector<Index>> rims;  ///< vertices that those loops have become
     std::vector<char> held;                ///< (V) 1 for vertices that stay on the circle or line of their rim
+    std::vector<Index> polygon;            ///< (F) faces of one number are not cut apart; empty: each is one by itself
     double slit = 0.0;                     ///< length
+    double darts = 0.0;                    ///< length of all (darts.h)
     bool one_to_one = true;                ///< false: its boundary crosses itself
 };
 

@@ -366,7 +366,9 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
         }
     }
     context.begin_stage("even", 0.8, 0.9);
-    const EvenParts even = make_parts_even(flats, options.even, options.loops, options.threads, context);
+    EvenOptions evening{options.even, options.loops, {}, options.threads};
+    if (getenv("DART_PRICE")) evening.dart_price = atof(getenv("DART_PRICE"));
+    const EvenParts even = make_parts_even(flats, evening, context);
     layout.even = even.even;
     for (const std::size_t k : even.left)
         layout.not_even.insert(layout.not_even.end(), flats[k].faces.begin(), flats[k].faces.end());
