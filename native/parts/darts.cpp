@@ -21,6 +21,7 @@ constexpr std::size_t most_darts = 16;  // at once
 constexpr double apart_by = 0.12;       // tips, in roots of the surface's area,
 constexpr double apart_in_part = 0.25;  // or of the part's, whichever is less
 constexpr double longest = 0.5;         // of a dart, in roots of the surface's area
+constexpr double price_of_one = 0.03;   // of a new dart, as a length
 constexpr double first_gap = 0.05;      // between the sides of a dart, over the least height of a face beside it
 
 Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
@@ -174,7 +175,9 @@ std::vector<Dart> promising_darts(const FlatPart& flat, double even, double pric
         const double pulled = tension.along(dart);
         if (!(pulled > 0.0)) continue;
         dart.gain = compliance * pulled * pulled;
-        const double gain = dart.gain - price * dart.length;
+        const bool is_longer = std::ranges::count(flat.tips, dart.vertices.back()) > 0;
+        dart.cost = price * (dart.length + (is_longer ? 0.0 : price_of_one));
+        const double gain = dart.gain - dart.cost;
         if (gain > 0.0) found.emplace_back(gain, std::move(dart));
     }
     std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
@@ -229,11 +232,10 @@ bool open_darts(FlatPart& flat, const std::vector<Dart>& darts)
     if (after.surface.loops.size() != flat.surface.loops.size()) return false;
     after.points = flat.points(source, Eigen::all);
     after.vertices = flat.vertices(source, Eigen::all);
-    after.original.clear();
-    after.held.clear();
-    for (const Index v : source) {
-        after.original.push_back(flat.original[v]);
-        after.held.push_back(flat.held[v]);
+    for (std::size_t i = kept.size(); i < source.size(); ++i) {
+        after.original.push_back(flat.original[source[i]]);
+        after.held.push_back(flat.held[source[i]]);
+        if (!flat.image.empty()) after.image.push_back(flat.image[source[i]]);
     }
     std::vector<Index> second(kept.size(), -1);
     for (std::size_t i = kept.size(); i < source.size(); ++i) second[source[i]] = static_cast<Index>(i);
@@ -260,7 +262,11 @@ bool open_darts(FlatPart& flat, const std::vector<Dart>& darts)
                 after.points.row(loop[i]) << z.real(), z.imag();
             }
         if (!is_one_to_one(after)) continue;
-        for (const Dart& dart : darts) after.darts += dart.length;
+        for (const Dart& dart : darts) {
+            std::erase(after.tips, dart.vertices.back());
+            after.tips.push_back(dart.vertices.front());
+            after.dart_length += dart.length;
+        }
         flat = std::move(after);
         return true;
     }

@@ -13,7 +13,8 @@ struct Dart {
     std::vector<Index> vertices;   ///< from the tip to the boundary
     std::vector<Index> halfedges;  ///< each from a vertex to the next one, or back
     double length = 0.0;           ///< on the surface
-    double gain = 0.0;             ///< of energy, foretold
+    double gain = 0.0;             ///< energy that it releases, foretold
+    double cost = 0.0;             ///< less for a dart that lengthens another
 };
 
 /// The darts that may pay, some way apart. A dart is worth what its opening releases: with T the force by which the

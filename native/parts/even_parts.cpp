@@ -2,8 +2,7 @@
 
 #include "circles/circle_fit.h"
 #include "execution/side_by_side.h"
-#include "parts/darts.h"
-#include "relax/even_forces.h"
+#include "parts/dart_rounds.h"
 #include "relax/even_map.h"
 
 #include <algorithm>
@@ -19,9 +18,6 @@ constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
 constexpr int search_steps = 12, most_steps = 60;        // Newton steps for one, and for one that was asked for
 constexpr double step = 1.5;                             // from one to the next
 constexpr double even_with_darts = 0.1;                  // E, unless it is asked for
-constexpr int dart_rounds = 8, steps_a_dart = 12;
-constexpr double reach_of_darts = 0.25;  // on the surface, in roots of its area: what a dart changes
-constexpr double refused_around = 0.06;  // a dart's tip, if the dart did not pay
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -63,22 +59,35 @@ std::vector<RoundLoop> round_loops(const FlatPart& flat)
     return loops;
 }
 
+/// What a dart as long as the root of the surface's area costs, in energy.
+double dart_price(double darts) { return 1e-4 / darts; }
+
 class PartRelaxation {
 public:
     PartRelaxation(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
-        : flats_(flats), round_(flats.size()), options_(options), context_(context)
+        : flats_(flats), options_(options), context_(context)
     {
-        if (options.loops == LoopForm::round)
-            for (std::size_t k = 0; k < flats.size(); ++k) round_[k] = round_loops(flats[k]);
+        for (FlatPart& flat : flats) {
+            std::vector<RoundLoop> round;
+            if (options.loops == LoopForm::round) round = round_loops(flat);
+            parts_.push_back({std::move(flat), std::move(round)});
+        }
     }
+    ~PartRelaxation()
+    {
+        for (std::size_t k = 0; k < parts_.size(); ++k) flats_[k] = std::move(parts_[k].flat);
+    }
+    PartRelaxation(const PartRelaxation&) = delete;
+    PartRelaxation& operator=(const PartRelaxation&) = delete;
 
     /// @return the parts that could not be moved
     std::vector<std::size_t> relax(double even, int most_steps)
     {
-        std::vector<char> moved(flats_.size(), 0);
-        side_by_side(flats_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
-            moved[k] = relax(flats_[k], round_[k], even, most_steps, own);
-            if (moved[k] && options_.dart_price && even > 0.0) cut_darts(k, even, own);
+        std::vector<char> moved(parts_.size(), 0);
+        side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
+            auto& [flat, round] = parts_[k];
+            const FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round};
+            moved[k] = make_even(surface, even, packed_side, own, {.most_steps = most_steps}).moved;
         });
         std::vector<std::size_t> left;
         for (std::size_t k = 0; k < moved.size(); ++k)
@@ -86,26 +95,36 @@ public:
         return left;
     }
 
+    /// @return the parts that could not be moved
+    std::vector<std::size_t> relax_with_darts(double even, int most_steps)
+    {
+        std::vector<std::size_t> left = relax(even, most_steps);
+        if (!(options_.darts > 0.0)) return left;
+        cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
+        const auto has_darts = [](const HeldPart& part) { return !part.flat.tips.empty(); };
+        if (std::ranges::any_of(parts_, has_darts)) relax(even, most_steps);
+        return left;
+    }
+
     /// With darts first; if these do not serve, from one E to the next, as long as angles are no worse than at 0.
     double relax_freely()
     {
-        const double conformal = angle_error(flats_);
-        const State before = state();
-        if (options_.dart_price) {
-            relax(even_with_darts, search_steps);
-            if (angle_error(flats_) <= conformal) return even_with_darts;
-            restore(before);
-            options_.dart_price = std::nullopt;
+        const double conformal = angles();
+        const std::vector<HeldPart> before = parts_;
+        if (options_.darts > 0.0) {
+            relax_with_darts(even_with_darts, search_steps);
+            if (angles() <= conformal) return even_with_darts;
+            parts_ = before;
         }
         double even = 0.0;
         for (double next = first_even; next >= least_even && next <= 1.0;) {
-            const State last = state();
+            const std::vector<HeldPart> last = parts_;
             relax(next, search_steps);
-            if (angle_error(flats_) <= conformal) {
+            if (angles() <= conformal) {
                 even = next;
                 next *= step;
             } else {
-                restore(last);
+                parts_ = last;
                 if (even > 0.0) break;
                 next *= 0.25;
             }
@@ -114,88 +133,15 @@ public:
     }
 
 private:
-    struct State {
-        std::vector<FlatPart> flats;
-        std::vector<std::vector<RoundLoop>> round;
-    };
-
-    static bool relax(FlatPart& flat, std::vector<RoundLoop>& round, double even, int most_steps,
-                      ExecutionContext& context)
+    double angles() const
     {
-        return make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round}, even,
-                         packed_side, context, most_steps)
-            .moved;
-    }
-
-    static VectorXd energies(const FlatPart& flat, double even)
-    {
-        return even_forces(flat.vertices, flat.surface.triangles, flat.points, even).energy;
-    }
-
-    /// Darts opened, and the part relaxed. @return what each gains; none where they cannot be opened
-    std::vector<double> open(FlatPart& flat, std::vector<RoundLoop>& round, const std::vector<Dart>& darts, double even,
-                             ExecutionContext& context)
-    {
-        const std::vector<int> nearest = nearest_dart(flat, darts, reach_of_darts);
-        const VectorXd before = energies(flat, even);
-        if (!open_darts(flat, darts)) return {};
-        if (!relax(flat, round, even, steps_a_dart, context)) return {};
-        const VectorXd after = energies(flat, even);
-        std::vector<double> gain(darts.size(), 0.0);
-        for (std::size_t f = 0; f < nearest.size(); ++f)
-            if (nearest[f] >= 0) gain[nearest[f]] += before[f] - after[f];
-        return gain;
-    }
-
-    void cut_darts(std::size_t k, double even, ExecutionContext& context)
-    {
-        std::vector<char> refused(static_cast<std::size_t>(flats_[k].points.rows()), 0);
-        for (int round = 0; round < dart_rounds; ++round) {
-            refused.resize(static_cast<std::size_t>(flats_[k].points.rows()), 0);
-            std::vector<Dart> darts = promising_darts(flats_[k], even, *options_.dart_price, refused);
-            if (darts.empty()) return;
-            FlatPart flat = flats_[k];
-            std::vector<RoundLoop> loops = round_[k];
-            std::vector<double> gain = open(flat, loops, darts, even, context);
-            if (getenv("DARTS")) {
-                fprintf(stderr, "part %zu round %d: %zu darts, opened %zu\n", k, round, darts.size(), gain.size());
-                for (std::size_t i = 0; i < gain.size(); ++i)
-                    fprintf(stderr, "   tip %d length %.3f predicted %.5f gain %.5f price %.5f\n", darts[i].vertices.front(),
-                            darts[i].length, darts[i].gain, gain[i], *options_.dart_price * darts[i].length);
-            }
-            std::vector<Dart> paying;
-            for (std::size_t i = 0; i < darts.size(); ++i) {
-                if (!gain.empty() && gain[i] > *options_.dart_price * darts[i].length)
-                    paying.push_back(darts[i]);
-                else
-                    refuse(flats_[k], darts[i].vertices.front(), refused);
-            }
-            if (paying.size() < darts.size()) {
-                if (paying.empty()) continue;
-                flat = flats_[k];
-                loops = round_[k];
-                if (open(flat, loops, paying, even, context).empty()) return;
-            }
-            flats_[k] = std::move(flat);
-            round_[k] = std::move(loops);
-        }
-    }
-
-    static void refuse(const FlatPart& flat, Index tip, std::vector<char>& refused)
-    {
-        for (Index v = 0; v < static_cast<Index>(refused.size()); ++v)
-            if ((flat.vertices.row(v) - flat.vertices.row(tip)).norm() < refused_around) refused[v] = 1;
-    }
-
-    State state() const { return {flats_, round_}; }
-    void restore(const State& state)
-    {
-        flats_ = state.flats;
-        round_ = state.round;
+        double sum = 0.0;
+        for (const HeldPart& part : parts_) sum += sum_of_angle_errors(part.flat);
+        return sum;
     }
 
     std::vector<FlatPart>& flats_;
-    std::vector<std::vector<RoundLoop>> round_;
+    std::vector<HeldPart> parts_;
     EvenOptions options_;
     ExecutionContext& context_;
 };
@@ -207,7 +153,7 @@ EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& optio
     PartRelaxation parts(flats, options, context);
     if (!options.even) return {parts.relax_freely(), {}};
     if (*options.even == 0.0) return {};
-    return {*options.even, parts.relax(*options.even, most_steps)};
+    return {*options.even, parts.relax_with_darts(*options.even, most_steps)};
 }
 
 }  // namespace koebe

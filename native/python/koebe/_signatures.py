@@ -92,6 +92,7 @@ class PartsOptions(MapOptions, RunOptions, total=False):
 
     even: float | None
     loops: str
+    darts: float
     price: float | None
     cut: bool
     round_cuts: bool
