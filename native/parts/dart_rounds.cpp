@@ -14,8 +14,11 @@ namespace {
 
 constexpr int most_dart_rounds = 8;
 constexpr EvenEffort trial_effort{4, 2};
+constexpr double least_surplus = 0.02;   // of a part's energy: what the darts of one round must promise
 constexpr double reach_of_darts = 0.25;  // on the surface, in roots of its area: what a dart changes
 constexpr double refused_around = 0.06;  // a dart's tip, if the dart did not pay
+
+constexpr double coarse_grid = 1 << 21;  // points in the unit square: an eighth of those of 32-bit floats
 
 using Edge = std::pair<Index, Index>;
 
@@ -42,6 +45,9 @@ public:
         for_each_part([&](std::size_t k, ExecutionContext&) {
             refused_[k].resize(static_cast<std::size_t>(parts_[k].flat.points.rows()), 0);
             trials_[k].darts = promising_darts(parts_[k].flat, even_, price_, refused_[k]);
+            double surplus = 0.0;
+            for (const Dart& dart : trials_[k].darts) surplus += dart.gain - dart.cost;
+            if (surplus < least_surplus * energies(parts_[k].flat).sum()) trials_[k].darts.clear();
         });
         if (is_mirrored_) pair_images();
         if (std::ranges::all_of(trials_, [](const Trial& trial) { return trial.darts.empty(); })) return false;
@@ -83,6 +89,7 @@ private:
                        packed_side, context, trial_effort)
                  .moved)
             return;
+        if (!survives_storing(flat)) return;
         const VectorXd released = before - energies(flat);
         trial.gain.assign(trial.darts.size(), 0.0);
         for (std::size_t f = 0; f < nearest.size(); ++f)
@@ -240,6 +247,12 @@ private:
 };
 
 }  // namespace
+
+bool survives_storing(const FlatPart& flat)
+{
+    const PlanarPoints uv = (flat.points.rowwise() - flat.points.colwise().minCoeff()) / packed_side;
+    return loops_apart(flat, (uv.array() * coarse_grid).round() / coarse_grid);
+}
 
 void cut_darts(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)
 {

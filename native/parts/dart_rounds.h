@@ -15,6 +15,9 @@ struct HeldPart {
     std::vector<RoundLoop> round;
 };
 
+/// Whether loops stay apart when their points are rounded, more coarsely than they will be stored.
+bool survives_storing(const FlatPart& flat);
+
 /// Each round opens the darts that promise most (darts.h), relaxes their parts, and keeps the darts that released more
 /// energy than they cost; the others are closed again. On a mirror image of itself darts come in pairs, and a pair is
 /// kept or closed as one.

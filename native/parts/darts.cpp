@@ -40,7 +40,8 @@ SeamedMesh seamed(const FlatPart& flat)
     for (Index h = 0; h < count; ++h) {
         const Index a = origin(triangles, h), b = target(triangles, h), t = mesh.twin[h];
         mesh.length.push_back((flat.vertices.row(a) - flat.vertices.row(b)).norm());
-        const bool within = t != no_twin && !flat.polygon.empty() && flat.polygon[face_of(h)] == flat.polygon[face_of(t)];
+        const bool within =
+            t != no_twin && !flat.polygon.empty() && flat.polygon[face_of(h)] == flat.polygon[face_of(t)];
         const bool held = !flat.held.empty() && (flat.held[a] || flat.held[b]);
         mesh.whole.push_back(t == no_twin || within || held);
     }
@@ -65,7 +66,10 @@ Dart way_out(const Triangles& triangles, const PathTree& tree, Index tip)
 class Tension {
 public:
     Tension(const FlatPart& flat, const EvenForces& forces)
-        : flat_(flat), forces_(forces), whole_(VectorXcd::Zero(flat.points.rows())), leaving_(flat.points.rows(), no_twin)
+        : flat_(flat),
+          forces_(forces),
+          whole_(VectorXcd::Zero(flat.points.rows())),
+          leaving_(flat.points.rows(), no_twin)
     {
         const Triangles& triangles = flat.surface.triangles;
         for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
@@ -170,7 +174,8 @@ std::vector<Dart> promising_darts(const FlatPart& flat, double even, double pric
     const double t = area_weight(even), compliance = 2.0 * (1.0 + t) / (8.0 * t);
     std::vector<std::pair<double, Dart>> found;
     for (Index v = 0; v < flat.surface.vertex_count; ++v) {
-        if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v])) continue;
+        if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
+            continue;
         Dart dart = way_out(triangles, tree, v);
         const double pulled = tension.along(dart);
         if (!(pulled > 0.0)) continue;
@@ -190,10 +195,13 @@ std::vector<Dart> promising_darts(const FlatPart& flat, double even, double pric
     std::vector<char> taken(static_cast<std::size_t>(flat.surface.vertex_count), 0);
     std::vector<Dart> darts;
     for (auto& [gain, dart] : found) {
+        // A crack unloads what lies beside it, about as far as it is long.
         const auto is_near = [&](const Dart& other) {
-            return (flat.vertices.row(other.vertices.front()) - flat.vertices.row(dart.vertices.front())).norm() < gap;
+            const auto between = flat.vertices.row(other.vertices.front()) - flat.vertices.row(dart.vertices.front());
+            return between.norm() < std::max({gap, dart.length, other.length});
         };
-        if (std::ranges::any_of(darts, is_near) || std::ranges::any_of(dart.vertices, [&](Index v) { return taken[v]; }))
+        if (std::ranges::any_of(darts, is_near) ||
+            std::ranges::any_of(dart.vertices, [&](Index v) { return taken[v]; }))
             continue;
         for (const Index v : dart.vertices) taken[v] = 1;
         darts.push_back(std::move(dart));

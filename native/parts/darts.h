@@ -18,8 +18,9 @@ struct Dart {
 };
 
 /// The darts that may pay, some way apart. A dart is worth what its opening releases: with T the force by which the
-/// two sides of the path are pulled apart, summed along it, and Y = 8 t / (1 + t) the stiffness of E_t (relax/even_map.h)
-/// against being stretched one way, 2 T^2 / Y by the formula for a crack that runs in from the edge of a plate.
+/// two sides of the path are pulled apart, summed along it, and Y = 8 t / (1 + t) the stiffness of E_t
+/// (relax/even_map.h) against being stretched one way, 2 T^2 / Y by the formula for a crack that runs in from the edge
+/// of a plate.
 ///
 /// @param flat relaxed for this E
 /// @param price of a dart as long as the root of the surface's area, in energy
@@ -31,7 +32,8 @@ std::vector<Dart> promising_darts(const FlatPart& flat, double even, double pric
 /// @return false, nothing changed, where that cannot be
 bool open_darts(FlatPart& flat, const std::vector<Dart>& darts);
 
-/// The dart that is nearest to each face on the surface; -1 where none is near. @param reach (darts) how far a dart counts
+/// The dart that is nearest to each face on the surface; -1 where none is near. @param reach (darts) how far a dart
+/// counts
 std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach);
 
 }  // namespace koebe

@@ -100,9 +100,13 @@ public:
     {
         std::vector<std::size_t> left = relax(even, most_steps);
         if (!(options_.darts > 0.0)) return left;
+        const std::vector<HeldPart> uncut = parts_;
         cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
         const auto has_darts = [](const HeldPart& part) { return !part.flat.tips.empty(); };
-        if (std::ranges::any_of(parts_, has_darts)) relax(even, most_steps);
+        if (std::ranges::none_of(parts_, has_darts)) return left;
+        relax(even, most_steps);
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            if (has_darts(parts_[k]) && !survives_storing(parts_[k].flat)) parts_[k] = uncut[k];
         return left;
     }
 
