@@ -67,27 +67,26 @@ double energy(const FlatPart& part, double even)
 
 TEST(Darts, one_dart_to_its_tip_lays_a_cone_flat)
 {
-    for (const double even : {0.1, 0.55, 1.0}) {
-        FlatPart part = cone(1.5 * pi);
-        relax(part, even);
-        const double before = energy(part, even);
-        const std::vector<Dart> darts = promising_darts(part, even, 1e-3, {});
-        ASSERT_EQ(darts.size(), 1U);
-        EXPECT_EQ(darts.front().vertices.front(), 0);  // the tip of the dart is that of the cone
-        EXPECT_EQ(darts.front().vertices.size(), static_cast<std::size_t>(rings + 1));
-        EXPECT_NEAR(darts.front().length, std::sqrt(2.0 * area_of_cone / (1.5 * pi)), 1e-12);
-        ASSERT_TRUE(open_darts(part, darts));
-        EXPECT_EQ(part.surface.loops.size(), 1U);
-        EXPECT_EQ(part.points.rows(), 1 + rings * around + rings);
-        EXPECT_EQ(part.surface.loops.front().size(), static_cast<std::size_t>(around + 2 * rings));
-        for (Eigen::Index v = 0; v < part.points.rows(); ++v)
-            EXPECT_EQ(part.vertices.row(v), cone(1.5 * pi).vertices.row(part.original[v]));
-        relax(part, even);
-        EXPECT_LT(energy(part, even), 1e-5 * before);
-        // The plate's formula is for small strains: here the cone is a quarter of a turn short.
-        EXPECT_GT(darts.front().gain, before / 3.0);
-        EXPECT_LT(darts.front().gain, before * 3.0);
-    }
+    constexpr double even = 0.1;
+    FlatPart part = cone(1.5 * pi);
+    relax(part, even);
+    const double before = energy(part, even);
+    const std::vector<Dart> darts = promising_darts(part, even, 1e-3, {});
+    ASSERT_EQ(darts.size(), 1U);
+    EXPECT_EQ(darts.front().vertices.front(), 0);  // the tip of the dart is that of the cone
+    EXPECT_EQ(darts.front().vertices.size(), static_cast<std::size_t>(rings + 1));
+    EXPECT_NEAR(darts.front().length, std::sqrt(2.0 * area_of_cone / (1.5 * pi)), 1e-12);
+    ASSERT_TRUE(open_darts(part, darts));
+    EXPECT_EQ(part.surface.loops.size(), 1U);
+    EXPECT_EQ(part.points.rows(), 1 + rings * around + rings);
+    EXPECT_EQ(part.surface.loops.front().size(), static_cast<std::size_t>(around + 2 * rings));
+    for (Eigen::Index v = 0; v < part.points.rows(); ++v)
+        EXPECT_EQ(part.vertices.row(v), cone(1.5 * pi).vertices.row(part.original[v]));
+    relax(part, even);
+    EXPECT_LT(energy(part, even), 1e-5 * before);
+    // The plate's formula is for small strains: here the cone is a quarter of a turn short.
+    EXPECT_GT(darts.front().gain, before / 3.0);
+    EXPECT_LT(darts.front().gain, before * 3.0);
 }
 
 TEST(Darts, where_the_sides_would_have_to_overlap_there_is_none)
