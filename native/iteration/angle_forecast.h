@@ -7,9 +7,8 @@
 
 namespace koebe {
 
-/// Forecasts the angles of a shape from the last shapes. Angles depend smoothly on the shape. If a shape is a
-/// combination of earlier ones, as the next frame of a motion nearly is, its angles are nearly the same combination of
-/// theirs.
+/// Forecasts angles, which depend smoothly on the shape. If a shape is a combination of earlier shapes, as the next
+/// frame of a motion nearly is, its angles are nearly the same combination of theirs.
 class AngleForecast {
 public:
     /// The logarithms of the lengths of some edges, with mean 0. They tell shapes on the same triangles apart, in any
