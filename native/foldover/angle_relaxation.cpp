@@ -43,7 +43,7 @@ private:
             if (!map_.counts(corner)) continue;
             const Complex a = map_.points[corner.next] - z, b = map_.points[corner.previous] - z;
             const double an = 1.0 / std::norm(a), bn = 1.0 / std::norm(b);
-            // d arg = Im(c dz) = x dx + y dy, c = 1/a - 1/b for the angle here, -1/a for the next, 1/b for the previous.
+            // d arg = Im(c dz) = x dx + y dy, c = 1/a - 1/b for this angle, -1/a for the next, 1/b for the previous.
             const double ax = -a.imag() * an, ay = a.real() * an, bx = -b.imag() * bn, by = b.real() * bn;
             add(map_.error[corner.own], ax - bx, ay - by);
             add(map_.error[corner.after], -ax, -ay);
