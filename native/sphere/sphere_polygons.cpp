@@ -148,7 +148,7 @@ private:
     {
         CornerPlace whole(std::round(shift[0]), layout_ == SphereLayout::equirectangular ? 0.0 : std::round(shift[1]));
         if (layout_ == SphereLayout::equirectangular) return whole;
-        // Half turns round the sides' middles, (1/2, 0) and the like, have an odd sum. Products of two have an even one.
+        // Half turns round the sides' middles, (1/2, 0) and the like, have an odd sum; products of two an even one.
         const bool odd = std::fmod(std::abs(whole[0] + whole[1]), 2.0) == 1.0;
         if (odd == (sign < 0.0)) return whole;
         const CornerPlace rest = shift - whole;
