@@ -62,7 +62,7 @@ class IslandOutcome:
 
     @property
     def angle_error(self) -> float:
-        """Mean difference, in degrees, of the triangles' angles on the surface and in the map; in its UVs once stored."""
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the map, or in its stored UVs."""
         if self.stored is not None:
             return self.stored.angle_error
         return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]

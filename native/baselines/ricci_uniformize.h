@@ -8,8 +8,7 @@
 namespace koebe {
 
 struct RicciOptions {
-    UniformizeOptions
-        common;  ///< uses outer, center, point, tolerance, max_sweeps (updates of the target) and threads
+    UniformizeOptions common;  ///< uses outer, center, point, tolerance, max_sweeps (updates of the target) and threads
     Packing packing = Packing::inversive;
     BoundaryTarget target = BoundaryTarget::inscribed;
     bool delaunay = true;  ///< flip the surface's edges to intrinsic Delaunay first, as in uniformize

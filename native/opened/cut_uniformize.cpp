@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double opening_share = 0.1;  // share of the progress
 constexpr double small_share = 0.1;    // share of all faces: smaller pieces are mapped side by side
 constexpr double least_share = 0.1;    // dimensionless: least radius of a disk over the mean one
-constexpr int most_packings = 5;  // pieces flipped by rounding are drawn twice as large each time
+constexpr int most_packings = 5;       // pieces flipped by rounding are drawn twice as large each time
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 

@@ -27,7 +27,7 @@ struct UniformizeOptions : IterationOptions {
     bool polish = false;               ///< at the end, least angle error with the circles kept (angle_polish.h)
     double even = 0.0;                 ///< 0: conformal, 1: true to size (pipeline/even_disk.h)
     LoopForm loops = LoopForm::round;  ///< with `even`
-    bool repair = true;  ///< false: leave flipped faces as they are; for maps that are only judged
+    bool repair = true;                ///< false: leave flipped faces as they are; for maps that are only judged
     /// Names of vertices and faces in warnings, where the surface is a piece of another; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh

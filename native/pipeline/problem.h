@@ -23,7 +23,7 @@ struct Problem {
     KoebeOutcome outcome;          ///< of the last run; the next one starts from it
     AngleForecast forecast;        ///< of the first angles, from the last runs
     Index vertex_count = 0;        ///< of the input
-    VectorXcd first_places;  ///< where lay_over_first is to bring the input's vertices, NaN inside; or empty
+    VectorXcd first_places;        ///< where lay_over_first is to bring the input's vertices, NaN inside; or empty
 
     const MapInput& input() const { return core ? *core : whole; }
     MapSolver solver() const { return {*assembled.boundary, assembled.laplacian, input()}; }

@@ -17,8 +17,7 @@ struct LoopReport {
     Roundness roundness;               ///< of the loop's image, before the projection onto the circle
     double roundness_projected = 0.0;  ///< deviation from the circle after the projection
     std::vector<Index> off_circle;     ///< vertices that are not on the circle
-    bool shrunk =
-        false;  ///< whether the circle differs from the surface's own: replaced, or lost in rounding
+    bool shrunk = false;  ///< whether the circle differs from the surface's own: replaced, or lost in rounding
 };
 
 struct UniformizeResult : MapReport {

@@ -21,10 +21,10 @@ struct CutLoop {
 
 /// A surface cut open at its handles. The cut may divide faces of the input.
 struct HandleCut {
-    Surface surface;              ///< the cut surface
-    Vertices vertices;            ///< (V, 3) within the unit cube
-    std::vector<Index> original;  ///< (V) vertex of the input; higher numbers are points of the cut inside edges
-    std::vector<Index> input_face;              ///< (F) the input's face that holds each face
+    Surface surface;                ///< the cut surface
+    Vertices vertices;              ///< (V, 3) within the unit cube
+    std::vector<Index> original;    ///< (V) vertex of the input; higher numbers are points of the cut inside edges
+    std::vector<Index> input_face;  ///< (F) the input's face that holds each face
     std::vector<std::array<Index, 3>> corners;  ///< of each face of the input: half-edges of the surface that start
                                                 ///< there, in its orientation
     std::vector<Index> turned;                  ///< faces of the input that were turned to one orientation

@@ -48,9 +48,9 @@ struct SchottkyHandle {
 
 /// A hole of the surface.
 struct SchottkyHole {
-    VertexLoop vertices;  ///< in order, the surface on the left
-    Circle circle;        ///< in the UVs; in the map if the cut of the UVs tears it
-    Roundness roundness;  ///< of the image before it was put on its circle
+    VertexLoop vertices;            ///< in order, the surface on the left
+    Circle circle;                  ///< in the UVs; in the map if the cut of the UVs tears it
+    Roundness roundness;            ///< of the image before it was put on its circle
     std::vector<Index> off_circle;  ///< vertices off the circle, ascending
 };
 

@@ -227,8 +227,7 @@ OpenedSphere open_sphere(const Polyhedron& mesh, const ExecutionContext& context
     sphere.laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), count);
     sphere.areas = vertex_areas(mesh.triangles, edge_lengths(mesh.vertices, mesh.triangles), count);
     if (!(sphere.areas.sum() > 0.0)) sphere.areas.setOnes();
-    SparseMatrix tied =
-        sphere.laplacian;  // constants are in the kernel: a load with sum 0 draws nothing from the tie
+    SparseMatrix tied = sphere.laplacian;  // constants are in the kernel: a load with sum 0 draws nothing from the tie
     tied.coeffRef(0, 0) += tied.diagonal().mean();
     const SparseCholesky factor(tied);
     double least = 0.0;

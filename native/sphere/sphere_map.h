@@ -59,8 +59,7 @@ struct SphereLayoutReport {
 struct SphereResult : CornerMapReport {
     Vertices points;                ///< (V, 3) unit vectors in the input's order; unused vertices at (0, 0, 1)
     std::vector<SphereLoop> loops;  ///< by falling length
-    double mean_point =
-        0.0;  ///< length of the area-weighted mean of the points: 0 except for moves after the balance
+    double mean_point = 0.0;  ///< length of the area-weighted mean of the points: 0 except for moves after the balance
     int sweeps = 0;
     std::vector<double> changes;  ///< in each sweep; with holes in each of its steps
     /// Faces that are not upright on the sphere in exact arithmetic; among them those whose longest edge is under

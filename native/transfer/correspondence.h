@@ -22,10 +22,10 @@ struct CorrespondenceOptions {
 
 struct Correspondence {
     DomainAlignment alignment;
-    bool fitted = false;     ///< whether holes were bent onto each other; not done if faces would turn over
-    PlanarPoints uv;         ///< (V_b, 2) the target's domain as laid over the source's
-    Beltrami beltrami;       ///< of the bending from the aligned domain, else 0; counts faces cut at landmarks
-    std::size_t folded = 0;  ///< faces that the bending has turned over
+    bool fitted = false;            ///< whether holes were bent onto each other; not done if faces would turn over
+    PlanarPoints uv;                ///< (V_b, 2) the target's domain as laid over the source's
+    Beltrami beltrami;              ///< of the bending from the aligned domain, else 0; counts faces cut at landmarks
+    std::size_t folded = 0;         ///< faces that the bending has turned over
     PlacesInTriangles places;       ///< (V_a) places of the source's vertices in the target's triangles
     std::vector<Warning> warnings;  ///< not_fitted
     Vertices points;                ///< (V_a, 3) the same places in space: a target point per source vertex
