@@ -89,7 +89,7 @@ public:
 
 private:
     static constexpr double tolerance = 1e-9;   // on the sum of cotangents, dimensionless
-    static constexpr double most_excess = 0.2;  // most_excess of a triangulation that may be kept
+    static constexpr double most_excess = 0.2;  // of a triangulation that may be kept
 
     void flip(Index h)
     {
