@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One run on Blender objects that maps them to tiles of flat tori or cylinders: which faces are meant."""
+"""A run on Blender objects that maps them to tiles of flat tori or cylinders. It chooses the faces to map."""
 
 import dataclasses
 
@@ -16,7 +16,7 @@ from .domain_job import DomainJob
 
 
 class TileJob(DomainJob):
-    """Maps to tiles of flat tori or cylinders. In Edit Mode vertices may tell which loops are the rims."""
+    """Maps to tiles of flat tori or cylinders. In Edit Mode selected vertices can choose the rims."""
 
     choice: TileChoice
     outcome_type = TileOutcome
@@ -26,8 +26,8 @@ class TileJob(DomainJob):
         return self.choice.domain == "ring" and self.selected_only
 
     def _surface(self, obj: MeshObject) -> Surface:
-        """The surface, in Edit Mode of the selected faces. Where vertices tell which loops are the rims, because that
-        is asked for or no face is selected, it is all of the islands that have such vertices."""
+        """The surface, in Edit Mode of the selected faces. If selected vertices choose the rims, because that is an
+        option or no face is selected, it is the whole of the islands with such vertices."""
         surface = super()._surface(obj)
         if not self._picks_rims or (self.choice.rims != "selected" and surface.selected.any()):
             return surface

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The domains beside the disk: what a surface has to be for them."""
+"""The domains beside the disk, and their requirements on a surface."""
 
 import dataclasses
 from collections.abc import Callable
@@ -10,8 +10,8 @@ from .wording import counted
 
 
 class DomainError(MapError):
-    """A surface that is no such domain. `offer` are the operators that take it: "parts", "uniformize", or a domain's
-    name."""
+    """A surface that does not fit a domain. `offer` names the operators that take it: "parts", "uniformize", or a
+    domain."""
 
     def __init__(self, reason: str, *offer: str) -> None:
         super().__init__(reason)
@@ -20,12 +20,12 @@ class DomainError(MapError):
 
 @dataclasses.dataclass(frozen=True)
 class Domain:
-    """A canonical domain that is no disk: its UVs are a tile, the layout of a sphere, or cut open at the handles.
+    """A domain other than the disk: its UVs are a tile, the layout of a sphere, or cut open at the handles.
 
-    title   what one such map is called
-    button  what the operator is called, without "Koebe"
+    title   name of such a map
+    button  name of the operator, without "Koebe"
     icon    of the button
-    check   of the number of handles and of boundary loops; raises DomainError
+    check   takes the numbers of handles and of boundary loops; raises DomainError
     """
 
     title: str
@@ -35,7 +35,7 @@ class Domain:
 
 
 def _takers(handles: int) -> tuple[str, ...]:
-    """The operators that take a surface with so many handles, one at least."""
+    """The operators that take a surface with so many handles, at least one."""
     return ("torus",) if handles == 1 else ("schottky", "parts")
 
 
@@ -71,7 +71,7 @@ def _check_schottky(handles: int, loops: int) -> None:
         )
 
 
-# By the names that the operators have, and `koebe.torus_map`, `ring_map`, `sphere_map` and `schottky_map`.
+# The keys are the operators' names; the functions are `koebe.torus_map`, `ring_map`, `sphere_map` and `schottky_map`.
 DOMAINS = {
     "torus": Domain("torus tile", "Unwrap to Torus Tile", "MESH_TORUS", _check_torus),
     "ring": Domain("cylinder", "Unwrap to Cylinder", "MESH_CYLINDER", _check_ring),

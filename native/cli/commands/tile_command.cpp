@@ -40,7 +40,7 @@ int run(const Request& request, TileFunction map)
     return run_map_of(request, kind);
 }
 
-/// All that the command takes.
+/// Adds all options of the command.
 void add_tile_options(CLI::App& app, const char* map, const char* surface, Request& request)
 {
     add_mesh_arguments(app, request, surface, "texture coordinates of corners in [0, 1]^2");
