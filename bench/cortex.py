@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flat maps of a cortex beside FreeSurfer's: docs/labs.md, its section Cortex.
+
+    PYTHONPATH=build/python PYTHON bench/cortex.py [--sources N] [--picture] [--write]
+
+PYTHON is one that has nilearn, pygeodesic and matplotlib: `pip install nilearn pygeodesic matplotlib`. nilearn brings the
+surfaces, so nothing is downloaded. --picture draws docs/images/cortex.jpg and cortex_lesions.jpg; --write keeps the
+tables in docs/figures.json and writes them into the page.
+
+The surface is fsaverage5, left hemisphere, white matter, with the faces of the flat map that FreeSurfer's makers
+publish with it: the cuts are theirs. Lengths are in millimetres.
+"""
+
+import argparse
+import datetime
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+
+import doc_figures  # noqa: E402
+import flatten_peer  # noqa: E402
+import uv_measures  # noqa: E402
+
+WEIGHTS = (0, 0.1, 1, 3, 10)  # t: of areas against angles; E = 1.1 t / (1 + t)
+NEAR, FAR = 2.0, 40.0  # mm: the geodesic distances that count
+LESIONS = {(-50.0, 18.0, 12.0): 14.0, (-44.0, -62.0, 34.0): 10.0}  # Broca's area, angular gyrus: geodesic radius, mm
+HEAD = ["map", "angle error", "sd of log area", "distance error", "flips", "crossings", "seconds"]
+# As https://gallantlab.org/autoflatten/example-output prints them, of another surface: 306,641 faces. Its distances are
+# those within seven rings of vertices.
+PRINTED = {"autoflatten, as printed, other surface": ["", "", "14.5 %", "15", "", "698"]}
+
+
+@dataclass
+class Surface:
+    """vertices (V, 3) mm, triangles (F, 3), FreeSurfer's flat (V, 2) mm, sulcal depth (V,)."""
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    flat: np.ndarray
+    depth: np.ndarray
+
+    def part(self, faces):
+        """The surface of some faces (bool of each)."""
+        used, triangles = np.unique(self.triangles[faces], return_inverse=True)
+        return Surface(self.vertices[used], triangles.reshape(-1, 3), self.flat[used], self.depth[used])
+
+
+def read():
+    """The surface along the cuts of the published flat map."""
+    try:
+        import nibabel
+        from nilearn.datasets import fetch_surf_fsaverage
+    except ModuleNotFoundError as missing:
+        sys.exit(f"{missing.name} is not there: pip install nilearn pygeodesic matplotlib")
+    files = fetch_surf_fsaverage("fsaverage5")
+    flat, triangles = (array.data for array in nibabel.load(files["flat_left"]).darrays)
+    vertices, depth = (nibabel.load(files[name]).darrays[0].data for name in ("white_left", "sulc_left"))
+    everything = Surface(vertices.astype(float), triangles, flat[:, :2].astype(float), depth)
+    return everything.part(np.ones(len(triangles), bool))
+
+
+def geodesics(surface, sources):
+    """A function from a source to its exact distances (V,) on the surface, along its cuts [Mitchell et al. 1987]."""
+    import pygeodesic.geodesic
+
+    exact = pygeodesic.geodesic.PyGeodesicAlgorithmExact(surface.vertices, surface.triangles.astype(np.int32))
+    return np.array([exact.geodesicDistances(np.array([source]))[0] for source in sources])
+
+
+def with_lesions(surface):
+    """The surface without the faces that have a vertex in a lesion."""
+    centers = [int(np.argmin(np.linalg.norm(surface.vertices - place, axis=1))) for place in LESIONS]
+    inside = (geodesics(surface, centers) < np.array(list(LESIONS.values()))[:, None]).any(axis=0)
+    return surface.part(~inside[surface.triangles].any(axis=1))
+
+
+def distance_error(flat, sources, distances):
+    """Mean of |s flat distance / geodesic distance - 1| over pairs (source, vertex), for the best scale s, and s."""
+    chosen = (distances >= NEAR) & (distances <= FAR)
+    apart = np.linalg.norm(flat[None] - flat[sources][:, None], axis=2)
+    ratio = np.sort((apart[chosen] / distances[chosen]))[::-1]
+    sums = np.cumsum(ratio)  # the best s is the median of 1 / ratio with the weights ratio
+    scale = 1.0 / ratio[np.searchsorted(sums, sums[-1] / 2.0)]
+    return float(np.abs(scale * ratio - 1.0).mean()), float(scale)
+
+
+def exact(flat):
+    """Stored coordinates as whole numbers of Python."""
+    return [[int(x * 2**60) for x in point] for point in flat.astype(np.float32).astype(float).tolist()]
+
+
+def crossings(flat, triangles):
+    """How many pairs of border edges that share no end meet, in exact arithmetic, as stored in 32 bits."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
+    border, points, found = edges[first[count == 1]].tolist(), exact(flat), 0
+
+    def side(a, b, c):
+        area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        return (area > 0) - (area < 0)
+
+    for k, one in enumerate(border):
+        a, b = points[one[0]], points[one[1]]
+        for other in border[:k]:
+            if set(one) & set(other):
+                continue
+            c, d = points[other[0]], points[other[1]]
+            if max(a[0], b[0]) < min(c[0], d[0]) or max(c[0], d[0]) < min(a[0], b[0]):
+                continue
+            found += side(a, b, c) * side(a, b, d) <= 0 and side(c, d, a) * side(c, d, b) <= 0
+    return found
+
+
+def cells(surface, flat, sources, distances, seconds):
+    """A row of the table; flips and crossings of the places as stored in 32 bits."""
+    stored = flat.astype(np.float32).astype(float)
+    corners, points = stored[surface.triangles], surface.vertices[surface.triangles]
+    area, signed = uv_measures.triangle_areas(points), uv_measures.signed_areas(corners)
+    angle = np.abs(uv_measures.corner_angles(corners) - uv_measures.corner_angles(points)).mean()
+    upright = signed > 0
+    log = np.log(signed[upright] / area[upright])
+    sd = np.sqrt(np.average((log - np.average(log, weights=area[upright])) ** 2, weights=area[upright]))
+    error, _ = distance_error(stored, sources, distances)
+    return [f"{angle:.2f}°", f"{sd:.3f}", f"{100 * error:.1f} %", str((~upright).sum()),
+            str(crossings(flat, surface.triangles)), seconds]  # fmt: skip
+
+
+def ours(surface, weight, loops):
+    """The map as stored, (V, 2) in [0, 1]², and its seconds."""
+    import koebe
+
+    begin = time.perf_counter()
+    even = min(1.0, 1.1 * weight / (1.0 + weight))
+    result = koebe.uniformize(surface.vertices, surface.triangles, even=even, loops=loops)
+    if result.warnings:
+        print(loops, weight, *result.warnings, sep="; ", file=sys.stderr)
+    return koebe.disk_to_uv(result.uv), time.perf_counter() - begin
+
+
+def table(surface, count):
+    """Rows by name, and the maps by (loops, t)."""
+    sources = np.random.default_rng(1).choice(len(surface.vertices), count, replace=False)
+    distances = geodesics(surface, sources)
+    rows, maps = {}, {}
+    for loops in ("free", "round"):
+        for weight in WEIGHTS:
+            if weight == 0 and loops == "round":
+                continue  # a conformal map has round loops
+            flat, seconds = maps[loops, weight] = ours(surface, weight, loops)
+            even = min(1.0, 1.1 * weight / (1.0 + weight))
+            name = f"{loops}, E = {even:.3g} (t = {weight})" if weight else "conformal, E = 0"
+            rows[name] = cells(surface, flat, sources, distances, f"{seconds:.1f}")
+    return rows, maps, lambda flat, seconds: cells(surface, flat, sources, distances, seconds)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="cortex.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--sources", type=int, default=1000, help="vertices from which distances are measured (1000)")
+    parser.add_argument("--picture", action="store_true")
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args()
+    surface = read()
+    damaged = with_lesions(surface)
+    rows, maps, measured = table(surface, options.sources)
+    rows["FreeSurfer's, as published"] = measured(surface.flat, "")
+    if flatten_peer.command():
+        flat, seconds = flatten_peer.flat_map(surface.vertices, surface.triangles)
+        rows["autoflatten, this surface"] = measured(flat, f"{seconds:.0f}")
+    rows.update(PRINTED)
+    others, holed, _ = table(damaged, options.sources)
+    for name, made in (("cortex", rows), ("cortex_lesions", others)):
+        print(doc_figures.markdown({"head": HEAD, "rows": made}), end="\n\n")
+        if options.write:
+            doc_figures.keep(name, HEAD, made, "bench/cortex.py --write", datetime.date.today().isoformat())
+            doc_figures.write()
+    if options.picture:
+        import cortex_picture
+
+        cortex_picture.draw(surface, damaged, maps, holed)
+
+
+if __name__ == "__main__":
+    main()
