@@ -10,10 +10,11 @@ import uv_measures
 matplotlib.use("agg")
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
 
 IMAGES = Path(__file__).resolve().parent.parent / "docs" / "images"
 SHOWN = 1  # t of the maps that are drawn
-POLES = {"frontal pole": (0, 1, 0), "occipital pole": (0, -1, 0), "temporal pole": (0, 0.7, -0.7)}  # farthest that way
+POLES = {"frontal pole": (-11, 66, 9), "occipital pole": (-11, -103, 1), "temporal pole": (-37, 15, -35)}  # mm
 RANGE = 1.0  # of log2 of the local area
 INK, RED = "#222222", "#c1272d"
 
@@ -65,12 +66,14 @@ def depth(axis, surface, flat, half, title):
 
 
 def name_poles(axis, surface, flat, words):
-    """A dot at each pole, and its name on the first map."""
-    for letter, way in POLES.items():
-        place = flat[np.argmax(surface.vertices @ way)]
-        axis.plot(*place, "o", color=RED, markersize=3.5, markeredgecolor="white", markeredgewidth=0.6)
+    """A dot at each pole, and its name if there shall be `words`."""
+    for name, pole in POLES.items():
+        place = flat[np.argmin(np.linalg.norm(surface.vertices - pole, axis=1))]
+        axis.plot(*place, "o", color=RED, markersize=4, markeredgecolor="white", markeredgewidth=0.7)
         if words:
-            axis.annotate(letter, place, (4, 4), textcoords="offset points", fontsize=7, color=RED)
+            side, shift = ("right", -5) if place[0] > 0.5 * flat[:, 0].max() else ("left", 5)
+            axis.annotate(name, place, (shift, 3), textcoords="offset points", fontsize=8, color=RED, ha=side,
+                          path_effects=[withStroke(linewidth=2, foreground="white")])  # fmt: skip
 
 
 def scale_bar(axis, half):
@@ -82,15 +85,15 @@ def scale_bar(axis, half):
 def draw(surface, damaged, maps, holed):
     kept = {
         "conformal (E = 0)": maps["free", 0][0],
-        "even, E = 0.55": maps["free", SHOWN][0],
-        "FreeSurfer's, as published": surface.flat,
+        "even (E = 0.55), free": maps["free", SHOWN][0],
+        "FreeSurfer's, as nilearn has it": surface.flat,
     }
     flats = {title: upright(flat, surface) for title, flat in kept.items()}
     half = 1.04 * np.abs(np.concatenate(list(flats.values()))).max(axis=0)
-    figure, axes = pyplot.subplots(2, 3, figsize=(10, 0.5 + 6.3 * half[1] / half[0]), dpi=110, layout="constrained")
+    figure, axes = pyplot.subplots(2, 3, figsize=(10, 0.4 + 5.6 * half[1] / half[0]), dpi=110, layout="constrained")
     for column, (title, flat) in enumerate(flats.items()):
         depth(axes[0, column], surface, flat, half, title)
-        name_poles(axes[0, column], surface, flat, column == 2)
+        name_poles(axes[0, column], surface, flat, column == 0)
         image = paint(axes[1, column], surface, flat, local_area(surface, flat), half,
                       cmap="RdBu_r", vmin=-RANGE, vmax=RANGE)  # fmt: skip
     scale_bar(axes[0, 0], half)
@@ -99,11 +102,11 @@ def draw(surface, damaged, maps, holed):
     bar.set_label("area on the map", fontsize=8)
     figure.savefig(IMAGES / "cortex.jpg", pil_kwargs={"quality": 85})
 
-    flats = {f"{loops} loops": upright(holed[loops, SHOWN][0], damaged) for loops in ("free", "round")}
+    flats = {f"E = 0.55, {loops} loops": upright(holed[loops, SHOWN][0], damaged) for loops in ("free", "round")}
     half = 1.04 * np.abs(np.concatenate(list(flats.values()))).max(axis=0)
     figure, axes = pyplot.subplots(1, 2, figsize=(8, 0.4 + 4 * half[1] / half[0]), dpi=110, layout="constrained")
     for axis, (title, flat) in zip(axes, flats.items()):
         depth(axis, damaged, flat, half, title)
-        name_poles(axis, damaged, flat, axis is axes[0])
+        name_poles(axis, damaged, flat, False)
     scale_bar(axes[0], half)
     figure.savefig(IMAGES / "cortex_lesions.jpg", pil_kwargs={"quality": 85})

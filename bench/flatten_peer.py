@@ -7,12 +7,11 @@ It is looked for in AUTOFLATTEN, then in the PATH. It brings JAX, a gigabyte, so
 
 import os
 import shutil
-import subprocess
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
+import processor_time
 
 LIMIT = 1800  # seconds
 PATCH = np.dtype([("vertex", ">i4"), ("place", ">f4", 3)])  # FreeSurfer's file, after two whole numbers: -1, count
@@ -23,7 +22,7 @@ def command() -> str | None:
 
 
 def flat_map(vertices, triangles):
-    """Its flat (V, 2) in the unit of the vertices, upright, and the seconds of the whole command."""
+    """Its flat (V, 2) in the unit of the vertices, upright, and the processor seconds of the whole command."""
     import nibabel
 
     records = np.zeros(len(vertices), PATCH)
@@ -32,10 +31,10 @@ def flat_map(vertices, triangles):
         surface, patch, flat = (Path(folder) / name for name in ("lh.white", "lh.patch.3d", "lh.flat.patch.3d"))
         nibabel.freesurfer.write_geometry(str(surface), vertices, triangles)
         patch.write_bytes(np.array([-1, len(vertices)], ">i4").tobytes() + records.tobytes())
-        begin = time.perf_counter()
         words = [command(), "flatten", patch, "--base-surface", surface, "--output", flat, "--print-every", "1000"]
-        subprocess.run(list(map(str, words)), check=True, capture_output=True, timeout=LIMIT)
-        seconds = time.perf_counter() - begin
+        done, seconds = processor_time.run_timed(words, LIMIT)
+        if done is None or done.returncode:
+            raise RuntimeError(f"autoflatten: {done.stderr.strip() if done else 'out of time'}")
         made = np.frombuffer(flat.read_bytes(), PATCH, offset=8)
     order = np.argsort(np.abs(made["vertex"]))
     places = made["place"][order][:, :2].astype(float)
