@@ -7,8 +7,8 @@ It needs nilearn, pygeodesic and matplotlib, which `make test-labs` installs. ni
 downloaded. Where autoflatten is (flatten_peer.py), it is measured too. --picture draws docs/images/cortex.jpg and
 cortex_lesions.jpg; --write keeps the tables in docs/figures.json and writes them into the page.
 
-The surface is fsaverage5, left hemisphere, white matter, with the faces of the flat map that nilearn ships with
-publish with it: the cuts are theirs. Lengths are in millimetres.
+The surface is fsaverage5, left hemisphere, white matter, with the faces of its flat map: the cuts are FreeSurfer's.
+Lengths are in millimetres.
 """
 
 import argparse
@@ -36,7 +36,7 @@ PRINTED = {"autoflatten, as printed, other surface": ["", "", "14.5 %", "15", ""
 
 @dataclass
 class Surface:
-    """vertices (V, 3) mm, triangles (F, 3), FreeSurfer's flat (V, 2) mm, sulcal depth (V,)."""
+    """vertices (V, 3) mm, triangles (F, 3), FreeSurfer's flat map (V, 2) mm, sulcal depth (V,)."""
 
     vertices: np.ndarray
     triangles: np.ndarray
@@ -50,7 +50,7 @@ class Surface:
 
 
 def read():
-    """The surface along the cuts of the published flat map."""
+    """The surface along the cuts of FreeSurfer's flat map."""
     try:
         import nibabel
         from nilearn.datasets import fetch_surf_fsaverage
@@ -135,7 +135,7 @@ def even_of(weight):
 
 
 def ours(surface, weight, loops):
-    """The map as stored, (V, 2) in [0, 1]², and its processor seconds."""
+    """The map (V, 2) in [0, 1]², and its processor seconds."""
     import koebe
 
     begin = time.process_time()
@@ -160,6 +160,14 @@ def table(surface, count):
     return rows, maps, lambda flat, seconds: cells(surface, flat, sources, distances, seconds)
 
 
+def tell(name, rows, write):
+    """Prints a table, and keeps it if it is to be written."""
+    print(doc_figures.markdown({"head": HEAD, "rows": rows}), end="\n\n", flush=True)
+    if write:
+        doc_figures.keep(name, HEAD, rows, "bench/cortex.py --write", datetime.date.today().isoformat())
+        doc_figures.write()
+
+
 def main():
     parser = argparse.ArgumentParser(prog="cortex.py", description=__doc__.splitlines()[0])
     parser.add_argument("--sources", type=int, default=1000, help="vertices from which distances are measured (1000)")
@@ -167,19 +175,15 @@ def main():
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
     surface = read()
-    damaged = with_lesions(surface)
     rows, maps, measured = table(surface, options.sources)
     rows["FreeSurfer's, as nilearn has it"] = measured(surface.flat, "")
     if flatten_peer.command():
         flat, seconds = flatten_peer.flat_map(surface.vertices, surface.triangles)
         rows["autoflatten, this surface"] = measured(flat, f"{seconds:.0f}")
-    rows.update(PRINTED)
-    others, holed, _ = table(damaged, options.sources)
-    for name, made in (("cortex", rows), ("cortex_lesions", others)):
-        print(doc_figures.markdown({"head": HEAD, "rows": made}), end="\n\n")
-        if options.write:
-            doc_figures.keep(name, HEAD, made, "bench/cortex.py --write", datetime.date.today().isoformat())
-            doc_figures.write()
+    tell("cortex", {**rows, **PRINTED}, options.write)
+    damaged = with_lesions(surface)
+    rows, holed, _ = table(damaged, options.sources)
+    tell("cortex_lesions", rows, options.write)
     if options.picture:
         import cortex_picture
 

@@ -29,12 +29,12 @@ def test_distances_of_a_rolled_sheet_are_those_of_the_sheet():
     error, scale = cortex.distance_error(3.0 * flat, sources, distances)
     assert error < 1e-12 and np.isclose(3.0 * scale, 1.0)
 
-    stretched = flat * [1.2, 1.0]
+    stretched = flat * [3.0, 1.0]
     error, _ = cortex.distance_error(stretched, sources, distances)
     chosen = (distances >= 2.0) & (distances <= 40.0)
     apart = np.linalg.norm(stretched[None] - stretched[sources][:, None], axis=2)
-    tried = [np.abs(s * apart[chosen] / distances[chosen] - 1.0).mean() for s in np.linspace(0.8, 1.0, 2001)]
-    assert error > 0.05 and 0.0 <= min(tried) - error < 1e-4
+    tried = [np.abs(s * apart[chosen] / distances[chosen] - 1.0).mean() for s in np.linspace(0.3, 1.0, 7001)]
+    assert error > 0.2 and 0.0 <= min(tried) - error < 1e-4
 
 
 def test_a_border_that_crosses_itself_is_seen():
