@@ -169,7 +169,7 @@ def table(surface, count):
                 continue  # a conformal map has round loops
             flat, seconds = maps[loops, weight] = ours(surface, weight, loops)
             name = f"{loops}, E = {even_of(weight):.3g} (t = {weight})" if weight else "conformal, E = 0"
-            rows[name] = cells(surface, flat, sources, distances, f"{seconds:.1f}")
+            rows[name] = cells(surface, flat, sources, distances, f"{seconds:.2g}")
     return rows, maps, lambda flat, seconds: cells(surface, flat, sources, distances, seconds)
 
 
