@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flat maps of a cortex beside FreeSurfer's: docs/labs.md, its section Cortex.
 
-    PYTHONPATH=build/python build/venv-labs/bin/python bench/cortex.py [--sources N] [--picture] [--write]
+    PYTHONPATH=build/python build/venv-labs/bin/python bench/cortex.py [options]
 
 It needs nilearn, pygeodesic and matplotlib, which `make test-labs` installs. nilearn brings the surfaces: nothing is
 downloaded. Where autoflatten is (flatten_peer.py), it is measured too. --picture draws docs/images/cortex.jpg and
-cortex_lesions.jpg; --write keeps the tables in docs/figures.json and writes them into the page.
+cortex_lesions.jpg; --write keeps the tables in docs/figures.json and writes them into the page. --subject FOLDER prints
+the table of another hemisphere: that of pycortex's source package is in its filestore/db/S1/surfaces.
 
 The surface is fsaverage5, left hemisphere, white matter, with the faces of its flat map: the cuts are FreeSurfer's.
 Lengths are in millimetres.
@@ -16,6 +17,7 @@ import datetime
 import sys
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -24,10 +26,9 @@ sys.dont_write_bytecode = True
 import doc_figures  # noqa: E402
 import flatten_peer  # noqa: E402
 import uv_measures  # noqa: E402
+from geodesic_error import distance_error, geodesics  # noqa: E402
 
 WEIGHTS = (0, 0.1, 0.375, 1, 3, 10)  # t: of areas against angles; E = 1.1 t / (1 + t)
-NEAR, FAR = 2.0, 40.0  # mm: the geodesic distances that count
-REACH = 75.0  # mm along edges: no path as long as FAR leaves the faces within
 LESIONS = {(-50.0, 18.0, 12.0): 14.0, (-44.0, -62.0, 34.0): 10.0}  # Broca's area, angular gyrus: geodesic radius, mm
 HEAD = ["map", "angle error", "sd of log area", "distance error", "flips", "crossings", "seconds"]
 # As https://gallantlab.org/autoflatten/example-output prints them, of another surface: 306,641 faces. Its distances are
@@ -64,24 +65,17 @@ def read():
     return everything.part(np.ones(len(triangles), bool))
 
 
-def geodesics(surface, sources):
-    """Exact distances (S, V) that cross no cut [Mitchell et al. 1987]; infinite beyond REACH along edges."""
-    import pygeodesic.geodesic
-    from scipy.sparse import csgraph, csr_matrix
+def read_subject(folder):
+    """A left hemisphere of pycortex's: the middle of its cortex, along the cuts of its flat map by FreeSurfer."""
+    import nibabel
 
-    start, end = surface.triangles.ravel(), np.roll(surface.triangles, -1, axis=1).ravel()
-    lengths = np.linalg.norm(surface.vertices[start] - surface.vertices[end], axis=1)
-    count = len(surface.vertices)
-    graph = csr_matrix((lengths, (start, end)), shape=(count, count))
-    distances = np.full((len(sources), count), np.inf)
-    for row, source in zip(distances, sources):
-        near = np.isfinite(csgraph.dijkstra(graph, directed=False, indices=source, limit=REACH))
-        used, triangles = np.unique(surface.triangles[near[surface.triangles].all(axis=1)], return_inverse=True)
-        exact = pygeodesic.geodesic.PyGeodesicAlgorithmExact(
-            surface.vertices[used], triangles.reshape(-1, 3).astype(np.int32)
-        )
-        row[used] = exact.geodesicDistances(np.searchsorted(used, [source]))[0]
-    return distances
+    white, pial = (nibabel.load(folder / f"{name}_lh.gii").darrays[0].data.astype(float) for name in ("wm", "pia"))
+    flat, triangles = (array.data for array in nibabel.load(folder / "flat_lh.gii").darrays)
+    flat = flat[:, :2].astype(float)
+    if uv_measures.signed_areas(flat[triangles]).sum() < 0.0:
+        flat[:, 0] *= -1.0
+    whole = Surface((white + pial) / 2.0, triangles, flat, np.zeros(len(flat)))
+    return whole.part(np.ones(len(triangles), bool))
 
 
 def with_lesions(surface):
@@ -89,16 +83,6 @@ def with_lesions(surface):
     centers = [int(np.argmin(np.linalg.norm(surface.vertices - place, axis=1))) for place in LESIONS]
     inside = (geodesics(surface, centers) < np.array(list(LESIONS.values()))[:, None]).any(axis=0)
     return surface.part(~inside[surface.triangles].any(axis=1))
-
-
-def distance_error(flat, sources, distances):
-    """Mean of |s flat distance / geodesic distance - 1| over pairs (source, vertex), for the best scale s, and s."""
-    chosen = (distances >= NEAR) & (distances <= FAR)
-    apart = np.linalg.norm(flat[None] - flat[sources][:, None], axis=2)
-    ratio = np.sort(apart[chosen] / distances[chosen])[::-1]
-    sums = np.cumsum(ratio)  # the best s is the median of 1 / ratio with the weights ratio
-    scale = 1.0 / ratio[np.searchsorted(sums, sums[-1] / 2.0)]
-    return float(np.abs(scale * ratio - 1.0).mean()), float(scale)
 
 
 def exact(flat):
@@ -186,10 +170,13 @@ def main():
     parser.add_argument("--sources", type=int, default=1000, help="vertices from which distances are measured (1000)")
     parser.add_argument("--picture", action="store_true")
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--subject", type=Path, metavar="FOLDER", help="of wm, pia and flat_lh.gii")
     options = parser.parse_args()
-    surface = read()
+    surface = read_subject(options.subject) if options.subject else read()
     rows, maps, measured = table(surface, options.sources)
-    rows["FreeSurfer's, as nilearn has it"] = measured(surface.flat, "")
+    rows["FreeSurfer's"] = measured(surface.flat, "")
+    if options.subject:
+        return tell("subject", rows, False)
     if flatten_peer.command():
         flat, seconds = flatten_peer.flat_map(surface.vertices, surface.triangles)
         rows["autoflatten, this surface"] = measured(flat, f"{seconds:.0f}")

@@ -86,7 +86,7 @@ def draw(surface, damaged, maps, holed):
     kept = {
         "conformal (E = 0)": maps["free", 0][0],
         "even (E = 0.55), free": maps["free", SHOWN][0],
-        "FreeSurfer's, as nilearn has it": surface.flat,
+        "FreeSurfer's": surface.flat,
     }
     flats = {title: upright(flat, surface) for title, flat in kept.items()}
     half = 1.04 * np.abs(np.concatenate(list(flats.values()))).max(axis=0)
