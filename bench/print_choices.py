@@ -23,11 +23,11 @@ HEAD = [
 ]  # fmt: skip
 
 
-def domain(vertices):
+def domain(vertices, circles=CIRCLES):
     """Points (V, 3) on Enneper's surface, triangles, and a vertex on each circle."""
     spacing = np.sqrt(2.0 * np.pi / (np.sqrt(3.0) * vertices))
     polygons = []
-    for center, radius in CIRCLES:
+    for center, radius in circles:
         count = max(12, round(2.0 * np.pi * radius / spacing))
         z = center + radius * np.exp(2j * np.pi * np.arange(count) / count)
         polygons.append(np.column_stack([z.real, z.imag]))

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The factors by which a sweep lowers the error, predicted from the circles alone and measured (docs/method.md, "How
+fast"): CK, the first algorithm, GK step after step, and all loops at once."""
+
+import math
+import random
+
+import numpy as np
+import print_choices
+
+DRAWN = zip((2, 2, 3, 3, 4, 4, 5, 5, 6, 7), (1, 2) * 5)
+DOMAINS = {f"{holes} holes, draw {seed}": (holes, seed) for holes, seed in DRAWN}
+GAP = 0.04  # between circles, at least
+MODES = 40  # of a loop's error
+VERTICES = 12000
+RUNS = {
+    "CK": ("condensed", "ck"),
+    "first": ("condensed", "against-outer"),
+    "GK": ("mesh", "gk"),
+    "at once": ("condensed", "gk"),
+}
+LAST = 1e-9  # the error, about, at which a factor is measured; rounding is 1e-14
+HEAD = ["circles", *(f"{name}: predicted, measured" for name in RUNS), "log GK / log CK", "log GK / log first"]
+
+
+def draw(holes, seed):
+    """The unit circle and circles inside it, apart, of random sizes."""
+    rnd = random.Random(seed)
+    while True:
+        circles = [(0j, 1.0)]
+        for _ in range(4000):
+            r, c = rnd.uniform(0.5, 0.75) / np.sqrt(holes), complex(rnd.uniform(-1, 1), rnd.uniform(-1, 1))
+            if abs(c) + r < 1 - GAP and all(abs(c - d) - r - s > GAP for d, s in circles[1:]):
+                circles.append((c, r))
+            if len(circles) > holes:
+                return circles
+
+
+def turned_out(circles):
+    """The circles after 1 / (z - p), p in the domain: all disks are bounded then. p keeps them as far apart, for their
+    sizes, as it can."""
+    x = np.linspace(-1, 1, 61)
+    grid = (x[:, None] + 1j * x).ravel()
+    inside = (abs(grid) < 1) & np.all([abs(grid - c) > r for c, r in circles[1:]], axis=0)
+
+    def seen_from(p):
+        power = [abs(c - p) ** 2 - r * r for c, r in circles]
+        return [(np.conj(c - p) / q, r / abs(q)) for (c, r), q in zip(circles, power)]
+
+    def crowded(p):
+        seen = seen_from(p)
+        return max((r + s) / abs(c - d) for k, (c, r) in enumerate(seen) for d, s in seen[:k])
+
+    return seen_from(min(grid[inside], key=crowded))
+
+
+def interaction(circles):
+    """M: what errors of the other loops leave of loop i, opened alone, as a real matrix. Blocks of 2 MODES: real and
+    imaginary parts of the modes from 2 on; a takes the conjugate of the others'."""
+    orders = range(2, MODES + 2)
+
+    def block(c, r, d, s):
+        w = c - d
+        near = [[math.comb(p + q - 1, p + 1) * (s / w) ** (q - 1) * (-r / w) ** (p + 1) for q in orders] for p in orders]
+        m = s / r * np.array(near)
+        return np.block([[m.real, m.imag], [m.imag, -m.real]])
+
+    zero = np.zeros((2 * MODES, 2 * MODES))
+    rows = [[zero if i == j else block(*a, *b) for j, b in enumerate(circles)] for i, a in enumerate(circles)]
+    return np.block(rows)
+
+
+def part(loops):
+    return np.concatenate([np.arange(2 * MODES) + 2 * MODES * k for k in loops])
+
+
+def in_turn(m, steps):
+    """What a sweep makes of the errors: each step solves for the loops that it opens."""
+    total = np.eye(len(m))
+    for loops in steps:
+        opened = part(loops)
+        others = np.setdiff1d(np.arange(len(m)), opened)
+        given = m[np.ix_(opened, others)] @ total[others]
+        total[opened] = np.linalg.solve(np.eye(len(opened)) - m[np.ix_(opened, opened)], given)
+    return total
+
+
+def at_once(m, n):
+    """Each loop against loop 0, from the same state."""
+    first, rest = part([0]), part(range(1, n))
+    s = m[np.ix_(rest, rest)] + m[np.ix_(rest, first)] @ m[np.ix_(first, rest)]
+    own = np.kron(np.eye(n - 1), np.ones((2 * MODES, 2 * MODES))) * s
+    return np.linalg.solve(np.eye(len(s)) - own, s - own)
+
+
+def sweeps(n):
+    pairs = [(k, k + 1) for k in range(0, n - 1, 2)] + [(0, n - 1)] * (n % 2)
+    return {"CK": [(k,) for k in range(n)], "first": [(0, k) for k in range(1, n)], "GK": pairs}
+
+
+def predicted(circles):
+    """The spectral radius of each sweep."""
+    m, n = interaction(turned_out(circles)), len(circles)
+    matrices = {name: in_turn(m, steps) for name, steps in sweeps(n).items()} | {"at once": at_once(m, n)}
+    return {name: float(np.max(np.abs(np.linalg.eigvals(matrix)))) for name, matrix in matrices.items()}
+
+
+def measured(koebe, points, triangles, run, factor):
+    """How much less the circles move in a sweep than in the one before, late: the mean of two sweeps."""
+    engine, method = RUNS[run]
+    last = max(4, min(14, round(math.log(LAST) / math.log(factor))))
+    found = []
+    for count in range(last - 3, last + 1):
+        result = koebe.uniformize(
+            points, triangles, engine=engine, method=method, max_sweeps=count, tolerance=1e-15
+        )
+        circles = zip(result.centers @ [1, 1j], result.radii)
+        found.append(print_choices.inversive_distances(list(circles)))
+    moved = np.max(np.abs(np.diff(found, axis=0)) / found[-1], axis=1)
+    return math.sqrt(moved[2] / moved[0])
+
+
+def cells(koebe, row):
+    """A row; the logarithms are of measured factors, for equally many steps."""
+    circles = draw(*DOMAINS[row])
+    points, triangles, on_circle = print_choices.domain(VERTICES, circles)
+    loops = koebe.uniformize(points, triangles).loops
+    circles = [circles[next(k for k, v in enumerate(on_circle) if v in loop)] for loop in loops]
+    expected = predicted(circles)
+    found = {run: measured(koebe, points, triangles, run, expected[run]) for run in RUNS}
+    a_step = {name: math.log(found[name]) / len(steps) for name, steps in sweeps(len(circles)).items()}
+    return [
+        *(f"{expected[run]:.3g}, {found[run]:.3g}" for run in RUNS),
+        f"{a_step['GK'] / a_step['CK']:.2f}",
+        f"{a_step['GK'] / a_step['first']:.2f}",
+    ]
