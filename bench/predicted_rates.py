@@ -14,12 +14,8 @@ DOMAINS = {f"{holes} holes, draw {seed}": (holes, seed) for holes, seed in DRAWN
 GAP = 0.04  # between circles, at least
 MODES = 40  # of a loop's error
 VERTICES = 12000
-RUNS = {
-    "CK": ("condensed", "ck"),
-    "first": ("condensed", "against-outer"),
-    "GK": ("mesh", "gk"),
-    "at once": ("condensed", "gk"),
-}
+RUNS = {"CK": ("condensed", "ck"), "first": ("condensed", "against-outer"), "GK": ("mesh", "gk")}
+RUNS["at once"] = ("condensed", "gk")
 LAST = 1e-11  # the error, about, at which a factor is measured; rounding is 1e-14
 HEAD = ["circles", *(f"{name}: predicted, measured" for name in RUNS), "log GK / log CK", "log GK / log first"]
 
@@ -62,8 +58,8 @@ def interaction(circles):
 
     def block(c, r, d, s):
         w = c - d
-        near = [[math.comb(p + q - 1, p + 1) * (s / w) ** (q - 1) * (-r / w) ** (p + 1) for q in orders] for p in orders]
-        m = s / r * np.array(near)
+        m = [[math.comb(p + q - 1, p + 1) * (s / w) ** (q - 1) * (-r / w) ** (p + 1) for q in orders] for p in orders]
+        m = s / r * np.array(m)
         return np.block([[m.real, m.imag], [m.imag, -m.real]])
 
     zero = np.zeros((2 * MODES, 2 * MODES))
@@ -71,15 +67,11 @@ def interaction(circles):
     return np.block(rows)
 
 
-def part(loops):
-    return np.concatenate([np.arange(2 * MODES) + 2 * MODES * k for k in loops])
-
-
 def in_turn(m, steps):
     """What a sweep makes of the errors: each step solves for the loops that it opens."""
     total = np.eye(len(m))
     for loops in steps:
-        opened = part(loops)
+        opened = np.concatenate([np.arange(2 * MODES) + 2 * MODES * k for k in loops])
         others = np.setdiff1d(np.arange(len(m)), opened)
         given = m[np.ix_(opened, others)] @ total[others]
         total[opened] = np.linalg.solve(np.eye(len(opened)) - m[np.ix_(opened, opened)], given)
@@ -88,9 +80,9 @@ def in_turn(m, steps):
 
 def at_once(m, n):
     """Each loop against loop 0, from the same state."""
-    first, rest = part([0]), part(range(1, n))
-    s = m[np.ix_(rest, rest)] + m[np.ix_(rest, first)] @ m[np.ix_(first, rest)]
-    own = np.kron(np.eye(n - 1), np.ones((2 * MODES, 2 * MODES))) * s
+    b = 2 * MODES
+    s = m[b:, b:] + m[b:, :b] @ m[:b, b:]
+    own = np.kron(np.eye(n - 1), np.ones((b, b))) * s
     return np.linalg.solve(np.eye(len(s)) - own, s - own)
 
 
@@ -106,32 +98,31 @@ def predicted(circles):
     return {name: float(np.max(np.abs(np.linalg.eigvals(matrix)))) for name, matrix in matrices.items()}
 
 
-def measured(koebe, points, triangles, run, factor):
+def measured(koebe, mesh, run, factor):
     """How much less the circles move in a sweep than in the one before, late: the mean of two sweeps."""
     engine, method = RUNS[run]
     last = max(4, min(16, round(math.log(LAST) / math.log(factor))))
     found = []
     for count in range(last - 3, last + 1):
-        result = koebe.uniformize(
-            points, triangles, engine=engine, method=method, max_sweeps=count, tolerance=1e-15
-        )
-        circles = zip(result.centers @ [1, 1j], result.radii)
-        found.append(print_choices.inversive_distances(list(circles)))
+        result = koebe.uniformize(*mesh, engine=engine, method=method, max_sweeps=count, tolerance=1e-15)
+        found.append(print_choices.inversive_distances(list(zip(result.centers @ [1, 1j], result.radii))))
     moved = np.max(np.abs(np.diff(found, axis=0)) / found[-1], axis=1)
     return math.sqrt(moved[2] / moved[0])
 
 
-def cells(koebe, row):
-    """A row; the logarithms are of measured factors, for equally many steps."""
+def factors(koebe, row):
+    """Predicted and measured, and the number of loops."""
     circles = draw(*DOMAINS[row])
     points, triangles, on_circle = print_choices.domain(VERTICES, circles)
     loops = koebe.uniformize(points, triangles).loops
     circles = [circles[next(k for k, v in enumerate(on_circle) if v in loop)] for loop in loops]
     expected = predicted(circles)
-    found = {run: measured(koebe, points, triangles, run, expected[run]) for run in RUNS}
-    a_step = {name: math.log(found[name]) / len(steps) for name, steps in sweeps(len(circles)).items()}
-    return [
-        *(f"{expected[run]:.3g}, {found[run]:.3g}" for run in RUNS),
-        f"{a_step['GK'] / a_step['CK']:.2f}",
-        f"{a_step['GK'] / a_step['first']:.2f}",
-    ]
+    return expected, {run: measured(koebe, (points, triangles), run, expected[run]) for run in RUNS}, len(circles)
+
+
+def cells(koebe, row):
+    """A row; the logarithms are of measured factors, for equally many steps."""
+    expected, found, n = factors(koebe, row)
+    a_step = {name: math.log(found[name]) / len(steps) for name, steps in sweeps(n).items()}
+    both = [f"{expected[run]:.3g}, {found[run]:.3g}" for run in RUNS]
+    return [*both, *(f"{a_step['GK'] / a_step[other]:.2f}" for other in ("CK", "first"))]

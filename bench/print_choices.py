@@ -15,7 +15,7 @@ CHOICES = {
     "metric of the last image": {"metric": "planar"},
     "the same after the reflection τ": {"metric": "reflected"},
     "metric of the last image, annulus by the Yamabe flow": {"metric": "planar", "annulus": "yamabe"},
-    "the print: τ, partners that change, 1-forms": {"metric": "reflected", "partners": "changing"},
+    "τ, partners that change, 1-forms: nearest to the print": {"metric": "reflected", "partners": "changing"},
 }
 HEAD = [
     "choice", *(f"circles, {sweeps} sweeps" for sweeps in SWEEPS), *(f"degrees, {sweeps} sweeps" for sweeps in SWEEPS),
