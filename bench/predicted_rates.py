@@ -13,7 +13,7 @@ DRAWN = ((2, 4), (2, 13), (3, 4), (3, 13), (4, 52), (4, 63), (5, 8), (5, 36), (6
 DOMAINS = {f"{holes} holes, draw {seed}": (holes, seed) for holes, seed in DRAWN}
 GAP = 0.04  # between circles, at least
 MODES = 40  # of a loop's error
-VERTICES = 12000
+VERTICES = 8000
 RUNS = {"CK": ("condensed", "ck"), "first": ("condensed", "against-outer"), "GK": ("mesh", "gk")}
 RUNS["at once"] = ("condensed", "gk")
 LAST = 1e-11  # the error, about, at which a factor is measured; rounding is 1e-14
@@ -99,15 +99,20 @@ def predicted(circles):
 
 
 def measured(koebe, mesh, run, factor):
-    """How much less the circles move in a sweep than in the one before, late: the mean of two sweeps."""
+    """How much less the circles move in a sweep than in the one before, late: the larger root of the recurrence of two
+    terms that five sweeps fit best, as the largest factors may be a pair, conjugate or of two signs."""
     engine, method = RUNS[run]
-    last = max(4, min(16, round(math.log(LAST) / math.log(factor))))
+    last = max(5, min(16, round(math.log(LAST) / math.log(factor))))
     found = []
-    for count in range(last - 3, last + 1):
+    for count in range(last - 4, last + 1):
         result = koebe.uniformize(*mesh, engine=engine, method=method, max_sweeps=count, tolerance=1e-15)
         found.append(print_choices.inversive_distances(list(zip(result.centers @ [1, 1j], result.radii))))
-    moved = np.max(np.abs(np.diff(found, axis=0)) / found[-1], axis=1)
-    return math.sqrt(moved[2] / moved[0])
+    moved = np.diff(found, axis=0) / found[-1]
+    moved /= factor ** np.arange(4)[:, None]
+    scale = 1.0 / np.linalg.norm(moved[2:], axis=1).repeat(moved.shape[1])
+    terms = np.column_stack([moved[1:3].ravel(), moved[:2].ravel()]) * scale[:, None]
+    terms = np.linalg.lstsq(terms, moved[2:].ravel() * scale, rcond=0.05)[0]
+    return factor * float(np.max(np.abs(np.roots([1.0, *-terms]))))
 
 
 def factors(koebe, row):
