@@ -16,7 +16,8 @@ MODES = 40  # of a loop's error
 VERTICES = 8000
 RUNS = {"CK": ("condensed", "ck"), "first": ("condensed", "against-outer"), "GK": ("mesh", "gk")}
 RUNS["at once"] = ("condensed", "gk")
-LAST = 1e-11  # the error, about, at which a factor is measured; rounding is 1e-14
+LAST = 1e-11  # the error, about, at which a run ends; rounding is 1e-14
+LINEAR = 1e-3  # the error from which on the iteration counts as linear
 HEAD = ["circles", *(f"{name}: predicted, measured" for name in RUNS), "log GK / log CK", "log GK / log first"]
 
 
@@ -92,27 +93,33 @@ def sweeps(n):
 
 
 def predicted(circles):
-    """The spectral radius of each sweep."""
+    """The eigenvalues of each sweep, largest first; the first is the factor in the end."""
     m, n = interaction(turned_out(circles)), len(circles)
     matrices = {name: in_turn(m, steps) for name, steps in sweeps(n).items()} | {"at once": at_once(m, n)}
-    return {name: float(np.max(np.abs(np.linalg.eigvals(matrix)))) for name, matrix in matrices.items()}
+    found = {name: np.linalg.eigvals(matrix) for name, matrix in matrices.items()}
+    return {name: values[np.argsort(-np.abs(values))] for name, values in found.items()}
 
 
-def measured(koebe, mesh, run, factor):
-    """How much less the circles move in a sweep than in the one before, late: the larger root of the recurrence of two
-    terms that five sweeps fit best, as the largest factors may be a pair, conjugate or of two signs."""
+def measured(koebe, mesh, run, values):
+    """The first eigenvalue, as a run has it. The circles of the late sweeps move by a sum of powers of the leading
+    eigenvalues; what is measured is by which number all of these must be multiplied to fit best."""
     engine, method = RUNS[run]
-    last = max(5, min(16, round(math.log(LAST) / math.log(factor))))
+    last = max(5, min(14, round(math.log(LAST) / math.log(abs(values[0])))))
     found = []
-    for count in range(last - 4, last + 1):
+    for count in range(1, last + 1):
         result = koebe.uniformize(*mesh, engine=engine, method=method, max_sweeps=count, tolerance=1e-15)
         found.append(print_choices.inversive_distances(list(zip(result.centers @ [1, 1j], result.radii))))
     moved = np.diff(found, axis=0) / found[-1]
-    moved /= factor ** np.arange(4)[:, None]
-    scale = 1.0 / np.linalg.norm(moved[2:], axis=1).repeat(moved.shape[1])
-    terms = np.column_stack([moved[1:3].ravel(), moved[:2].ravel()]) * scale[:, None]
-    terms = np.linalg.lstsq(terms, moved[2:].ravel() * scale, rcond=0.05)[0]
-    return factor * float(np.max(np.abs(np.roots([1.0, *-terms]))))
+    moved = moved[np.max(np.abs(moved), axis=1) < LINEAR]
+    size = np.linalg.norm(moved, axis=1)[:, None]
+    leading = values[: (len(moved) + 1) // 2]
+
+    def misfit(times):
+        powers = (times * leading) ** np.arange(len(moved))[:, None] / size
+        solution = np.linalg.lstsq(powers, moved / size, rcond=1e-12)[0]
+        return np.linalg.norm(powers @ solution - moved / size)
+
+    return abs(values[0]) * min(np.geomspace(0.7, 1.4, 351), key=misfit)
 
 
 def factors(koebe, row):
@@ -129,5 +136,5 @@ def cells(koebe, row):
     """A row; the logarithms are of measured factors, for equally many steps."""
     expected, found, n = factors(koebe, row)
     a_step = {name: math.log(found[name]) / len(steps) for name, steps in sweeps(n).items()}
-    both = [f"{expected[run]:.3g}, {found[run]:.3g}" for run in RUNS]
+    both = [f"{abs(expected[run][0]):.3g}, {found[run]:.3g}" for run in RUNS]
     return [*both, *(f"{a_step['GK'] / a_step[other]:.2f}" for other in ("CK", "first"))]
