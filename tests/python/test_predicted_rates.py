@@ -24,8 +24,8 @@ def fewer_modes(monkeypatch):
 @pytest.mark.parametrize("radius", [0.3, 0.5])
 def test_ck_on_a_ring_gains_the_fourth_power_of_its_radius(radius):
     found = predicted_rates.predicted([(0j, 1.0), (0j, radius)])
-    assert found["CK"] == pytest.approx(radius**4, rel=1e-3)
-    assert found["first"] == found["GK"] == found["at once"] == 0.0
+    assert abs(found["CK"][0]) == pytest.approx(radius**4, rel=1e-3)
+    assert abs(found["first"][0]) == abs(found["GK"][0]) == abs(found["at once"][0]) == 0.0
 
 
 def moved(circle, a):
@@ -38,13 +38,14 @@ def moved(circle, a):
 
 
 def test_an_automorphism_of_the_disk_changes_no_factor():
-    there = [moved(circle, 0.3 + 0.1j) for circle in CIRCLES]
-    assert predicted_rates.predicted(there) == pytest.approx(predicted_rates.predicted(CIRCLES), rel=1e-3)
+    there = predicted_rates.predicted([moved(circle, 0.3 + 0.1j) for circle in CIRCLES])
+    for run, values in predicted_rates.predicted(CIRCLES).items():
+        assert abs(there[run][0]) == pytest.approx(abs(values[0]), rel=1e-3)
 
 
 @pytest.mark.skipif(not table_surfaces.MESHER.exists(), reason="build/bench/planar_mesher is not built")
 @pytest.mark.parametrize("run", ["CK", "at once"])
 def test_the_iteration_has_the_factor_of_its_circles(run, monkeypatch):
     monkeypatch.setattr(predicted_rates, "RUNS", {run: predicted_rates.RUNS[run]})
-    expected, found, _ = predicted_rates.factors(koebe, "2 holes, draw 4")
-    assert found[run] == pytest.approx(expected[run], rel=0.05)
+    expected, found, _ = predicted_rates.factors(koebe, "2 holes, draw 13")
+    assert found[run] == pytest.approx(abs(expected[run][0]), rel=0.05)
