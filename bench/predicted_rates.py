@@ -8,15 +8,15 @@ import random
 import numpy as np
 import print_choices
 
-DRAWN = ((2, 1), (2, 13), (3, 2), (3, 4), (4, 52), (4, 87), (5, 8), (5, 313), (6, 11), (7, 18))  # holes, seed
-DOMAINS = {f"{holes} holes, draw {seed}": (holes, seed) for holes, seed in DRAWN}
+SEEDS = ((2, 1), (2, 4), (2, 13), (3, 2), (3, 4), (3, 142), (4, 52), (4, 87), (5, 8), (5, 313), (6, 11), (7, 18))
+DOMAINS = {f"{holes} holes, draw {seed}": (holes, seed) for holes, seed in SEEDS}
 GAP = 0.04  # between circles, at least
 MODES = 40  # of a loop's error
 VERTICES = 8000
 RUNS = {"CK": ("condensed", "ck"), "first": ("condensed", "against-outer"), "GK": ("mesh", "gk")}
 RUNS["at once"] = ("condensed", "gk")
 LAST = 1e-11  # the error, about, at which a run ends; rounding is 1e-14
-DIED_OUT = 0.05
+DIED_OUT = 0.02  # share of the next eigenvalue in a run, at most
 HEAD = ["circles", *(f"{name}: predicted, measured" for name in RUNS), "log GK / log CK", "log GK / log first"]
 
 
@@ -100,22 +100,23 @@ def predicted(circles):
 
 
 def measured(koebe, mesh, run, values):
-    """The first eigenvalue by the circles after late sweeps: the larger root of the recurrence of two terms that fits
-    best, as the first two may be a pair, conjugate or of two signs. None where the third has not died out by then."""
+    """The first eigenvalue by the circles after late sweeps: the largest root of the recurrence that fits best. The
+    first eigenvalues may be pairs, conjugate or of two signs, so it has two terms; all at once has two such pairs.
+    None where the next eigenvalue has not died out by then."""
     engine, method = RUNS[run]
-    factor = abs(values[0])
-    last = max(5, min(16, round(math.log(LAST) / math.log(factor))))
-    if (abs(values[2]) / factor) ** (last - 2) > DIED_OUT:
+    factor, terms = abs(values[0]), 4 if run == "at once" else 2
+    last = max(2 * terms + 1, min(18, round(math.log(LAST) / math.log(factor))))
+    if (abs(values[terms]) / factor) ** (last - terms) > DIED_OUT:
         return None
     found = []
-    for count in range(last - 4, last + 1):
+    for count in range(last - 2 * terms, last + 1):
         result = koebe.uniformize(*mesh, engine=engine, method=method, max_sweeps=count, tolerance=1e-15)
         found.append(print_choices.inversive_distances(list(zip(result.centers @ [1, 1j], result.radii))))
-    moved = np.diff(found, axis=0) / found[-1] / factor ** np.arange(4)[:, None]
-    scale = 1.0 / np.linalg.norm(moved[2:], axis=1).repeat(moved.shape[1])
-    terms = np.column_stack([moved[1:3].ravel(), moved[:2].ravel()]) * scale[:, None]
-    terms = np.linalg.lstsq(terms, moved[2:].ravel() * scale, rcond=0.05)[0]
-    return factor * float(np.max(np.abs(np.roots([1.0, *-terms]))))
+    moved = np.diff(found, axis=0) / found[-1] / factor ** np.arange(2 * terms)[:, None]
+    scale = 1.0 / np.linalg.norm(moved[terms:], axis=1).repeat(moved.shape[1])
+    before = [moved[terms - k : 2 * terms - k].ravel() * scale for k in range(1, terms + 1)]
+    recurrence = np.linalg.lstsq(np.transpose(before), moved[terms:].ravel() * scale, rcond=0.05)[0]
+    return factor * float(np.max(np.abs(np.roots([1.0, *-recurrence]))))
 
 
 def factors(koebe, row):

@@ -47,5 +47,5 @@ def test_an_automorphism_of_the_disk_changes_no_factor():
 @pytest.mark.parametrize("run", ["CK", "at once"])
 def test_the_iteration_has_the_factor_of_its_circles(run, monkeypatch):
     monkeypatch.setattr(predicted_rates, "RUNS", {run: predicted_rates.RUNS[run]})
-    expected, found, _ = predicted_rates.factors(koebe, "2 holes, draw 13")
+    expected, found, _ = predicted_rates.factors(koebe, "2 holes, draw 1")
     assert found[run] == pytest.approx(abs(expected[run][0]), rel=0.05)
