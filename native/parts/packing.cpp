@@ -25,7 +25,7 @@ constexpr std::size_t most_sides = 1000;   // of the hull, along which boxes are
 constexpr double next_scale = 0.95;        // times the last while nothing fits, by the share of what does,
 constexpr double least_factor = 0.8;
 constexpr int most_scales = 600;
-constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved each time,
+constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved where that has no room,
 constexpr double last_step_of_many = 0.008;
 constexpr std::size_t many_islands = 200;
 constexpr double least_gain = 0.002;                     // and what a further attempt has to bring
@@ -189,7 +189,7 @@ public:
     {
         std::vector<std::size_t> order = by_size(0);
         double scale = largest_scale();
-        for (int k = 0; !fits(order, rules[0], scale); scale *= std::clamp(std::sqrt(room_), least_factor, next_scale))
+        for (int k = 0; !fits(order, rules[0], scale); scale *= is_many_ || failed_ == 0 ? std::clamp(std::sqrt(room_), least_factor, next_scale) : next_scale)
             if (++k == most_scales) throw SolverError("the islands have no room in the square");
         grow(order, rules[0], first_step);
         std::int64_t work = board_.tests();
@@ -246,7 +246,9 @@ private:
     void grow(const std::vector<std::size_t>& order, Rule rule, double step)
     {
         const double last = is_many_ ? last_step_of_many : last_step;
-        for (; step > last; step *= 0.5) fits(order, rule, best_scale_ * (1.0 + step));
+        while (step > last)
+            if (const double scale = best_scale_ * (1.0 + step); scale > largest_scale() || !fits(order, rule, scale))
+                step *= 0.5;
     }
 
     /// Whether all find room at that scale; then it is the best one.
