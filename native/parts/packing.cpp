@@ -299,7 +299,8 @@ private:
     bool place(const Turns& turns, Rule rule, int from, Spot& spot)
     {
         std::array<int, 3> best = {INT_MAX, 0, 0};
-        for (int t = 0; t < 4; ++t) {
+        const int tried = islands_.size() == 1 ? 1 : 4;  // one alone stands upright
+        for (int t = 0; t < tried; ++t) {
             const CellShape& shape = turns[t].shape;
             for (int y = from; y + shape.height <= side_; ++y) {
                 const int top = y + shape.height;
