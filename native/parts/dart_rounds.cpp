@@ -20,9 +20,9 @@ constexpr double refused_around = 0.06;  // a dart's tip, if the dart did not pa
 
 constexpr double coarse_grid = 1 << 21;  // points in the unit square: an eighth of those of 32-bit floats
 
-using Edge = std::pair<Index, Index>;
+using EdgeEnds = std::pair<Index, Index>;
 
-Edge edge_of(Index a, Index b) { return std::minmax(a, b); }
+EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }
 
 /// The place of an edge that is no seam: a part and its half-edge.
 struct EdgePlace {
@@ -149,14 +149,14 @@ private:
     /// that are in each other's way the one of the earlier part, or of more promise, stays.
     void pair_images()
     {
-        std::map<Edge, EdgePlace> places;
+        std::map<EdgeEnds, EdgePlace> places;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const FlatPart& flat = parts_[k].flat;
             if (flat.image.empty()) continue;
             for (Index h = 0; h < static_cast<Index>(flat.surface.triangles.size()); ++h)
                 if (flat.surface.twin[h] > h)
-                    places.emplace(edge_of(flat.original[origin(flat.surface.triangles, h)],
-                                           flat.original[target(flat.surface.triangles, h)]),
+                    places.emplace(sorted_ends(flat.original[origin(flat.surface.triangles, h)],
+                                               flat.original[target(flat.surface.triangles, h)]),
                                    EdgePlace{k, h});
         }
         std::vector<Trial> paired(trials_.size());
@@ -200,7 +200,7 @@ private:
     }
 
     std::optional<std::pair<std::size_t, Dart>> image_of(std::size_t k, const Dart& dart,
-                                                         const std::map<Edge, EdgePlace>& places) const
+                                                         const std::map<EdgeEnds, EdgePlace>& places) const
     {
         const FlatPart& flat = parts_[k].flat;
         std::size_t other = parts_.size();
@@ -210,7 +210,7 @@ private:
         const auto number = [&](Index v) { return flat.image[v]; };
         for (std::size_t i = 0; i + 1 < dart.vertices.size(); ++i) {
             const Index a = number(dart.vertices[i]), b = number(dart.vertices[i + 1]);
-            const auto found = places.find(edge_of(a, b));
+            const auto found = places.find(sorted_ends(a, b));
             if (found == places.end() || (i > 0 && found->second.part != other)) return {};
             other = found->second.part;
             const FlatPart& there = parts_[other].flat;

@@ -49,7 +49,7 @@ SeamedMesh seamed(const FlatPart& flat)
 }
 
 /// The way to the boundary from a vertex. @return none for a vertex on it, or from which none leads there
-Dart way_out(const Triangles& triangles, const PathTree& tree, Index tip)
+Dart shortest_dart(const Triangles& triangles, const PathTree& tree, Index tip)
 {
     Dart dart;
     dart.halfedges = tree.path(tip);
@@ -176,7 +176,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, double even, double pric
     for (Index v = 0; v < flat.surface.vertex_count; ++v) {
         if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
             continue;
-        Dart dart = way_out(triangles, tree, v);
+        Dart dart = shortest_dart(triangles, tree, v);
         const double pulled = tension.along(dart);
         if (!(pulled > 0.0)) continue;
         dart.gain = compliance * pulled * pulled;

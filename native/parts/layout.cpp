@@ -32,7 +32,9 @@ constexpr double own_piece = 0.25;      // of the area: a piece of less pays les
 constexpr double small_piece = 0.01;    // and one of less than this pays in proportion to its area
 constexpr int rounds = 2;               // of splitting and merging
 constexpr double vain = 0.9;            // of the overflow: cuts that leave more of it are in vain
-constexpr double margin = 0.004;        // between parts, in the unit square
+constexpr double margin = 8.0 / 2048;   // between parts, in the unit square
+constexpr double rim_slack = 5e-5;      // by which a repair may move a rim there,
+constexpr int packing_rounds = 4;       // before the part is packed again
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
 
@@ -64,40 +66,62 @@ OpenedSurface strict_surface(const Vertices& vertices, const Triangles& triangle
     return opened;
 }
 
-/// Upright, its lower left corner at 0.
-PlanarPoints upright(const PlanarPoints& flat, Box& box)
+/// The part's loops, and its faces that are turned over: a fold may lie outside the loops.
+Outline outline_of(const FlatPart& flat)
 {
-    PlanarPoints points = flat;
-    Eigen::RowVector2d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
-    if (high[0] - low[0] > high[1] - low[1]) {
-        points.col(0) = -flat.col(1);
-        points.col(1) = flat.col(0);
-        low = points.colwise().minCoeff();
-        high = points.colwise().maxCoeff();
+    Outline outline{flat.points, flat.surface.loops};
+    for (const auto& face : flat.surface.triangles.rowwise()) {
+        const Eigen::RowVector2d a = flat.points.row(face[1]) - flat.points.row(face[0]);
+        const Eigen::RowVector2d b = flat.points.row(face[2]) - flat.points.row(face[0]);
+        if (a[0] * b[1] < a[1] * b[0]) outline.loops.push_back({face[0], face[2], face[1]});
     }
-    points.rowwise() -= low;
-    box = {high[0] - low[0], high[1] - low[1]};
-    return points;
+    return outline;
 }
 
-/// Into the unit square, and flips turned back there.
-/// @param flats whose kinds may change
+/// How far a vertex of the boundary has moved, at most.
+double rim_moved(const FlatPart& flat, const PlanarPoints& from, const PlanarPoints& to)
+{
+    double most = 0.0;
+    for (const VertexLoop& loop : flat.surface.loops)
+        for (const Index v : loop) most = std::max(most, (to.row(v) - from.row(v)).norm());
+    return most;
+}
+
+/// Into the unit square, and flips turned back there. Parts whose outline changes by that are packed once more; the
+/// last time they stay as they were.
+/// @param flats whose kinds and points may change
 std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, int threads, ExecutionContext& context)
 {
-    std::vector<PlanarPoints> placed;
-    std::vector<Box> boxes(flats.size());
-    for (std::size_t k = 0; k < flats.size(); ++k) placed.push_back(upright(flats[k].points, boxes[k]));
-    const PackedBoxes pack = pack_boxes(boxes, margin);
-    side_by_side(placed.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
-        placed[k].rowwise() += Eigen::RowVector2d(pack.corners[k][0], pack.corners[k][1]);
-        placed[k] /= pack.side;
-        repair_flips(flats[k], placed[k], own);
-        embed_safely(flats[k], placed[k], own);
-        if (!placed[k].allFinite()) throw SolverError("the map of a part is not finite");
-        placed[k] = placed[k].cwiseMax(0.0).cwiseMin(1.0);
-        if (!loops_apart(flats[k], placed[k])) flats[k].one_to_one = false;
+    std::vector<PlanarPoints> places(flats.size());
+    bool again = true;
+    for (int round = 1; again; ++round) {
+        std::vector<Outline> outlines;
+        for (const FlatPart& flat : flats) outlines.push_back(outline_of(flat));
+        const Packing packing = pack_islands(outlines, margin + 2.0 * rim_slack);
+        std::vector<char> outgrown(flats.size(), 0);
+        side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
+            const PlanarPoints before = place_island(flats[k].points, packing.places[k], packing.scale);
+            const PartKind kind = flats[k].kind;
+            places[k] = before;
+            repair_flips(flats[k], places[k], own);
+            embed_safely(flats[k], places[k], own);
+            if (!places[k].allFinite()) throw SolverError("the map of a part is not finite");
+            if (!(rim_moved(flats[k], before, places[k]) > rim_slack)) return;
+            if (round == packing_rounds) {
+                places[k] = before;
+                flats[k].kind = kind;
+            } else {
+                flats[k].points = places[k] / packing.scale;
+                outgrown[k] = 1;
+            }
+        });
+        again = std::ranges::count(outgrown, 1) > 0;
+    }
+    side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext&) {
+        places[k] = places[k].cwiseMax(0.0).cwiseMin(1.0);
+        if (!loops_apart(flats[k], places[k])) flats[k].one_to_one = false;
     });
-    return placed;
+    return places;
 }
 
 double overflow_of(const std::vector<PartPointer>& parts)

@@ -1,84 +1,364 @@
 #include "parts/packing.h"
 
+#include "parts/cell_board.h"
+
+#include "core/errors.h"
+
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <climits>
 #include <cmath>
+#include <functional>
 #include <limits>
-
-namespace {
-
-/// Equal boxes in their order, on every system.
-template <class Rectangle, class Compare>
-void stable_sort(Rectangle* rectangles, std::size_t count, std::size_t, Compare compare)
-{
-    std::stable_sort(rectangles, rectangles + count,
-                     [&](const Rectangle& a, const Rectangle& b) { return compare(&a, &b) < 0; });
-}
-
-}  // namespace
-
-#define STBRP_STATIC
-#define STBRP_SORT stable_sort
-#define STB_RECT_PACK_IMPLEMENTATION
-#include <stb/stb_rect_pack.h>
+#include <numeric>
+#include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr std::size_t many = 1000;  // boxes: fewer widths are tried
+constexpr int least_side = 1024;           // cells of the square,
+constexpr double cells_an_island = 32.0;   // and at least as many, times the root of the number of islands
+constexpr double share_of_margins = 0.25;  // of an island's side at most, if all were equal squares
+constexpr double worth_a_turn = 0.999;     // of the area of the box
+constexpr std::size_t most_sides = 1000;   // of the hull, along which boxes are tried
+constexpr double next_scale = 0.95;        // times the last while nothing fits, by the share of what does,
+constexpr double least_factor = 0.8;
+constexpr int most_scales = 600;
+constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved where that has no room,
+constexpr double last_step_of_many = 0.008;
+constexpr std::size_t many_islands = 200;
+constexpr double least_gain = 0.002;   // and what a further attempt has to bring
+constexpr int attempts_an_order = 24;  // before a new order is begun
+constexpr int most_attempts = 400;
+constexpr std::int64_t tests_a_point = 1200;  // tests on the board, after which no further attempt is made
+constexpr std::int64_t fewest_tests = 1'000'000, most_tests = 40'000'000;
+constexpr std::int64_t tests_an_attempt = 4000;  // to empty the board
+constexpr double similar = 0.8;                  // area over that of the island before which all places were looked at
 
-constexpr double narrowest = 1e-4;  // strip, over the tallest box: heights are within an int
-constexpr int grid = 1 << 14;       // of a strip's width: squares of it are within an int, as the library needs
+enum class Rule { lowest_top, lowest, smallest_square };
+constexpr std::array rules = {Rule::lowest_top, Rule::lowest, Rule::smallest_square};
 
-/// Packs into a strip of that width; returns the height.
-double pack_strip(const std::vector<Box>& boxes, double width, double gap, std::vector<std::array<double, 2>>& corners)
+constexpr std::array<Complex, 4> quarters = {Complex(1, 0), Complex(0, 1), Complex(-1, 0), Complex(0, -1)};
+
+double across(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// Indices of the corners of the convex hull, counter-clockwise.
+std::vector<Eigen::Index> hull(const PlanarPoints& points)
 {
-    const double unit = width / grid;
-    std::vector<stbrp_rect> rectangles(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        rectangles[i].id = static_cast<int>(i);
-        rectangles[i].w = std::min(grid, static_cast<int>(std::ceil((boxes[i].width + gap) / unit)));
-        rectangles[i].h = static_cast<int>(std::ceil((boxes[i].height + gap) / unit));
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1)}; });
+    std::vector<Eigen::Index> corners;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t first = corners.size();
+        for (const Eigen::Index i : order) {
+            while (corners.size() >= first + 2 &&
+                   !(across(points.row(corners.back()) - points.row(corners[corners.size() - 2]),
+                            points.row(i) - points.row(corners.back())) > 0.0))
+                corners.pop_back();
+            corners.push_back(i);
+        }
+        corners.pop_back();
+        std::ranges::reverse(order);
     }
-    stbrp_context context;
-    std::vector<stbrp_node> nodes(grid);
-    stbrp_init_target(&context, grid, std::numeric_limits<int>::max(), nodes.data(), grid);
-    stbrp_pack_rects(&context, rectangles.data(), static_cast<int>(rectangles.size()));
-    double height = 0.0;
-    for (const stbrp_rect& rectangle : rectangles) {
-        corners[rectangle.id] = {unit * rectangle.x, unit * rectangle.y};
-        height = std::max(height, unit * (rectangle.y + rectangle.h));
-    }
-    return height;
+    return corners;
 }
+
+PlanarPoints turned(const PlanarPoints& points, const Complex& turn)
+{
+    PlanarPoints at(points.rows(), 2);
+    at.col(0) = turn.real() * points.col(0) - turn.imag() * points.col(1);
+    at.col(1) = turn.imag() * points.col(0) + turn.real() * points.col(1);
+    return at;
+}
+
+Eigen::RowVector2d extent(const PlanarPoints& points)
+{
+    return points.colwise().maxCoeff() - points.colwise().minCoeff();
+}
+
+/// The turn that lays the smallest rectangle round the points along the axes, its long side upright.
+Complex upright_turn(const PlanarPoints& points)
+{
+    const PlanarPoints corners = points(hull(points), Eigen::all);
+    const auto count = static_cast<std::size_t>(corners.rows());
+    Complex best = 1.0;
+    Eigen::RowVector2d size = extent(corners);
+    for (std::size_t i = 0; i < count; i += count / most_sides + 1) {
+        const Eigen::RowVector2d side = corners.row((i + 1) % count) - corners.row(i);
+        const double length = side.norm();
+        if (!(length > 0.0)) continue;
+        const Complex turn(side[0] / length, -side[1] / length);
+        const Eigen::RowVector2d own = extent(turned(corners, turn));
+        if (!(own.prod() < worth_a_turn * size.prod())) continue;
+        best = turn;
+        size = own;
+    }
+    return size[0] > size[1] ? Complex(-best.imag(), best.real()) : best;
+}
+
+struct Island {
+    PlanarPoints points;  ///< upright, the lower left corner of their box at 0
+    const std::vector<VertexLoop>* loops;
+    Complex turn;
+    Eigen::RowVector2d corner;  ///< of the box, before
+    double area = 0.0, extent = 0.0;
+};
+
+Island upright(const Outline& outline)
+{
+    Island island{{}, &outline.loops, upright_turn(outline.points), {}};
+    island.points = turned(outline.points, island.turn);
+    island.corner = island.points.colwise().minCoeff();
+    island.points.rowwise() -= island.corner;
+    island.extent = island.points.maxCoeff();
+    for (const VertexLoop& loop : outline.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            island.area += 0.5 * across(island.points.row(loop[i]), island.points.row(loop[(i + 1) % loop.size()]));
+    return island;
+}
+
+struct Drawn {
+    CellShape shape;
+    std::vector<CellRun> order;  ///< of tests
+};
+
+using Turns = std::array<Drawn, 4>;
+
+struct Spot {
+    int turn = 0, x = 0, y = 0;
+};
+
+/// The same runs, the first ones from all over the shape.
+std::vector<CellRun> spread(const std::vector<CellRun>& runs)
+{
+    std::vector<CellRun> order{runs.front()};
+    for (std::size_t step = std::bit_ceil(runs.size()) / 2; step > 0; step /= 2)
+        for (std::size_t i = step; i < runs.size(); i += 2 * step) order.push_back(runs[i]);
+    return order;
+}
+
+/// @param scale grid units of a unit of the points
+Turns drawn(const Island& island, double scale, std::int64_t reach)
+{
+    std::array<std::vector<GridLoop>, 2> loops;
+    for (const VertexLoop& loop : *island.loops) {
+        GridLoop straight, across;
+        for (const Index v : loop) {
+            const GridPoint at = {std::llround(scale * island.points(v, 0)), std::llround(scale * island.points(v, 1))};
+            if (!straight.empty() && straight.back() == at) continue;
+            straight.push_back(at);
+            across.push_back({-at[1], at[0]});
+        }
+        loops[0].push_back(std::move(straight));
+        loops[1].push_back(std::move(across));
+    }
+    Turns turns;
+    for (int t = 0; t < 2; ++t) {
+        turns[t].shape = cells_near(loops[t], reach);
+        turns[t + 2].shape = half_turn(turns[t].shape);
+    }
+    for (Drawn& turn : turns) turn.order = spread(turn.shape.runs);
+    return turns;
+}
+
+int side_for(std::size_t count)
+{
+    int side = least_side;
+    while (side < cells_an_island * std::sqrt(static_cast<double>(count))) side *= 2;
+    return side;
+}
+
+class Packer {
+public:
+    Packer(const std::vector<Outline>& outlines, double margin)
+        : side_(side_for(outlines.size())),
+          unit_(static_cast<double>(side_) * grid_cell),
+          margin_(std::min(margin, share_of_margins / std::sqrt(static_cast<double>(outlines.size())))),
+          is_many_(outlines.size() >= many_islands),
+          board_(side_)
+    {
+        std::int64_t points = 0;
+        for (const Outline& outline : outlines) {
+            islands_.push_back(upright(outline));
+            points += outline.points.rows();
+        }
+        allowed_ = std::clamp(tests_a_point * points, fewest_tests, most_tests);
+    }
+
+    Packing pack()
+    {
+        std::vector<std::size_t> order = by_size(0);
+        double scale = largest_scale();
+        for (int k = 0; !fits(order, rules[0], scale);
+             scale *= is_many_ || failed_ == 0 ? std::clamp(std::sqrt(room_), least_factor, next_scale) : next_scale)
+            if (++k == most_scales) throw SolverError("the islands have no room in the square");
+        grow(order, rules[0], first_step);
+        std::int64_t work = board_.tests();
+        for (int k = 1; k < most_attempts && islands_.size() > 1 && work < allowed_; ++k) {
+            const Rule rule = rules[static_cast<std::size_t>(k) % rules.size()];
+            if (k == static_cast<int>(rules.size()) || k % attempts_an_order == 0) order = by_size(k);
+            if (fits(order, rule, best_scale_ * (1.0 + least_gain)))
+                grow(order, rule, 0.5 * first_step);
+            else if (failed_ > 0)  // the island that found no room comes earlier
+                std::rotate(order.begin() + static_cast<std::ptrdiff_t>(random() % failed_),
+                            order.begin() + static_cast<std::ptrdiff_t>(failed_),
+                            order.begin() + static_cast<std::ptrdiff_t>(failed_) + 1);
+            work = board_.tests() + k * tests_an_attempt;
+        }
+        return result();
+    }
+
+private:
+    std::uint64_t random()
+    {
+        random_ = random_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return random_ >> 33;
+    }
+
+    /// No larger one has room: each island takes at least its area, half the margin along its extent on both sides, and
+    /// a disk of the margin's width.
+    double largest_scale() const
+    {
+        double area = 0.0, along = 0.0, extent = 0.0;
+        for (const Island& island : islands_) {
+            area += std::max(island.area, 0.0);
+            along += margin_ * island.extent;
+            extent = std::max(extent, island.extent);
+        }
+        if (!(extent > 0.0)) return 1.0;
+        const double rest = 1.0 - static_cast<double>(islands_.size()) * EIGEN_PI / 4.0 * margin_ * margin_;
+        return std::min((1.0 - margin_) / extent, 2.0 * rest / (along + std::sqrt(along * along + 4.0 * area * rest)));
+    }
+
+    /// By falling area, in the first round after it by falling extent, then by areas with a random factor.
+    std::vector<std::size_t> by_size(int round)
+    {
+        std::vector<double> size;
+        for (const Island& island : islands_) {
+            const double factor = round == 0 ? 1.0 : 0.4 + std::ldexp(static_cast<double>(random()), -31);
+            size.push_back(round == static_cast<int>(rules.size()) ? island.extent : factor * island.area);
+        }
+        std::vector<std::size_t> order(islands_.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return size[k]; });
+        return order;
+    }
+
+    void grow(const std::vector<std::size_t>& order, Rule rule, double step)
+    {
+        const double last = is_many_ ? last_step_of_many : last_step;
+        while (step > last)
+            if (const double scale = best_scale_ * (1.0 + step); scale > largest_scale() || !fits(order, rule, scale))
+                step *= 0.5;
+    }
+
+    /// Whether all find room at that scale; then it is the best one.
+    bool fits(const std::vector<std::size_t>& order, Rule rule, double scale)
+    {
+        failed_ = 0;
+        if (scale != drawn_scale_) {
+            const auto reach = static_cast<std::int64_t>(std::ceil(0.5 * margin_ * unit_)) + 1;  // points are rounded
+            drawn_.clear();
+            for (const Island& island : islands_) drawn_.push_back(drawn(island, scale * unit_, reach));
+            drawn_scale_ = scale;
+        }
+        std::int64_t cells = 0, taken = 0;
+        for (const Turns& turns : drawn_) cells += turns[0].shape.cells();
+        room_ = static_cast<double>(side_) * side_ / static_cast<double>(cells);
+        if (room_ < 1.0) return false;
+        board_.clear();
+        std::vector<Spot> spots(islands_.size());
+        int from = 0;
+        double area = std::numeric_limits<double>::infinity();
+        for (; failed_ < order.size(); ++failed_) {
+            const std::size_t k = order[failed_];
+            if (islands_[k].area < similar * area) {
+                area = islands_[k].area;
+                from = 0;
+            }
+            if (!place(drawn_[k], rule, from, spots[k])) {
+                room_ = static_cast<double>(taken) / static_cast<double>(cells);
+                return false;
+            }
+            taken += drawn_[k][0].shape.cells();
+            // What lies lower is full for the next.
+            from = is_many_ ? spots[k].y : std::max(0, spots[k].y - drawn_[k][0].shape.height / 2);
+        }
+        places_.clear();
+        for (std::size_t k = 0; k < islands_.size(); ++k) {
+            const auto& [turn, x, y] = spots[k];
+            const GridPoint& origin = drawn_[k][turn].shape.origin;
+            const Complex corner(islands_[k].corner[0], islands_[k].corner[1]);
+            const Complex cells(static_cast<double>(x * grid_cell - origin[0]),
+                                static_cast<double>(y * grid_cell - origin[1]));
+            places_.push_back({quarters[turn] * islands_[k].turn, cells / unit_ - scale * (quarters[turn] * corner)});
+        }
+        best_scale_ = scale;
+        return true;
+    }
+
+    /// @param from row below which no room is looked for
+    bool place(const Turns& turns, Rule rule, int from, Spot& spot)
+    {
+        std::array<int, 3> best = {INT_MAX, 0, 0};
+        const int tried = islands_.size() == 1 ? 1 : 4;  // one alone stands upright
+        for (int t = 0; t < tried; ++t) {
+            const CellShape& shape = turns[t].shape;
+            for (int y = from; y + shape.height <= side_; ++y) {
+                const int top = y + shape.height;
+                if ((rule == Rule::lowest ? y : top) > best[0]) break;
+                const int x = board_.first_room(shape, turns[t].order, y);
+                if (x < 0) continue;
+                const int right = x + shape.width;
+                std::array<int, 3> score = {top, right, t};
+                if (rule == Rule::lowest) score = {y, right, t};
+                if (rule == Rule::smallest_square) score = {std::max(top, right), top + right, t};
+                if (score < best) {
+                    best = score;
+                    spot = {t, x, y};
+                }
+                if (rule != Rule::smallest_square) break;
+            }
+        }
+        if (best[0] == INT_MAX) return false;
+        board_.take(turns[spot.turn].shape, spot.x, spot.y);
+        return true;
+    }
+
+    Packing result() { return {std::move(places_), best_scale_, margin_}; }
+
+    const int side_;     // cells
+    const double unit_;  // grid units
+    const double margin_;
+    const bool is_many_;
+    std::vector<Island> islands_;
+    CellBoard board_;
+    std::int64_t allowed_ = 0;  // work
+    std::vector<Turns> drawn_;
+    double drawn_scale_ = 0.0, best_scale_ = 0.0;
+    std::vector<IslandPlace> places_;
+    std::size_t failed_ = 0;  // place in the order of the island that found no room
+    double room_ = 0.0;       // share of the islands' cells that found it, or would at most
+    std::uint64_t random_ = 1;
+};
 
 }  // namespace
 
-PackedBoxes pack_boxes(const std::vector<Box>& boxes, double margin)
+Packing pack_islands(const std::vector<Outline>& outlines, double margin)
 {
-    PackedBoxes best;
-    best.corners.resize(boxes.size());
-    best.side = std::numeric_limits<double>::infinity();
-    double area = 0.0, widest = 0.0, tallest = 0.0;
-    for (const Box& box : boxes) {
-        area += box.width * box.height;
-        widest = std::max(widest, box.width);
-        tallest = std::max(tallest, box.height);
-    }
-    const double least = std::max({std::sqrt(area), widest, narrowest * tallest});
-    const double factor = boxes.size() > many ? 1.1 : 1.02;
-    for (double width = least; width < 2.5 * least; width *= factor) {
-        const double gap = margin * width;
-        std::vector<std::array<double, 2>> corners(boxes.size());
-        const double strip = std::max(width, widest + gap);
-        const double height = pack_strip(boxes, strip, gap, corners);
-        const double side = std::max(strip, height) + gap;
-        if (!(side < best.side)) continue;
-        best.side = side;
-        best.corners = std::move(corners);
-        for (auto& corner : best.corners)
-            for (double& x : corner) x += gap;
-    }
-    return best;
+    if (outlines.empty()) return {{}, 1.0, margin};
+    for (const Outline& outline : outlines)
+        if (!outline.points.allFinite()) throw SolverError("an island to pack is not finite");
+    return Packer(outlines, margin).pack();
+}
+
+PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale)
+{
+    PlanarPoints at = scale * turned(points, place.turn);
+    at.rowwise() += Eigen::RowVector2d(place.offset.real(), place.offset.imag());
+    return at;
 }
 
 }  // namespace koebe

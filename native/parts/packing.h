@@ -1,22 +1,42 @@
-// Rectangles into the unit square.
+// Islands into the unit square.
 #pragma once
 
-#include <array>
+#include "core/api.h"
+#include "core/types.h"
+
 #include <vector>
 
 namespace koebe {
 
-struct Box {
-    double width = 0.0, height = 0.0;
+/// What an island covers: the inside of closed loops.
+struct Outline {
+    PlanarPoints points;
+    std::vector<VertexLoop> loops;  ///< an inner loop that runs against the outer one is a hole
 };
 
-struct PackedBoxes {
-    std::vector<std::array<double, 2>> corners;  ///< lower left, in the boxes' unit
-    double side = 1.0;                           ///< of the square that holds them, margins included
+/// Where points go: offset + scale·turn·z.
+struct IslandPlace {
+    Complex turn = 1.0;
+    Complex offset = 0.0;
 };
 
-/// Puts boxes into as small a square as it finds: for a row of widths, the highest first, each where it comes lowest on
-/// the skyline (stb_rect_pack). @param margin between boxes and round them, as a share of the square's side
-PackedBoxes pack_boxes(const std::vector<Box>& boxes, double margin);
+struct Packing {
+    std::vector<IslandPlace> places;
+    double scale = 1.0;   ///< of all islands
+    double margin = 0.0;  ///< as it was kept
+};
+
+/// Puts islands into the unit square, as large as it finds room for. None is mirrored; each lies with its smallest
+/// enclosing rectangle along the axes. Outlines are drawn on a grid of cells, with half the margin round them, and the
+/// largest are placed first, each in the lowest place where its cells are free; smaller ones go into hollows and holes.
+/// Several orders and rules are tried, more where islands are few. All decisions are on integers: the result is the
+/// same on every system.
+/// @param margin between two islands, and half of it to the border, in units of the square; of many islands less, such
+/// that they have room
+/// @throws SolverError points that are NaN or infinite
+Packing pack_islands(const std::vector<Outline>& outlines, double margin);
+
+/// Points (V, 2) of an island where it is placed.
+PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale);
 
 }  // namespace koebe

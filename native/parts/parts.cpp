@@ -164,6 +164,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     for (PartReport& part : result.parts)
         part.angle_error_deg = distortion_of(layout, uv, part.faces).angle_error_deg.mean;
     report_density(layout, uv, mapped, result);
+    for (const Index f : mapped) result.coverage += uv_area(uv, f);
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
     result.dart_length = layout.dart_length;

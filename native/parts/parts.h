@@ -72,6 +72,7 @@ struct PartsResult : CornerMapReport {
     int handles_cut = 0;
     double density_ratio_5_95 = 1.0;  ///< texel density, 95 % over 5 % of the area
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
+    double coverage = 0.0;            ///< share of the unit square that the faces cover, as stored
     double maps = 0.0;                ///< faces mapped, in faces of the surface
 };
 

@@ -23,6 +23,7 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"handles_cut", result.handles_cut},
                                        {"density_ratio_5_95", result.density_ratio_5_95},
                                        {"even_area", result.even_area},
+                                       {"coverage", result.coverage},
                                        {"maps", result.maps}});
     report["seconds"] = result.seconds.total;
     return report;

@@ -2,7 +2,6 @@
 #include "evenness/evenness.h"
 #include "parts/flat_part.h"
 #include "parts/free_rims.h"
-#include "parts/packing.h"
 #include "parts/parts.h"
 #include "pipeline/uniformize.h"
 #include "quality/distortion.h"
@@ -914,33 +913,4 @@ TEST(Mirror, is_found_in_any_pose_and_not_where_there_is_none)
     Vertices bent = unit;
     bent.col(2).array() += 0.01 * (3.0 * unit.col(0).array() + unit.col(1).array()).sin();
     EXPECT_TRUE(find_mirror(bent, mesh.triangles, polygon).image.empty());
-}
-
-TEST(Packing, boxes_lie_apart_in_the_square)
-{
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> size(0.05, 1.0);
-    for (const int count : {1, 2, 7, 60}) {
-        std::vector<Box> boxes;
-        double area = 0.0;
-        for (int i = 0; i < count; ++i) {
-            boxes.push_back({size(random), size(random)});
-            area += boxes.back().width * boxes.back().height;
-        }
-        const PackedBoxes pack = pack_boxes(boxes, 0.004);
-        for (int i = 0; i < count; ++i) {
-            const auto [x, y] = pack.corners[i];
-            EXPECT_GE(std::min(x, y), 0.0);
-            EXPECT_LE(std::max(x + boxes[i].width, y + boxes[i].height), pack.side);
-            for (int j = 0; j < i; ++j) {
-                const auto [p, q] = pack.corners[j];
-                EXPECT_TRUE(x >= p + boxes[j].width || p >= x + boxes[i].width || y >= q + boxes[j].height ||
-                            q >= y + boxes[i].height)
-                    << i << " " << j;
-            }
-        }
-        if (count == 60) {
-            EXPECT_GT(area, 0.7 * pack.side * pack.side);
-        }
-    }
 }

@@ -81,6 +81,7 @@ def test_the_report_is_true_of_the_uvs():
     below = np.cumsum(surface[order]) / surface.sum()
     low, high = (u[order][np.searchsorted(below, share)] for share in (0.05, 0.95))
     assert result.density_ratio_5_95 == pytest.approx(np.exp(high - low), rel=1e-6)
+    assert result.coverage == pytest.approx(areas(stored).sum(), rel=1e-9)
 
     seams = 0.0
     sides = {}

@@ -28,6 +28,7 @@ class PartsResult(MapReport):
     handles_cut      number of handles cut
     density_ratio_5_95    texel density (a length over a length) at 95 % of the area over the density at 5 %
     even_area        share of the area whose texel density lies within the best factor 3
+    coverage         share of the unit square that the faces cover, as stored
     seconds          in all
     maps             faces mapped in all maps, in faces of the mesh
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
@@ -43,6 +44,7 @@ class PartsResult(MapReport):
     handles_cut: int
     density_ratio_5_95: float
     even_area: float
+    coverage: float
     seconds: float
     maps: float
 

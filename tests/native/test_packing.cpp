@@ -1,0 +1,80 @@
+#include "core/errors.h"
+#include "island_checks.h"
+#include "parts/packing.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace koebe {
+namespace {
+
+constexpr double margin = 8.0 / 2048.0;
+
+TEST(Packing, islands_lie_apart_in_the_square)
+{
+    std::mt19937_64 random(5);
+    for (const int count : {1, 2, 3, 7, 7, 20, 300}) {
+        std::vector<Outline> outlines;
+        for (int i = 0; i < count; ++i) outlines.push_back(test::random_island(random));
+        const Packing packing = pack_islands(outlines, margin);
+        EXPECT_EQ(packing.margin, margin);
+        EXPECT_GE(test::least_gap(outlines, packing), margin) << count;
+        for (const IslandPlace& place : packing.places) EXPECT_NEAR(std::abs(place.turn), 1.0, 1e-15);
+    }
+}
+
+TEST(Packing, four_squares_fill_the_square_however_they_lay)
+{
+    std::vector<Outline> outlines;
+    for (int i = 0; i < 4; ++i) outlines.push_back(test::rectangle(3.0, 3.0, 0.4 * i));
+    const double most = 0.5 - margin;
+    const double side = 3.0 * pack_islands(outlines, margin).scale;
+    EXPECT_LE(side, most);
+    EXPECT_GT(side, 0.998 * most);
+}
+
+TEST(Packing, a_long_island_stands_upright_and_fills_the_height)
+{
+    const std::vector<Outline> outlines = {test::rectangle(5.0, 1.0, 0.3)};
+    const Packing packing = pack_islands(outlines, margin);
+    const PlanarPoints at = place_island(outlines[0].points, packing.places[0], packing.scale);
+    const Eigen::RowVector2d size = at.colwise().maxCoeff() - at.colwise().minCoeff();
+    EXPECT_NEAR(size[1], 1.0 - margin, 1e-3);
+    EXPECT_NEAR(size[0], 0.2 * size[1], 1e-12);
+}
+
+TEST(Packing, a_hole_takes_in_an_island)
+{
+    Outline frame = test::rectangle(1.0, 1.0, 0.0);
+    const Outline hole = test::rectangle(0.8, 0.8, 0.0);
+    frame.points.conservativeResize(8, 2);
+    frame.points.bottomRows(4) = hole.points.array() + 0.1;
+    frame.loops.push_back({7, 6, 5, 4});
+    const std::vector<Outline> outlines = {test::rectangle(0.7, 0.7, 0.2), frame};
+    const Packing packing = pack_islands(outlines, margin);
+    EXPECT_GT(packing.scale, 0.99);
+    EXPECT_GE(test::least_gap(outlines, packing), margin);
+}
+
+TEST(Packing, many_islands_have_room_and_less_margin)
+{
+    const std::vector<Outline> outlines(5000, test::rectangle(2.0, 1.0, 0.0));
+    const Packing packing = pack_islands(outlines, margin);
+    EXPECT_LT(packing.margin, margin);
+    EXPECT_GE(test::least_gap(outlines, packing), packing.margin);
+    EXPECT_GT(2.0 * 5000.0 * packing.scale * packing.scale, 0.4);
+}
+
+TEST(Packing, a_point_has_a_place_and_what_is_not_finite_has_none)
+{
+    std::vector<Outline> outlines = {test::rectangle(1.0, 1.0, 0.0), test::rectangle(0.0, 0.0, 0.0)};
+    EXPECT_GE(test::least_gap(outlines, pack_islands(outlines, margin)), margin);
+    EXPECT_TRUE(pack_islands({outlines[1]}, margin).places[0].offset.real() > 0.0);
+    EXPECT_TRUE(pack_islands({}, margin).places.empty());
+    outlines[0].points(0, 0) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(pack_islands(outlines, margin), SolverError);
+}
+
+}  // namespace
+}  // namespace koebe
