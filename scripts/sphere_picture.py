@@ -33,7 +33,7 @@ def mapped(obj):
     """Map the object; returns what became of it."""
     module = guide_picture.addon_module
     options = module("maps.options").Options(checker_size=SQUARES)
-    job = module("jobs.domain_job").SphereJob([obj], options, module("maps.options").SphereChoice())
+    job = module("jobs.domain_job").SphereJob([obj], options, module("maps.domains").SPHERE.choice())
     job.compute()
     job.write()
     (one,) = job.outcomes[0].mapped

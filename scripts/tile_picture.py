@@ -56,7 +56,7 @@ def mapped(obj):
     """Map the object; returns what became of it."""
     module = guide_picture.addon_module
     options = module("maps.options").Options(checker_size=SQUARES)
-    job = module("jobs.tile_job").TileJob([obj], options, module("maps.options").TileChoice())
+    job = module("jobs.domain_job").DomainJob([obj], options, module("maps.domains").TORUS.choice())
     job.compute()
     job.write()
     (one,) = job.outcomes[0].mapped

@@ -2,34 +2,22 @@
 """What became of a surface whose islands were mapped to domains that are no disks. Each has the UVs to itself."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from types import ModuleType
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
-from .domains import DOMAINS
+from .domain import Domain
 from .errors import MapError
 from .islands import cut_into_islands
 from .mapping import check_area, failing_alone
+from .options import Chosen
 from .outcomes import LATER, Outcome, Progress, Task, in_numbers, share_of
 from .seams import cut_edges
 from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
 from .wording import UNEVEN_TEXELS, counted, in_mesh, too_uneven
-
-
-class DomainChoice(Protocol):
-    """What to compute: one of `options.OtherDomain`."""
-
-    @property
-    def domain(self) -> str: ...
-    @property
-    def tolerance(self) -> float: ...
-    @property
-    def max_sweeps(self) -> int: ...
-    @property
-    def most_lost(self) -> float: ...
 
 
 @dataclasses.dataclass
@@ -72,17 +60,19 @@ class DomainIsland:
         """Faces of the surface that triangles of the island are of."""
         return np.unique(self.island.triangle_face[np.asarray(triangles, dtype=np.int64)]).tolist()
 
-    def map(self, koebe: ModuleType, task: Task, choice: Any, loops: list[np.ndarray], **run: Any) -> None:
+    def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
         """Compute the result, and take its UVs.
 
         loops  the island's boundary loops; there are as many as the domain wants
         run    progress and cancel, as the native package takes them
         """
-        raise NotImplementedError
+        result = self._solve(koebe, choice, **run)
+        self.take_corners(task.surface, result.uv.astype(np.float32))
+        self.result = result
 
-    def _solve(self, function: Callable[..., Any], choice: Any, **arguments: Any) -> Any:
-        """The result of a function of the native package, with what all of them take."""
-        return function(
+    def _solve(self, koebe: ModuleType, choice: Chosen, **arguments: Any) -> Any:
+        """The result of the domain's function of the native package, with what all of them take."""
+        return getattr(koebe, f"{choice.domain.name}_map")(
             self.island.vertices, self.island.triangles, polygon=self.island.triangle_face,
             **choice.solver_arguments(), **arguments,
         )  # fmt: skip
@@ -120,7 +110,7 @@ class DomainOutcome(Outcome):
     kind: ClassVar[type[DomainIsland]]
 
     islands: list[Any]
-    choice: Any
+    choice: Chosen
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
         found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # told already
@@ -134,7 +124,7 @@ class DomainOutcome(Outcome):
         """One line: domains and their figures, angles, flips, seconds."""
         mapped = self.mapped
         words = [
-            counted(len(mapped), DOMAINS[self.choice.domain].title),
+            counted(len(mapped), self.choice.domain.title),
             *self.figures(),
             f"angle error {max(one.angle_error for one in mapped):.2f}°",
             counted(sum(len(one.flipped) for one in mapped), "flip"),
@@ -159,7 +149,7 @@ class DomainOutcome(Outcome):
         if one.error is not None:  # too much is lost: it is not done
             result["converged"] = False
         result["warnings"] = self.warnings(one)
-        return {**result, **entry, "domain": self.choice.domain}
+        return {**result, **entry, "domain": self.choice.domain.name}
 
     def _adapt(self, one: Any, result: dict[str, Any]) -> None:
         """Make of the native result's dict what holds in the mesh and in the UVs as they are written."""
@@ -167,7 +157,7 @@ class DomainOutcome(Outcome):
     def _row(self, one: Any) -> dict[str, Any]:
         result = one.result
         return {
-            "sweeps": result.sweeps, "domain": self.choice.domain, "angle_error": one.angle_error,
+            "sweeps": result.sweeps, "domain": self.choice.domain.name, "angle_error": one.angle_error,
             "seconds": result.seconds["total"], "flipped": len(one.flipped),
             "flipped_faces": one.flipped_faces.tolist(), "uneven": too_uneven(one),
             "cut_edges": np.flatnonzero(one.cuts).tolist(),
@@ -203,17 +193,13 @@ def islands_to_map(surface: Surface) -> list[Island]:
 
 
 def map_domain(
-    koebe: ModuleType,
-    outcome_type: type[DomainOutcome],
-    task: Task,
-    choice: DomainChoice,
-    progress: Progress | None = None,
-    cancel: Any = None,
-) -> Any:
-    """Map each island of the selected faces of a surface to a domain. Polygons stay whole.
+    koebe: ModuleType, task: Task, choice: Chosen, progress: Progress | None = None, cancel: Any = None
+) -> DomainOutcome:
+    """Map each island of the selected faces of a surface to the domain of the choice. Polygons stay whole.
 
     Errors are those of their islands; `koebe.Cancelled` goes on.
     """
+    outcome_type: type[DomainOutcome] = choice.domain.outcome
     ones = [outcome_type.kind(island) for island in islands_to_map(task.surface)]
     done, total = 0, sum(len(one.island.triangles) for one in ones)
     for one in ones:
@@ -226,11 +212,11 @@ def map_domain(
     return outcome_type(task, ones, choice)
 
 
-def checked_loops(koebe: ModuleType, island: Island, domain: str) -> list[np.ndarray]:
+def checked_loops(koebe: ModuleType, island: Island, domain: Domain) -> list[np.ndarray]:
     """The boundary loops of an island that has an area and can be mapped to a domain; else raises."""
     check_area(island)
     loops: list[np.ndarray] = koebe.boundary_loops(island.triangles, vertex_count=len(island.vertices))
-    DOMAINS[domain].check(handles_of(island, loops), len(loops))
+    domain.check(handles_of(island, loops), len(loops))
     return loops
 
 

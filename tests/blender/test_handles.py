@@ -226,8 +226,8 @@ def test_cuts_and_loops_can_be_selected():
 
 
 def new_job(addon, obj, normalization="area"):
-    options = addon("maps.options")
-    return addon("jobs.domain_job").SchottkyJob([obj], options.Options(), options.SchottkyChoice(normalization))
+    choice = addon("maps.domains").SCHOTTKY.choice(normalization)
+    return addon("jobs.domain_job").DomainJob([obj], addon("maps.options").Options(), choice)
 
 
 def test_esc_before_the_end_changes_nothing(addon):

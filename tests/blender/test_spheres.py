@@ -280,8 +280,8 @@ def test_cuts_loops_and_torn_faces_can_be_selected():
 
 def test_esc_before_the_end_changes_nothing(addon):
     obj = add_ball()
-    options = addon("maps.options")
-    job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice())
+    choice = addon("maps.domains").SPHERE.choice()
+    job = addon("jobs.domain_job").SphereJob([obj], addon("maps.options").Options(), choice)
     job.cancel_token.cancel()
     with pytest.raises(job.koebe.Cancelled):
         job.compute()
@@ -299,8 +299,8 @@ def test_the_report_has_the_meshs_numbers(addon):
     obj = add_ball()
     ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
     obj.data.edges.foreach_set("use_seam", (ends % 10 == 4).all(axis=1))
-    options = addon("maps.options")
-    job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice("octahedral"))
+    choice = addon("maps.domains").SPHERE.choice("octahedral")
+    job = addon("jobs.domain_job").SphereJob([obj], addon("maps.options").Options(), choice)
     job.compute()
     job.write()
     (outcome,) = job.outcomes
@@ -373,8 +373,9 @@ def test_wild_surfaces_become_spheres_or_are_refused(addon, seed):
         obj = wild_ball(random)
         bpy.context.view_layer.update()
         state = scenes.mesh_state(obj.data)
-        options, layout = addon("maps.options"), str(random.choice(LAYOUTS))
-        job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice(layout))
+        layout = str(random.choice(LAYOUTS))
+        choice = addon("maps.domains").SPHERE.choice(layout)
+        job = addon("jobs.domain_job").SphereJob([obj], addon("maps.options").Options(), choice)
         job.compute()
         (outcome,) = job.outcomes
         for one in outcome.mapped:

@@ -449,15 +449,15 @@ def test_uvs_are_stored_as_they_were_written(tmp_path):
 @pytest.mark.parametrize("kind", ["torus", "ring"])
 def test_esc_before_the_end_changes_nothing(addon, kind):
     obj = add(kind)
-    job = addon("jobs.tile_job").TileJob(
-        [obj], addon("maps.options").Options(), addon("maps.options").TileChoice(kind)
-    )
+    choice = addon("maps.domains").DOMAINS[kind].choice()
+    new_job = addon("jobs.domain_jobs").job_type(choice)
+    job = new_job([obj], addon("maps.options").Options(), choice)
     job.cancel_token.cancel()
     with pytest.raises(job.koebe.Cancelled):
         job.compute()
     assert len(obj.data.uv_layers) == 0
     heard = []
-    job = addon("jobs.tile_job").TileJob([obj], job.options, job.choice)
+    job = new_job([obj], job.options, job.choice)
     job.compute(lambda fraction, stage: heard.append((fraction, stage)))
     shares = [fraction for fraction, _ in heard]
     assert shares == sorted(shares) and shares[-1] == 1.0
@@ -535,11 +535,11 @@ def test_wild_surfaces_become_tiles_or_are_refused(addon, seed):
         obj = wild_surface(random)
         bpy.context.view_layer.update()
         state = scenes.mesh_state(obj.data)
-        make = addon("maps.options").TileChoice
-        for domain in ("torus", "ring"):
-            choice = make(domain, *(str(random.choice(of)) for of in (
-                ["circles", "concentric", "radial"], ["auto"], ["inside", "period", "square"])))  # fmt: skip
-            job = addon("jobs.tile_job").TileJob([obj], addon("maps.options").Options(), choice)
+        fit, holes = (str(random.choice(of)) for of in (
+            ["inside", "period", "square"], ["circles", "concentric", "radial"]))  # fmt: skip
+        domains = addon("maps.domains")
+        for choice in (domains.TORUS.choice(fit=fit), domains.RING.choice(fit=fit, holes=holes)):
+            job = addon("jobs.domain_jobs").job_type(choice)([obj], addon("maps.options").Options(), choice)
             job.compute()
             (outcome,) = job.outcomes
             for one in outcome.mapped:
