@@ -4,7 +4,7 @@
 import dataclasses
 import functools
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any
 
 from .errors import MapError
 from .options import OF_RUNS, Chosen, of_map
@@ -27,18 +27,18 @@ class Domain:
     title    what one such map is called
     button   what the operator is called, without "Koebe"
     icon     of the button
-    tooltip  of the operator: at most 239 letters, Blender cuts off the rest
     check    of the number of handles and of boundary loops; raises DomainError
     outcome  a `DomainOutcome`: what becomes of a surface
+    tooltip  of the operator: at most 239 letters, Blender cuts off the rest
     """
 
     name: str
     title: str
     button: str
-    icon: Literal["MESH_TORUS", "MESH_CYLINDER", "MESH_UVSPHERE", "META_ELLIPSOID"]
-    tooltip: str
+    icon: Any  # one of Blender's names
     check: Callable[[int, int], None]
     outcome: type[Any]
+    tooltip: str
 
     @functools.cached_property
     def choice(self) -> type[Chosen]:

@@ -2,6 +2,7 @@
 """What became of a surface whose islands were mapped to domains that are no disks. Each has the UVs to itself."""
 
 import dataclasses
+import functools
 from collections.abc import Sequence
 from types import ModuleType
 from typing import Any, ClassVar
@@ -17,6 +18,7 @@ from .outcomes import LATER, Outcome, Progress, Task, in_numbers, share_of
 from .seams import cut_edges
 from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
+from .triangles import density_ratio, signed_areas
 from .wording import UNEVEN_TEXELS, counted, in_mesh, too_uneven
 
 
@@ -47,9 +49,15 @@ class DomainIsland:
         return self.stored.angle_error
 
     @property
+    def texel_uv(self) -> np.ndarray:
+        """(t, 3, 2) the UVs whose texel density counts."""
+        return self.result.uv
+
+    @functools.cached_property
     def density_ratio(self) -> float:
         """Texel density at 95 % of the area over that at 5 %."""
-        raise NotImplementedError
+        corners = np.arange(3 * len(self.texel_uv)).reshape(-1, 3)
+        return density_ratio(self.island.areas, np.abs(signed_areas(self.texel_uv.reshape(-1, 2), corners)))
 
     @property
     def flipped_faces(self) -> np.ndarray:

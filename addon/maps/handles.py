@@ -2,7 +2,6 @@
 """Surfaces with handles as fundamental domains of Schottky groups: from a surface to UV coordinates of its corners."""
 
 import dataclasses
-import functools
 from types import ModuleType
 from typing import Any
 
@@ -14,7 +13,6 @@ from .errors import MapError, elements_of, kind_of
 from .options import Chosen
 from .outcomes import LATER, Task, in_numbers
 from .rounding import RESOLUTION
-from .triangles import density_ratio, signed_areas
 from .wording import counted
 
 ROUND = 1e-3  # of its radius, by which the vertices of a hole that is round may be off its circle
@@ -38,13 +36,6 @@ class SchottkyIsland(DomainIsland):
     """
 
     circles: list[tuple[tuple[float, float], float]] = LATER
-
-    @functools.cached_property
-    def density_ratio(self) -> float:
-        """Texel density at 95 % of the area over that at 5 %."""
-        uv = self.result.uv
-        corners = np.arange(3 * len(uv)).reshape(-1, 3)
-        return density_ratio(self.island.areas, np.abs(signed_areas(uv.reshape(-1, 2), corners)))
 
     def cut(self) -> str:
         """What the UVs are cut along."""
@@ -112,8 +103,7 @@ def _check_schottky(handles: int, loops: int) -> None:
 
 
 SCHOTTKY = Domain(
-    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID",
+    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID", _check_schottky, SchottkyOutcome,
     "Unwrap a surface with any number of handles, closed or with holes, into the disk: angles are kept, holes are "
     "round, and both sides of each cut through a handle differ by a Möbius map. The cuts are in the UVs alone",
-    _check_schottky, SchottkyOutcome,
 )  # fmt: skip

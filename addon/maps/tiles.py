@@ -2,7 +2,6 @@
 """Surfaces as tiles of flat tori and cylinders: from a surface to UV coordinates of its corners."""
 
 import dataclasses
-import functools
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,6 @@ from .options import Chosen
 from .outcomes import LATER, Task
 from .surface import Island
 from .tile_fit import FittedTile, fitted
-from .triangles import density_ratio, signed_areas
 from .wording import counted, own_warning
 
 if TYPE_CHECKING:
@@ -33,12 +31,9 @@ class TileIsland(DomainIsland):
 
     tile: FittedTile = LATER
 
-    @functools.cached_property
-    def density_ratio(self) -> float:
-        """Texel density at 95 % of the area over that at 5 %."""
-        count = len(self.tile.uv)
-        corners = np.arange(3 * count).reshape(-1, 3)
-        return density_ratio(self.island.areas, np.abs(signed_areas(self.tile.uv.reshape(-1, 2), corners)))
+    @property
+    def texel_uv(self) -> np.ndarray:
+        return self.tile.uv
 
     def circle(self, loop: dict[str, Any], fit: str) -> tuple[tuple[float, float], float]:
         """Centre and radius in the UVs of a loop that is a circle there, else 0 and 0."""
@@ -164,14 +159,12 @@ def _check_ring(handles: int, loops: int) -> None:
 
 
 TORUS = Domain(
-    "torus", "torus tile", "Unwrap to Torus Tile", "MESH_TORUS",
+    "torus", "torus tile", "Unwrap to Torus Tile", "MESH_TORUS", _check_torus, TileOutcome,
     "Unwrap a surface with one handle to a tile of a flat torus: angles are kept, holes are round, and a pattern with "
     "its periods has no seam. The cut is in the UVs alone",
-    _check_torus, TileOutcome,
 )  # fmt: skip
 RING = Domain(
-    "ring", "cylinder", "Unwrap to Cylinder", "MESH_CYLINDER",
+    "ring", "cylinder", "Unwrap to Cylinder", "MESH_CYLINDER", _check_ring, TileOutcome,
     "Unwrap a surface with two rims to a cylinder, unrolled: angles are kept, the rims are straight, and a pattern "
     "with its period has no seam. The cut is in the UVs alone",
-    _check_ring, TileOutcome,
 )  # fmt: skip
