@@ -11,6 +11,7 @@
 #include <random>
 
 using namespace koebe;
+using namespace koebe::test;
 using koebe::test::CircleDomain;
 
 namespace {
