@@ -15,7 +15,7 @@ bl_info = {
 
 
 def _parts() -> tuple[ModuleType, ...]:
-    """The modules with something to register. Imported late: the rest of the package needs no bpy."""
+    """The modules that register something. Imported late, as the rest of the package needs no bpy."""
     from .operators import (
         carry_texture,
         checker,

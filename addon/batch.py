@@ -6,14 +6,13 @@
     python batch.py IN.blend -- --output OUT.blend --report OUT.json [options]     (with the bpy module)
     blender -b --python-exit-code 1 -P batch.py -- A.blend FOLDER ... --output FOLDER [options]
 
-The last form maps a library: every file by a Blender of its own, what is done and unchanged is skipped. It is the
-command `koebe batch --blender`, which the native module brings, and has its exit codes.
+The last form maps a library: every file by a Blender of its own; files that are done and unchanged are skipped. It is
+the command `koebe batch --blender` of the native module, and has its exit codes.
 
-Exit code: 0 done, 1 the native module is missing or something broke, 2 wrong usage, 3 the file cannot be read or an
-object cannot be mapped (no OUT), 4 not converged, or too much of the area lost (OUT is written, what is lost keeps its
-UVs), 130 interrupted (nothing is written).
-OUT and the report are written to temporary files and renamed: each is whole or absent. There is a report with 0, 3 and
-4, and where the native module is missing. With 3 its `error` says why.
+Exit code: 0 done, 1 the native module is missing or something failed, 2 wrong usage, 3 the file cannot be read or an
+object cannot be mapped (no OUT), 4 not converged, or too much of the area lost (OUT is written, lost objects keep their
+UVs), 130 interrupted (nothing is written). OUT and the report are written to temporary files and renamed: each is
+complete or absent. There is a report with 0, 3 and 4, and if the native module is missing. With 3 its `error` says why.
 """
 
 import concurrent.futures
@@ -29,10 +28,10 @@ from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).resolve().parent
-PACKAGE = "koebe_uv_batch"  # a name of its own: another copy of the add-on may be enabled
+PACKAGE = "koebe_uv_batch"  # another copy of the add-on may be enabled
 
-POLL_SECONDS = 0.05  # how soon a signal is obeyed while the computation runs
-PATIENCE_SECONDS = 10.0  # how long its next checkpoint is waited for then
+POLL_SECONDS = 0.05  # delay until a signal is obeyed during a computation
+PATIENCE_SECONDS = 10.0  # time to wait for the next checkpoint then
 
 
 def load_package() -> None:
@@ -85,7 +84,7 @@ OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfM
 
 
 def main() -> int:
-    """Entry point of Blender's -P and of a plain Python with the bpy module: the exit code."""
+    """Entry point of Blender's -P and of plain Python with the bpy module. Returns the exit code."""
     try:
         return run()
     except Stop as stop:
@@ -99,7 +98,7 @@ def main() -> int:
 
 
 def run() -> int:
-    """Read, map, save, report; return the exit code. Raises Stop where there is nothing to report on."""
+    """Read, map, save, report; return the exit code. Raises Stop if there is nothing to report on."""
     request, sources = request_and_sources()
     if request.ends_with_input:
         SIGNALS.watch_input()
@@ -119,7 +118,7 @@ def run() -> int:
             content["error"] = wording.run_error(job.outcomes)
     except (Stop, MemoryError) as error:
         stop = error if isinstance(error, Stop) else OUT_OF_MEMORY
-        # One of several files is told of even where it is asked for what it has not.
+        # One of several files gets a report even without the requested objects.
         if stop.code not in (BROKEN, UNMAPPABLE) and not (stop.code == USAGE and request.ends_with_input):
             raise
         tell(stop.reason)
@@ -137,7 +136,7 @@ def run() -> int:
 
 
 def request_and_sources() -> tuple[Request, list[str]]:
-    """What is asked for, and the paths that are given."""
+    """The request, and the given paths."""
     at = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     request = parse(sys.argv[at + 1 :])
     sources = [bpy.data.filepath] if bpy.app.binary_path else sys.argv[1:at]
@@ -151,7 +150,7 @@ def request_and_sources() -> tuple[Request, list[str]]:
 
 
 def map_library(request: Request, sources: list[str]) -> int:
-    """Map many files by the command of the native module, each in a Blender of its own; its exit code."""
+    """Map many files by the native module's command, each in a Blender of its own; return its exit code."""
     if not bpy.app.binary_path:
         raise Stop(USAGE, "several files and folders need Blender's program: koebe batch --blender PROGRAM")
     if request.report is not None:
@@ -170,7 +169,7 @@ def map_library(request: Request, sources: list[str]) -> int:
             return process.wait(POLL_SECONDS)
         except subprocess.TimeoutExpired:
             if SIGNALS.came:
-                process.terminate()  # it ends what it has started, and leaves what is done
+                process.terminate()  # it ends its processes, and keeps finished files
 
 
 def targets(request: Request, source: str) -> tuple[Target, Target | None]:
@@ -187,7 +186,7 @@ def targets(request: Request, source: str) -> tuple[Target, Target | None]:
 
 
 def open_source(source: str) -> None:
-    """Open the file, unless Blender has. What a newer Blender has saved this one reads with losses, or crashes."""
+    """Open the file, unless Blender has. Refuse files of a newer Blender, which read with losses or crash."""
     if not bpy.data.filepath:
         try:
             bpy.ops.wm.open_mainfile(filepath=source)
@@ -202,7 +201,7 @@ def open_source(source: str) -> None:
 
 
 def refuse_what_is_read(files: list[Target]) -> None:
-    """No file is written onto a library, an image or whatever else the .blend reads."""
+    """Refuse to write onto a library, an image or another file that the .blend reads."""
     for path in bpy.utils.blend_paths(absolute=True):
         for file in files:
             if os.path.exists(path) and is_same(path, file.path):
@@ -210,7 +209,7 @@ def refuse_what_is_read(files: list[Target]) -> None:
 
 
 def map_objects(request: Request) -> Job:
-    """The job that was run, its results written into the open file unless an object failed."""
+    """The job after its run, with results written into the open file unless an object failed."""
     objects = chosen_objects(request.names)
     leave_edit_mode(objects)
     with in_their_places(objects):
@@ -241,7 +240,7 @@ def read_shapes(job: Job) -> None:
 
 
 def new_job(objects: list[MeshObject], request: Request) -> Job:
-    """A job on all the objects, or the reasons why some of them cannot be mapped."""
+    """A job on all the objects, or the reasons why some cannot be mapped."""
     without_faces = [obj.name for obj in objects if len(obj.data.polygons) == 0]
     if without_faces and (request.names is not None or len(without_faces) == len(objects)):
         raise refusal(dict.fromkeys(without_faces, "it has no faces"))
@@ -265,7 +264,7 @@ def job_of(objects: list[MeshObject], request: Request) -> Job:
 
 
 def reasons(objects: list[MeshObject], request: Request) -> dict[str, str]:
-    """Why objects cannot be mapped, by their names."""
+    """The reasons why objects cannot be mapped, by name."""
     found = {}
     for obj in objects:
         try:
@@ -277,7 +276,7 @@ def reasons(objects: list[MeshObject], request: Request) -> dict[str, str]:
 
 
 def check_vertices(job: Job) -> None:
-    """A vertex asked for by its number has to be one."""
+    """Refuse vertex numbers that the mesh does not have."""
     for option in ("outer", "center", "point"):
         vertex = getattr(job.options, option)
         for task in job.tasks if isinstance(vertex, int) else ():
@@ -286,7 +285,7 @@ def check_vertices(job: Job) -> None:
 
 
 def compute(job: Job) -> None:
-    """Run the job on a thread, so that a signal is heard at once; it ends at the next checkpoint, or is left alone."""
+    """Run the job on a thread, so that signals act at once. It ends at its next checkpoint, or is abandoned."""
     future = concurrent.futures.ThreadPoolExecutor(max_workers=1).submit(job.compute)
     while not concurrent.futures.wait([future], POLL_SECONDS).done:
         if SIGNALS.came:
@@ -300,7 +299,7 @@ def compute(job: Job) -> None:
 
 
 def exit_code(job: Job) -> int:
-    """The code for a job that was run."""
+    """The exit code of a finished job."""
     errors = [one.error for outcome in job.outcomes for one in outcome.failed]
     if not all(isinstance(error, LostAreaError) for error in errors):
         return UNMAPPABLE
@@ -308,19 +307,19 @@ def exit_code(job: Job) -> int:
 
 
 def save(output: Target | None, report_file: Target | None, content: dict[str, Any]) -> None:
-    """Write the open file and the report, each of which may be None. Where the report is, the output is too."""
+    """Save the open file and the report, each of which may be None. If the report exists, the output does, too."""
     makers = {output: save_blend, report_file: lambda path: save_json(path, content)}
     makers.pop(None, None)
     write_all(makers, SIGNALS.obey)
 
 
 def save_blend(path: str) -> None:
-    """Save the open file there. Not compressed: then Blender takes no notice of a full disk."""
+    """Save the open file there, uncompressed: with compression Blender does not notice a full disk."""
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, check_existing=False, compress=False)
 
 
 def tell_outcomes(job: Job) -> None:
-    """The result lines of the objects, and the reasons of those that failed."""
+    """Print the objects' result lines, and the reasons of failed objects."""
     for outcome in job.outcomes:
         if outcome.mapped:
             say(in_flags(job.line(outcome)), sys.stdout)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which material a texture is carried with, and giving it to an object that has none; the checker stays where it is."""
+"""Finds a carried texture's material, and gives it to an object without materials. The checker stays."""
 
 import bpy
 
@@ -9,7 +9,7 @@ from .transaction import Transaction
 
 
 def painted(obj: MeshObject) -> bpy.types.Material | None:
-    """The material of the object's active slot, or else of the first one that has one, beneath the checker; or None."""
+    """The material of the object's active slot, or of the first slot with one, beneath the checker; or None."""
     beneath = checker.materials_beneath(obj)
     if not beneath:
         return None

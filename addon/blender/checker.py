@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Putting the checker on objects so that it comes off again without a trace.
+"""Puts the checker on objects, and takes it off again without a trace.
 
-An object with material slots keeps them: the checker lies over them on the object's side, the materials of the mesh
-and the faces' slot numbers stay. What was there is remembered in a custom property of the object, both sides of every
-slot, as joining objects throws one side away. A mesh without slots gets one, for all its objects.
+An object with material slots keeps them: the checker covers them on the object's side, while the mesh's materials and
+the faces' slot numbers stay. A custom property of the object remembers both sides of every slot, as joining objects
+discards one side. A mesh without slots gets one, for all its objects.
 """
 
 from typing import Any
@@ -22,11 +22,11 @@ from .noted_properties import set_property
 from .targets import check_mesh
 from .transaction import Transaction
 
-MEMORY_KEY = "koebe_checker_slots"  # on the object: what its slots were
+MEMORY_KEY = "koebe_checker_slots"  # on the object: its slots before
 
 
 def is_on(obj: MeshObject) -> bool:
-    """Whether the object wears the checker, or remembers what it wore beneath."""
+    """Whether the object has the checker on, or remembers the materials beneath."""
     return MEMORY_KEY in obj or any(is_checker(slot.material) for slot in obj.material_slots)
 
 
@@ -41,20 +41,20 @@ def check(obj: MeshObject) -> None:
 
 
 def even_sizes(size: float, densities: list[float]) -> list[float]:
-    """Squares across the UV square of each object, so that all are as large in space as those of the first one.
+    """Squares across the UV square of each object, so that all squares are as large in space as the first object's.
 
-    densities  lengths in the UVs over lengths in space, 0 where there is none
+    densities  lengths in the UVs over lengths in space, 0 without UVs
     """
     sizes = [size * densities[0] / one if densities[0] * one > 0.0 else size for one in densities]
-    alike: dict[str, float] = {}  # sizes that cannot be told apart share a material
+    alike: dict[str, float] = {}  # nearly equal sizes share a material
     return [alike.setdefault(f"{one:.3g}", one) for one in sizes]
 
 
 def pattern_for(surface: Surface, uv: np.ndarray, size: float) -> tuple[Pattern, bool]:
-    """The checker with about so many squares across the UV square, and whether it runs over all cuts of all tiles, or
-    of spheres.
+    """The checker with about this many squares across the UV square, and whether it fits the cuts of all tiles, or of
+    spheres.
 
-    surface, uv  all of a mesh, and its UVs (C, 2)
+    surface, uv  of a whole mesh, and its UVs (C, 2)
     """
     of_sphere = sphere_pattern(surface, uv, size)
     if of_sphere is not None:
@@ -67,7 +67,7 @@ def pattern_for(surface: Surface, uv: np.ndarray, size: float) -> tuple[Pattern,
 def materials(
     run: Transaction, objects: list[MeshObject], layer: str, patterns: list[Pattern]
 ) -> list[bpy.types.Material]:
-    """The checker of a UV layer that each of the objects is to wear."""
+    """The checker of a UV layer for each of the objects."""
 
     def free(material: bpy.types.Material) -> bool:
         return all(obj in objects for obj in bpy.data.objects if _wears(obj, material))
@@ -80,13 +80,13 @@ def _wears(obj: bpy.types.Object, material: bpy.types.Material) -> bool:
 
 
 def put_on(run: Transaction, obj: MeshObject, material: bpy.types.Material) -> None:
-    """Cover all of the object's slots with a checker, or give it one; call `check` first."""
+    """Cover all of the object's slots with a checker, or give it a slot. Call `check` first."""
     take_off(run, obj)
     cover(run, obj, material)
 
 
 def cover(run: Transaction, obj: MeshObject, material: bpy.types.Material) -> None:
-    """Put a checker over what the object, which has none on, wears."""
+    """Put a checker over the materials of the object, which has no checker on."""
     if len(obj.material_slots) == 0:
         material_slots.add_to_mesh(run, obj, material)
         return
@@ -99,7 +99,7 @@ def cover(run: Transaction, obj: MeshObject, material: bpy.types.Material) -> No
 
 
 def take_off(run: Transaction, obj: MeshObject) -> None:
-    """Give the object its slots back; call `check` first. What was put into a slot meanwhile stays there."""
+    """Give the object its slots back. Call `check` first. Materials put into a slot meanwhile stay there."""
     if not is_on(obj):
         return
     memory = _memory(obj)
@@ -110,7 +110,7 @@ def take_off(run: Transaction, obj: MeshObject) -> None:
     if len(of_mesh) and not memory and all(is_checker(material) for material in of_mesh):
         material_slots.clear_mesh(run, obj)
     for index, material in enumerate(of_mesh):
-        if is_checker(material):  # as where an object was joined while it had the checker on
+        if is_checker(material):  # for example, a joined object had the checker on
             material_slots.set_of_mesh(run, obj.data, index, _beneath(memory.get(str(index), {})))
     if MEMORY_KEY in obj:
         set_property(run, obj, MEMORY_KEY, None)
@@ -133,7 +133,7 @@ def _beneath(was: dict[str, Any]) -> bpy.types.Material | None:
 
 
 def materials_beneath(obj: MeshObject) -> list[bpy.types.Material | None]:
-    """The material of each slot of the object as it is without the checker; None where there is none."""
+    """The material of each slot of the object without the checker; None for an empty slot."""
     memory = _memory(obj)
     return [
         _beneath(memory.get(str(index), {})) if is_checker(slot.material) else slot.material

@@ -12,19 +12,19 @@ from .noted_properties import set_property
 from .transaction import Transaction
 
 NAME = "Koebe Checker"
-LAYER_KEY = "koebe_checker_layer"  # on the material: the UV layer that it shows
-SIZE_KEY = "koebe_checker_size"  # on the material: its squares across the UV square
-MATRIX_KEY = "koebe_checker_matrix"  # on the material: the linear map of the UVs, where it is that of a tile
+LAYER_KEY = "koebe_checker_layer"  # on the material: its UV layer
+SIZE_KEY = "koebe_checker_size"  # on the material: squares across the UV square
+MATRIX_KEY = "koebe_checker_matrix"  # on the material: the linear map of the UVs, for a tile
 
 PAPER = (0.80, 0.76, 0.68, 1.0)
 INK = (0.045, 0.20, 0.26, 1.0)
-# One square of the coarse pattern is this many of the fine one: it shows scale from far away.
+# One coarse square is so many fine squares wide: it shows scale from far away.
 COARSE = 4.0
 COARSE_SHADE = (0.68, 0.68, 0.68, 1.0)
 
 
 def is_checker(material: bpy.types.Material | None) -> bool:
-    """Whether that is a checker of ours; None is not."""
+    """Whether the material is a checker of ours. None is not."""
     return material is not None and LAYER_KEY in material
 
 
@@ -33,8 +33,8 @@ def checker_materials(
 ) -> list[bpy.types.Material]:
     """The checker of a UV layer for each of some patterns.
 
-    One of that pattern is used again, else one for which `free(material)` says that nobody else wears it, else a new
-    one.
+    Takes a checker with this pattern if there is one, else one that `free(material)` says no other object wears, else a
+    new one.
     """
     mine = [one for one in bpy.data.materials if one.library is None and one.get(LAYER_KEY) == layer and one.node_tree]
     chosen: dict[Pattern, bpy.types.Material] = {}
@@ -55,13 +55,13 @@ def checker_materials(
 
 
 def _pattern_of(material: bpy.types.Material) -> Pattern | None:
-    """What a checker shows, or None of one that is new."""
+    """The pattern of a checker; None for a new one."""
     size, matrix = material.get(SIZE_KEY), material.get(MATRIX_KEY)
     return None if size is None else Pattern(size, None if matrix is None else tuple(matrix))
 
 
 def _is_like(material: bpy.types.Material, pattern: Pattern) -> bool:
-    """Whether its nodes can show such a pattern."""
+    """Whether its nodes can show this pattern."""
     return (MATRIX_KEY in material) == (pattern.matrix is not None)
 
 
@@ -120,7 +120,7 @@ def _node(tree: bpy.types.NodeTree, kind: str, location: tuple[float, float], **
     return node
 
 
-SCALES, ROWS = ("Fine", "Coarse"), ("Across", "Up")  # names of nodes, whose inputs a pattern sets
+SCALES, ROWS = ("Fine", "Coarse"), ("Across", "Up")  # names of the nodes whose inputs a pattern sets
 
 
 def _values_of(pattern: Pattern) -> dict[str, Any]:
@@ -131,7 +131,7 @@ def _values_of(pattern: Pattern) -> dict[str, Any]:
 
 
 def _inputs(tree: Any) -> dict[str, Any]:
-    """The inputs of the nodes that are still there: the user may have edited the material."""
+    """The inputs of the nodes that still exist: the user may have edited the material."""
     scales = {name: tree.nodes.get(name) for name in SCALES}
     rows = {name: tree.nodes.get(name) for name in ROWS}
     return {

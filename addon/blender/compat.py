@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every difference between Blender versions that the add-on meets, found by feature, not by number."""
+"""All differences between Blender versions that matter to the add-on, detected by feature, not by version number."""
 
 import functools
 from typing import Any
@@ -19,8 +19,8 @@ def corner_uv(layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:
 def set_corner_uv(layer: bpy.types.MeshUVLoopLayer, uv: np.ndarray) -> None:
     """Write UV coordinates (C, 2) into a UV layer. The mesh must not be in Edit Mode.
 
-    Where UV layers are attributes too it goes that way: by `layer.uv` Blender 4.2 to 5.0 writes into the arrays that
-    its undo steps hold, and undo brings nothing back.
+    Where UV layers are attributes, too, it writes the attribute: through `layer.uv` Blender 4.2 to 5.0 writes into the
+    arrays of its undo steps, and undo then restores nothing.
     """
     collection, name = _uv_collection(layer)
     attribute = layer.id_data.attributes.get(layer.name)
@@ -30,13 +30,13 @@ def set_corner_uv(layer: bpy.types.MeshUVLoopLayer, uv: np.ndarray) -> None:
 
 
 def _uv_collection(layer: bpy.types.MeshUVLoopLayer) -> tuple[Any, str]:
-    if hasattr(layer, "uv"):  # 3.5 on
+    if hasattr(layer, "uv"):  # from 3.5 on
         return layer.uv, "vector"
     return layer.data, "uv"
 
 
 def any_pin(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> bool:
-    """Whether some corner is pinned in a UV layer of the mesh. The mesh must not be in Edit Mode."""
+    """Whether a corner is pinned in a UV layer of the mesh. The mesh must not be in Edit Mode."""
     if not hasattr(layer, "pin"):  # before 3.5
         return bool(read(layer.data, "pin_uv", bool).any())
     pins = mesh.attributes.get(f".pn.{layer.name}")
@@ -44,12 +44,12 @@ def any_pin(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> bool:
 
 
 def slow_mode_change() -> bool:
-    """Whether leaving and entering Edit Mode takes longer than to write the corners of a mesh one by one."""
-    return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # 3.5 on it takes half the time
+    """Whether leaving and entering Edit Mode takes longer than writing a mesh's corners one by one."""
+    return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # from 3.5 on it takes half the time
 
 
 def read(collection: Any, name: str, dtype: type, width: int = 1) -> np.ndarray:
-    """One property of all items of a collection, as an array (n,) or (n, width)."""
+    """One property of all items of a collection as an array (n,) or (n, width)."""
     values: np.ndarray = np.empty(len(collection) * width, dtype=dtype)
     collection.foreach_get(name, values)
     return values.reshape(-1, width) if width > 1 else values
@@ -58,7 +58,7 @@ def read(collection: Any, name: str, dtype: type, width: int = 1) -> np.ndarray:
 def read_indices(collection: Any, name: str, width: int = 1) -> np.ndarray:
     """Like `read`, for indices, as int32.
 
-    Blender copies them in one go into unsigned integers only; into signed ones it takes each by itself.
+    Blender copies indices at once into unsigned integers only; signed ones are copied one by one.
     """
     return read(collection, name, np.uint32, width).view(np.int32)
 
@@ -66,7 +66,7 @@ def read_indices(collection: Any, name: str, width: int = 1) -> np.ndarray:
 def corner_indices(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Vertex (C,) and edge (C,) of each corner. The mesh must not be in Edit Mode."""
     names = (".corner_vert", ".corner_edge")
-    if all(name in mesh.attributes for name in names):  # 3.6 on, and much faster there
+    if all(name in mesh.attributes for name in names):  # from 3.6 on, and much faster there
         vertex, edge = (read(mesh.attributes[name].data, "value", np.int32) for name in names)
         return vertex, edge
     return read_indices(mesh.loops, "vertex_index"), read_indices(mesh.loops, "edge_index")
@@ -84,13 +84,13 @@ def seam_edges(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def has_seams(mesh: bpy.types.Mesh) -> bool:
-    """Whether the mesh has somewhere to keep seams already."""
+    """Whether the mesh already has a place for seams."""
     name = _seam_attribute()
     return name is None or name in mesh.attributes
 
 
 def seam_name_taken(mesh: bpy.types.Mesh) -> str | None:
-    """The name under which seams are kept, if something else of the mesh has it."""
+    """The name under which seams are kept, if other data of the mesh has it."""
     name = _seam_attribute()
     if name is None or name not in mesh.attributes:
         return None
@@ -99,7 +99,7 @@ def seam_name_taken(mesh: bpy.types.Mesh) -> str | None:
 
 
 def set_seam_edges(mesh: bpy.types.Mesh, seams: np.ndarray, remove: bool = False) -> None:
-    """Make exactly these edges (E,) seams; with `remove` not even keep the place. Not in Edit Mode."""
+    """Make exactly these edges (E,) seams. With `remove`, remove the place as well. Not in Edit Mode."""
     mesh.edges.foreach_set("use_seam", seams)
     name = _seam_attribute()
     if remove and name is not None and name in mesh.attributes:
@@ -108,7 +108,7 @@ def set_seam_edges(mesh: bpy.types.Mesh, seams: np.ndarray, remove: bool = False
 
 @functools.cache
 def _seam_attribute() -> str | None:
-    """Name of the attribute that holds seams, which is faster to read than the edges; None where there is none."""
+    """Name of the attribute that holds seams, faster to read than the edges; None if there is none."""
     probe = bpy.data.meshes.new("Koebe probe")
     try:
         probe.vertices.add(2)
@@ -121,7 +121,7 @@ def _seam_attribute() -> str | None:
 
 def vertex_positions(mesh: bpy.types.Mesh) -> np.ndarray:
     """Positions (V, 3) of the vertices, in 32 bits. The mesh must not be in Edit Mode."""
-    if "position" in mesh.attributes:  # 3.5 on, and much faster there
+    if "position" in mesh.attributes:  # from 3.5 on, and much faster there
         return read(mesh.attributes["position"].data, "vector", np.float32, 3)
     return read(mesh.vertices, "co", np.float32, 3)
 
@@ -137,20 +137,20 @@ def shown_faces(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _face_flag(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
-    if name not in mesh.attributes:  # then it is false everywhere
+    if name not in mesh.attributes:  # then all values are false
         return np.zeros(len(mesh.polygons), dtype=bool)
     return read(mesh.attributes[name].data, "value", bool)
 
 
 def enable_nodes(material: bpy.types.Material) -> None:
-    """Give a new material its node tree (5.0 on it has one from the start)."""
+    """Give a new material its node tree. From 5.0 on it has one from the start."""
     if material.node_tree is None:
         material.use_nodes = True
 
 
 def add_geometry_sockets(tree: Any) -> None:
-    """Give new geometry nodes what a modifier takes and gives."""
-    if hasattr(tree, "interface"):  # 4.0 on
+    """Give new geometry nodes the input and output of a modifier."""
+    if hasattr(tree, "interface"):  # from 4.0 on
         for side in ("INPUT", "OUTPUT"):
             tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
         tree.is_modifier = True
@@ -160,7 +160,7 @@ def add_geometry_sockets(tree: Any) -> None:
 
 
 def stored_uv_type() -> str:
-    """The type by which geometry nodes store UVs: 3.4 stores no UV layers, but vectors under their names."""
+    """The type by which geometry nodes store UVs: 3.4 has no UV layers there, but vectors under their names."""
     return "FLOAT2" if hasattr(bpy.types.MeshUVLoopLayer, "uv") else "FLOAT_VECTOR"
 
 
@@ -170,7 +170,7 @@ def flat_shader(name: str) -> Any:
 
     try:
         return gpu.shader.from_builtin(name)
-    except ValueError:  # before 3.4 to 4.0 the names said how many coordinates
+    except ValueError:  # up to 4.0 the names had the number of coordinates
         return gpu.shader.from_builtin(f"2D_{name}")
 
 

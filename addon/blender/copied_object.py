@@ -13,7 +13,7 @@ from .transaction import Transaction
 
 
 class Copied(Protocol):
-    """Faces of a mesh in other places: a `FlatLayout` or a `SphereCopy`.
+    """Faces of a mesh at other places: a `FlatLayout` or a `SphereCopy`.
 
     points  (n, 2) or (n, 3)
     """
@@ -40,10 +40,10 @@ def add_copied_object(
     place: tuple[float, float, float],
     ending: str,
 ) -> bpy.types.Object:
-    """A new object with the layout as its mesh, at a place of the world; it is in the scene's active collection.
+    """A new object with the layout as its mesh, at a place of the world, in the scene's active collection.
 
     uv      (C, 2) of the source's corners: the new mesh has them in a layer of the same name
-    ending  of its name, after that of the source
+    ending  of its name, after the source's name
     """
     for collection in (bpy.data.meshes, bpy.data.objects):
         run.before_write(_keep_only, collection, set(collection.keys()))

@@ -20,24 +20,24 @@ from .targets import check_mesh
 from .transaction import Transaction
 
 NAME = "Koebe Distortion"
-MEMORY_KEY = "koebe_distortion"  # on the mesh: what is shown, in which attribute, and which one was active before
+MEMORY_KEY = "koebe_distortion"  # on the mesh: the distortion shown, its attribute, and the attribute active before
 
 
 def shown(mesh: bpy.types.Mesh) -> str | None:
-    """The kind of distortion that the mesh's colours show, or None."""
+    """The kind of distortion in the mesh's colours, or None."""
     memory = mesh.get(MEMORY_KEY)
     return None if memory is None or _own_name(mesh) is None else memory["kind"]
 
 
 def _own_name(mesh: bpy.types.Mesh) -> str | None:
-    """Name of the colour attribute that is the add-on's own, or None."""
+    """Name of the add-on's own colour attribute, or None."""
     memory = mesh.get(MEMORY_KEY)
     name = "" if memory is None else memory.get("name", NAME)
     return name if name in mesh.color_attributes else None
 
 
 def is_on(mesh: bpy.types.Mesh) -> bool:
-    """Whether the mesh shows distortion, or remembers what it showed before."""
+    """Whether the mesh shows distortion, or remembers its colours before."""
     return MEMORY_KEY in mesh
 
 
@@ -57,7 +57,7 @@ def corner_colors(surface: Surface, uv: np.ndarray, kind: str) -> np.ndarray:
 
 
 def put_on(run: Transaction, obj: MeshObject, kind: str, colors: np.ndarray) -> None:
-    """Give the mesh's corners these colours, and make them the active ones."""
+    """Give the mesh's corners these colours, and make them active."""
     mesh, own = obj.data, _own_name(obj.data)
     active, render = _active(mesh)
     if own is None:
@@ -76,10 +76,10 @@ def put_on(run: Transaction, obj: MeshObject, kind: str, colors: np.ndarray) -> 
 
 
 def _new_attribute(obj: MeshObject) -> str:
-    """Make the attribute, under another name where its own is taken; that name."""
+    """Make the attribute, under another name if its own is taken; return that name."""
     mesh = obj.data
     names = (f"{NAME}.{number:03d}" if number else NAME for number in itertools.count())
-    # Where a vertex group has the name some versions make nothing, others two of one name.
+    # If a vertex group has the name, some versions make no attribute, others two with the same name.
     free = next(n for n in names if n not in mesh.attributes and n not in mesh.uv_layers and n not in obj.vertex_groups)
     made = mesh.color_attributes.new(free, "FLOAT_COLOR", "CORNER")
     if made is None:
@@ -88,13 +88,13 @@ def _new_attribute(obj: MeshObject) -> str:
 
 
 def take_off(run: Transaction, obj: MeshObject) -> None:
-    """Remove the colours and make the attribute active that was so before."""
+    """Remove the colours and make the formerly active attribute active again."""
     mesh, own = obj.data, _own_name(obj.data)
     if not is_on(mesh):
         return
     memory, now = mesh[MEMORY_KEY].to_dict(), _active(mesh)
     if own is not None:
-        bring_up_to_date(obj)  # it may have been put on a moment ago
+        bring_up_to_date(obj)  # the colours may be new
         with arrays(obj) as old:
             run.before_write(_restore_attribute, obj, own, _read(old, own), now)
         mesh.color_attributes.remove(mesh.color_attributes[own])
@@ -105,7 +105,7 @@ def take_off(run: Transaction, obj: MeshObject) -> None:
 
 
 def _active(mesh: bpy.types.Mesh) -> tuple[Any, Any]:
-    """Names of the colour attributes that are active and for rendering; such a name may be that of none."""
+    """Names of the colour attributes that are active and for rendering. An attribute of that name may be missing."""
     return mesh.color_attributes.active_color_name, mesh.color_attributes.default_color_name
 
 

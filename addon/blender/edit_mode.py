@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Enters and leaves Edit Mode, and finds back to the modes and the selection of objects that were."""
+"""Enters and leaves Edit Mode, and restores the modes and the selection of objects."""
 
 import contextlib
 import functools
@@ -36,15 +36,15 @@ def _out_of_local_view(context: bpy.types.Context, obj: MeshObject) -> bool:
 def _visible(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     space: Any = context.space_data
     if space is not None and space.type == "VIEW_3D":
-        return obj.visible_get(view_layer=context.view_layer, viewport=space)  # which may be in local view
+        return obj.visible_get(view_layer=context.view_layer, viewport=space)  # the view may be local
     return obj.visible_get(view_layer=context.view_layer)
 
 
 def enter(run: Transaction, context: bpy.types.Context, obj: MeshObject) -> None:
-    """Make the object the active one and enter Edit Mode with it alone, unless it is there; call `check` first."""
+    """Make the object active and enter Edit Mode with it alone, unless it is there. Call `check` first."""
     if obj.mode == "EDIT":
         return
-    for elements in (obj.data.vertices, obj.data.edges, obj.data.polygons):  # which Edit Mode makes consistent
+    for elements in (obj.data.vertices, obj.data.edges, obj.data.polygons):  # Edit Mode makes them consistent
         run.before_write(elements.foreach_set, "select", compat.read(elements, "select", bool))
     layer = context.view_layer
     run.before_write(_restore, layer, *_state(layer))
@@ -58,10 +58,10 @@ def enter(run: Transaction, context: bpy.types.Context, obj: MeshObject) -> None
 
 
 def undo_all(context: bpy.types.Context) -> None:
-    """Let the undo step of the running operator hold the whole file, as it does in Object Mode.
+    """Make the running operator's undo step hold the whole file, as in Object Mode.
 
-    In Edit Mode it holds the edited meshes alone, without slots, custom properties, selected objects and settings; but
-    Blender keeps the whole file beside it once a data-block was added or removed.
+    In Edit Mode it holds only the edited meshes, without slots, custom properties, selected objects and settings. But
+    Blender keeps the whole file, too, once a data-block was added or removed.
     """
     if context.mode == "EDIT_MESH":
         bpy.data.meshes.remove(bpy.data.meshes.new("Koebe undo"))
@@ -69,7 +69,7 @@ def undo_all(context: bpy.types.Context) -> None:
 
 @contextlib.contextmanager
 def left_if_faster(run: Transaction, context: bpy.types.Context) -> Iterator[None]:
-    """Object Mode inside, where Blender writes faster there, and where it is sure to find back."""
+    """Object Mode inside, if Blender writes faster there and can return for sure."""
     back = None if compat.slow_mode_change() else leave(run, context)
     yield
     if back is not None:
@@ -77,7 +77,7 @@ def left_if_faster(run: Transaction, context: bpy.types.Context) -> Iterator[Non
 
 
 def leave(run: Transaction, context: bpy.types.Context) -> Callable[[], None] | None:
-    """Leave Edit Mode, where Blender is sure to find back: the way back, or None where nothing was done."""
+    """Leave Edit Mode, if Blender can return for sure. Returns the way back, or None if nothing was done."""
     layer = context.view_layer
     if context.mode != "EDIT_MESH" or not can_leave(context):
         return None
@@ -88,7 +88,7 @@ def leave(run: Transaction, context: bpy.types.Context) -> Callable[[], None] | 
 
 
 def can_leave(context: bpy.types.Context) -> bool:
-    """Whether Blender finds back: it enters Edit Mode with meshes alone that are seen and selected."""
+    """Whether Blender can return: it enters Edit Mode only with meshes that are visible and selected."""
     edited = [obj for obj in bpy.data.objects if obj.mode == "EDIT"]
     return all(
         obj.type == "MESH" and obj.name in context.view_layer.objects and obj.select_get() and _visible(context, obj)
@@ -125,7 +125,7 @@ def _select_objects(layer: Any, names: list[str]) -> None:
 
 @contextlib.contextmanager
 def _in_sight(objects: list[bpy.types.Object]) -> Iterator[None]:
-    """All these objects shown and selectable: Blender enters Edit Mode with no others."""
+    """Shows these objects and makes them selectable: Blender enters Edit Mode only with such objects."""
     hidden = [(obj, obj.hide_get(), obj.hide_viewport, obj.hide_select) for obj in objects]
     for obj in objects:
         obj.hide_set(False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fills holes of an object's mesh: plans all of it first, then writes, so that the mesh can be put back."""
+"""Fills holes of an object's mesh. Plans everything first, then writes, so that the mesh can be restored."""
 
 import itertools
 from types import ModuleType
@@ -18,15 +18,15 @@ from .transaction import Transaction
 
 
 class FillPlan:
-    """What fills the chosen holes of one object. `free` it in the end."""
+    """The patches for the chosen holes of one object. Call `free` at the end."""
 
     def __init__(self, koebe: ModuleType, obj: MeshObject, which: str) -> None:
-        """Work it out; nothing is written. Raises FillError, or TransferError if the mesh cannot be written."""
+        """Make the plan; nothing is written. Raises FillError, or TransferError if the mesh cannot be written."""
         check_mesh(obj)
         _check_attributes(obj.data)
         self.obj, self._edited = obj, obj.mode == "EDIT"
         if self._edited:
-            obj.update_from_editmode()  # which brings the shape keys up to date
+            obj.update_from_editmode()  # brings the shape keys up to date
             self._mesh = bmesh.from_edit_mesh(obj.data)
         else:
             self._mesh = bmesh.new()
@@ -51,14 +51,14 @@ class FillPlan:
         return sum(len(one.triangles) for one in self.fillings)
 
     def write(self, run: Transaction, context: bpy.types.Context) -> None:
-        """Add the faces, and select them and nothing else."""
+        """Add the faces, and select them alone."""
         if self._edited:
             note_selection(run, context, [self.obj])
             for elements in _elements(self._mesh):
                 for element in elements:
                     element.tag = True
-            _tag_examples(self.fillings, False)  # whose copies would have the tag as well
-            run.before_write(_remove_untagged, self.obj, self.fillings)  # all that is there has its tag now
+            _tag_examples(self.fillings, False)  # copies would have the tag, too
+            run.before_write(_remove_untagged, self.obj, self.fillings)  # all present elements are tagged now
             _fill(self._mesh, self.fillings)
             bmesh.update_edit_mesh(self.obj.data)
             return
@@ -70,7 +70,7 @@ class FillPlan:
         self.obj.data.update()
 
     def free(self) -> None:
-        """Give back the memory; the plan is of no use any more."""
+        """Free the memory; the plan is unusable afterwards."""
         self.fillings = []
         if not self._edited:
             self._mesh.free()
@@ -137,12 +137,12 @@ def _tag_examples(fillings: list[Filling], tag: bool) -> None:
 
 
 def _remove_untagged(obj: MeshObject, fillings: list[Filling]) -> None:
-    """Remove what was added to a mesh in Edit Mode: all that is not tagged but for the examples."""
+    """Remove elements that were added to a mesh in Edit Mode: all without a tag, except the examples."""
     mesh = bmesh.from_edit_mesh(obj.data)
     _tag_examples(fillings, True)
     for elements in _elements(mesh):
         for element in reversed([element for element in elements if not element.tag]):
-            elements.remove(element)  # the last one first: so the next ones get their places in the same order
+            elements.remove(element)  # from the last on, so that the next ones get their places in order
     mesh.normal_update()
     bmesh.update_edit_mesh(obj.data)
 

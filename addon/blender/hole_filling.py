@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds the holes of a mesh and works out what fills them; nothing is written here."""
+"""Finds the holes of a mesh and computes patches for them; nothing is written here."""
 
 import dataclasses
 from collections.abc import Iterator
@@ -15,19 +15,19 @@ from ..maps.triangles import flipped_triangles
 from .patch_attributes import Continued
 
 HOLES, SELECTED, ALL = "holes", "selected", "all"
-SAME_UV = 1e-5  # UV units: corners of a vertex nearer than this are one point of the map
+SAME_UV = 1e-5  # UV units: nearer corners of a vertex are one point of the map
 
 
 class FillError(KnownError):
-    """The mesh has nothing to fill, or a boundary that is no closed loop."""
+    """The mesh has nothing to fill, or a boundary that is not a closed loop."""
 
 
 @dataclasses.dataclass
 class Filling:
-    """What fills one hole: its corners, the new vertices (k, 3), the faces (t, 3), and what lives on them.
+    """The patch of one hole: its corners, the new vertices (k, 3), the faces (t, 3), and their data.
 
-    The faces name the n vertices of the hole, in the corners' order, and then the new ones; so do all values
-    (n + k, ...), of which those of `uvs` are of each UV layer, by name.
+    The faces number the n vertices of the hole first, in the corners' order, then the new ones. So do all values (n +
+    k, ...); `uvs` has values for each UV layer, by name.
     """
 
     corners: list[bmesh.types.BMLoop]
@@ -38,7 +38,7 @@ class Filling:
 
 
 def boundary_loops(mesh: bmesh.types.BMesh) -> list[list[bmesh.types.BMLoop]]:
-    """Boundary loops of a bmesh: lists of the corners at which the boundary edges begin, in the faces' direction."""
+    """Boundary loops of a bmesh: lists of the corners where the boundary edges begin, in the faces' direction."""
     ahead = [edge.link_loops[0] for edge in mesh.edges if edge.is_boundary and not edge.hide]
     open_corners, loops = set(ahead), []
     for first in ahead:
@@ -57,13 +57,13 @@ def boundary_loops(mesh: bmesh.types.BMesh) -> list[list[bmesh.types.BMLoop]]:
 
 
 def _next_on_boundary(corner: bmesh.types.BMLoop) -> bmesh.types.BMLoop | None:
-    """The corner whose edge follows on the boundary, or None where there is none."""
+    """The corner of the next boundary edge, or None."""
     *_, last = _fan(corner)
     return last if last is not None and last.edge.is_boundary else None
 
 
 def _fan(corner: bmesh.types.BMLoop) -> Iterator[bmesh.types.BMLoop | None]:
-    """The corners at the end of a boundary edge, face by face; None last where the faces do not fit."""
+    """The corners at the end of a boundary edge, face by face; None at the end if the faces do not fit."""
     vertex = corner.link_loop_next.vert
     corner = corner.link_loop_next
     yield corner
@@ -77,7 +77,7 @@ def _fan(corner: bmesh.types.BMLoop) -> Iterator[bmesh.types.BMLoop | None]:
 
 
 def chosen_loops(mesh: bmesh.types.BMesh, which: str) -> list[list[bmesh.types.BMLoop]]:
-    """The loops to fill. HOLES: all but the longest of each connected part; SELECTED: whose edges all are selected."""
+    """The loops to fill. HOLES: all but the longest of each connected part; SELECTED: loops with all edges selected."""
     loops = boundary_loops(mesh)
     if which == SELECTED:
         loops = [loop for loop in loops if all(corner.edge.select for corner in loop)]
@@ -98,7 +98,7 @@ def chosen_loops(mesh: bmesh.types.BMesh, which: str) -> list[list[bmesh.types.B
 
 
 def _parts(loops: list[list[bmesh.types.BMLoop]]) -> list[int]:
-    """For each loop the number of the connected part of the mesh that it is on."""
+    """The number of the mesh's connected part for each loop."""
     seen, numbers = {}, []
     for number, loop in enumerate(loops):
         first = loop[0].face
@@ -116,7 +116,7 @@ def _parts(loops: list[list[bmesh.types.BMLoop]]) -> list[int]:
 def filling(
     koebe: ModuleType, mesh: bmesh.types.BMesh, loop: list[bmesh.types.BMLoop], keys: dict[str, np.ndarray]
 ) -> Filling:
-    """The patch for one loop; changes nothing. `koebe` is the native package, `keys` as for `Continued`."""
+    """The patch for one loop. Changes nothing. `koebe` is the native package, `keys` are as for `Continued`."""
     rim = [corner.vert for corner in loop]
     if len(set(rim)) != len(rim):
         raise FillError("a hole meets itself at a vertex: part its halves first")
@@ -141,7 +141,7 @@ def filling(
 
 
 def _check_room(mesh: bmesh.types.BMesh, rim: list[bmesh.types.BMVert], patch: np.ndarray) -> None:
-    """Raise FillError where the patch would double a face, or give an edge more than two."""
+    """Raise FillError if the patch would double a face, or give an edge more than two."""
     for triangle in patch[(patch < len(rim)).all(axis=1)].tolist():
         if mesh.faces.get([rim[v] for v in triangle]) is not None:
             raise FillError("a hole is the back of a single face: there is nothing to fill")
@@ -154,10 +154,10 @@ def _check_room(mesh: bmesh.types.BMesh, rim: list[bmesh.types.BMVert], patch: n
 
 
 def _surroundings(loop: list[bmesh.types.BMLoop]) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (m, 3), those of the loop first, and triangles (t, 3) of the faces up to two edges from a boundary loop.
+    """Vertices (m, 3), the loop's first, and triangles (t, 3) of the faces up to two edges from a boundary loop.
 
-    Faces that share an edge, and nothing else, are joined: where they meet in a vertex alone they are parted, so that
-    what lies around the loop is a manifold, whatever the rest of the mesh is.
+    Only faces that share an edge are joined. Faces that meet in a vertex alone are separated, so that the loop's
+    surroundings are a manifold in any mesh.
     """
     faces = _faces_around(loop)
     corners = [corner for face in faces for corner in face.loops]
@@ -188,7 +188,7 @@ def _surroundings(loop: list[bmesh.types.BMLoop]) -> tuple[np.ndarray, np.ndarra
 
 
 def _faces_around(loop: list[bmesh.types.BMLoop]) -> list[bmesh.types.BMFace]:
-    """The faces that meet a boundary loop and those that meet these, as far as they hang together."""
+    """The faces that meet a boundary loop and their neighbours, as far as they are connected."""
     first = dict.fromkeys(corner.face for start in loop for corner in _fan(start))
     near = {face for one in first for vertex in one.verts for face in vertex.link_faces}
     found, stack = dict(first), list(first)
@@ -208,14 +208,14 @@ def _across(corner: bmesh.types.BMLoop) -> bmesh.types.BMLoop | None:
 
 
 def _rim_uv(layer: "bmesh.types.BMLayerItem[Any]", loop: list[bmesh.types.BMLoop]) -> np.ndarray | None:
-    """UVs (n, 2) of a loop's vertices; None where a seam ends at the hole."""
+    """UVs (n, 2) of a loop's vertices; None if a seam ends at the hole."""
     begin = np.array([corner[layer].uv for corner in loop])
     end = np.array([corner.link_loop_next[layer].uv for corner in loop])
     return begin if np.abs(np.roll(end, 1, axis=0) - begin).max() <= SAME_UV else None
 
 
 def _continued_uv(koebe: ModuleType, positions: np.ndarray, triangles: np.ndarray, rim_uv: np.ndarray) -> np.ndarray:
-    """UVs (n + k, 2) of a patch, harmonic; where that flips faces, by weights that flip none inside a convex rim."""
+    """UVs (n + k, 2) of a patch, harmonic. If that flips faces, uses weights that flip none inside a convex rim."""
     fixed = np.arange(len(rim_uv))
     uv = koebe.harmonic_map(positions, triangles, fixed, rim_uv)
     if len(flipped_triangles(triangles, uv.astype(np.float32))):

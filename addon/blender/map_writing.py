@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a map writes to one object: its UVs, and the colours by which it shows their distortion, if it does."""
+"""Writes a map to one object: its UVs and, if the object shows distortion, their colours."""
 
 import dataclasses
 
@@ -15,9 +15,9 @@ from .transaction import Transaction
 
 @dataclasses.dataclass
 class Plan:
-    """What is to be written to one object.
+    """The data to write to one object.
 
-    surface  the whole mesh, every face of it selected
+    surface  the whole mesh, with every face selected
     uv       (C, 2) of all its corners
     faces    (P,) bool, the faces with new UVs
     colors   (C, 4) of all corners, or None
@@ -33,7 +33,7 @@ class Plan:
 
     @property
     def density(self) -> float:
-        """Lengths in the UVs over lengths in space, in the mean; 0 without UVs."""
+        """Mean length in the UVs over length in space; 0 without UVs."""
         return texel_density(self.surface, self.uv)
 
 
@@ -51,14 +51,14 @@ def plan(target: Target, layer: str, surface: Surface, corners: np.ndarray, uv: 
 
 
 def write(run: Transaction, made: Plan) -> None:
-    """Do what was planned."""
+    """Write the plan."""
     uv_layers.write_uv(run, made.obj, made.layer, made.uv, made.surface, made.faces)
     if made.kind is not None and made.colors is not None:
         distortion_attribute.put_on(run, made.obj, made.kind, made.colors)
 
 
 def write_several(run: Transaction, plans: list[Plan]) -> None:
-    """Do several plans for one object. The layer of the first becomes the active one."""
+    """Write several plans for one object. The layer of the first becomes active."""
     for made in plans:
         uv_layers.write_uv(run, made.obj, made.layer, made.uv, made.surface, made.faces)
     first = plans[0]

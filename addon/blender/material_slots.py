@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes material slots, each noted before.
+"""Writes material slots, and notes each before.
 
-A slot has two sides: the material of the mesh, which all its objects share, and the object's own. Its link says which
-one is shown. A slot is named by its object and its number, as Blender moves them in memory.
+A slot has two sides: the mesh's material, which all its objects share, and the object's own. The slot's link chooses
+the side that is shown. A slot is named by its object and its number, as Blender moves slots in memory.
 """
 
 from typing import Any
@@ -27,7 +27,7 @@ def set_link(run: Transaction, obj: MeshObject, index: int, link: str) -> None:
 def set_own(
     run: Transaction, obj: MeshObject, index: int, material: bpy.types.Material | None
 ) -> bpy.types.Material | None:
-    """Set the object's side of a slot, and show it. Returns the material that was there."""
+    """Set and show the object's side of a slot. Returns the material that was there."""
     set_link(run, obj, index, "OBJECT")
     was = obj.material_slots[index].material
     run.before_write(_set_shown, obj, index, was)
@@ -36,7 +36,7 @@ def set_own(
 
 
 def set_of_mesh(run: Transaction, mesh: bpy.types.Mesh, index: int, material: bpy.types.Material | None) -> None:
-    """Set a material of a mesh."""
+    """Set one of a mesh's materials."""
     run.before_write(mesh.materials.__setitem__, index, mesh.materials[index])
     mesh.materials[index] = material
 
@@ -45,13 +45,13 @@ def add_to_mesh(run: Transaction, obj: MeshObject, material: bpy.types.Material)
     """Give a mesh without materials this one."""
     run.before_write(_clear, obj, _face_numbers(obj))
     obj.data.materials.append(material)
-    set_link(run, obj, 0, "DATA")  # which the preferences may have otherwise
+    set_link(run, obj, 0, "DATA")  # the preferences may set another link
 
 
 def clear_mesh(run: Transaction, obj: MeshObject) -> None:
-    """Take all materials from the mesh, and so all slots from its objects; the faces keep their numbers.
+    """Remove all materials from the mesh, and so all slots from its objects. The faces keep their numbers.
 
-    Where one of the objects has something of its own in a slot, the slots stay, empty.
+    If one of the objects has a material of its own in a slot, the slots stay, empty.
     """
     mesh = obj.data
     users = [user for user in mesh_objects(bpy.data.objects) if user.data == mesh]
@@ -65,10 +65,10 @@ def clear_mesh(run: Transaction, obj: MeshObject) -> None:
 
 
 def own_side(run: Transaction, obj: MeshObject, index: int) -> bpy.types.Material | None:
-    """The material on the object's side of a slot, whichever side is shown."""
+    """The material on the object's side of a slot, whether it is shown or not."""
     if obj.material_slots[index].link == "OBJECT":
         return obj.material_slots[index].material
-    run.before_write(_set_link, obj, index, "DATA")  # only what is shown can be read
+    run.before_write(_set_link, obj, index, "DATA")  # only the shown side can be read
     _set_link(obj, index, "OBJECT")
     own = obj.material_slots[index].material
     _set_link(obj, index, "DATA")
@@ -76,7 +76,7 @@ def own_side(run: Transaction, obj: MeshObject, index: int) -> bpy.types.Materia
 
 
 def _has_own(run: Transaction, obj: MeshObject) -> bool:
-    """Whether a slot shows the object's side, or there is a material on it."""
+    """Whether a slot shows the object's side, or has a material on it."""
     return any(
         slot.link == "OBJECT" or own_side(run, obj, index) is not None for index, slot in enumerate(obj.material_slots)
     )

@@ -17,5 +17,5 @@ else:
 
 
 def mesh_objects(objects: Iterable[bpy.types.Object]) -> list[MeshObject]:
-    """Those of the objects that have a mesh."""
+    """The objects that have a mesh."""
     return [cast(MeshObject, obj) for obj in objects if obj.type == "MESH"]

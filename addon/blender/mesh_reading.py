@@ -14,11 +14,11 @@ from .mesh_object import MeshObject
 
 
 def read_surface(obj: MeshObject, selected_only: bool) -> Surface:
-    """The object's mesh as a `Surface`, in world space but for the translation.
+    """The object's mesh as a `Surface`, in world space without the translation.
 
-    In Edit Mode the mesh's arrays are brought up to date first. With `selected_only` the surface is
-    that of the selected faces. A mirrored object keeps its face order: lengths and angles are those
-    of the world, and the UVs stay counter-clockwise in the mesh's own order.
+    In Edit Mode the mesh's arrays are brought up to date first. With `selected_only` it is the surface of the selected
+    faces. A mirrored object keeps its face order: lengths and angles are those of the world, and the UVs stay
+    counter-clockwise in the mesh's own order.
     """
     bring_up_to_date(obj)
     with arrays(obj) as mesh:
@@ -34,28 +34,28 @@ def read_surface(obj: MeshObject, selected_only: bool) -> Surface:
             seam=compat.seam_edges(mesh),
             selected=compat.chosen_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
             triangle_corners=compat.read_indices(mesh.loop_triangles, "loops", 3),
-            triangle_face=np.repeat(np.arange(len(size), dtype=np.int32), size - 2),  # as Blender orders them
+            triangle_face=np.repeat(np.arange(len(size), dtype=np.int32), size - 2),  # in Blender's order
         )
 
 
 def bring_up_to_date(obj: MeshObject) -> None:
-    """Let the mesh's arrays hold what was edited until now."""
+    """Bring the mesh's arrays up to date with all edits."""
     if obj.mode == "EDIT":
         obj.update_from_editmode()
 
 
 @contextlib.contextmanager
 def arrays(obj: MeshObject) -> Iterator[bpy.types.Mesh]:
-    """The object's mesh, to be read; in Edit Mode as it was when it was last brought up to date.
+    """The object's mesh for reading; in Edit Mode as of the last update.
 
-    There Blender hides its UVs, and from 3.6 on hands over the rest one by one: then it is a copy for the time, in
-    which Blender shares what it can.
+    In Edit Mode Blender hides the mesh's UVs, and from 3.6 on hands over the other data one by one. So this is a
+    temporary copy then, which shares data where Blender can.
     """
     if obj.mode != "EDIT":
         yield obj.data
         return
     try:
-        yield obj.to_mesh()  # of the object itself, without modifiers and shape keys
+        yield obj.to_mesh()  # the object itself, without modifiers and shape keys
     finally:
         obj.to_mesh_clear()
 
@@ -69,9 +69,9 @@ def _world_positions(obj: MeshObject, mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def read_mark(obj: MeshObject) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Arrays that are others as soon as the mesh's faces, their directions or its vertices' places are others.
+    """Arrays that change whenever the mesh's faces, their directions or its vertices' places change.
 
-    In Edit Mode they are those of the last time the mesh's arrays were brought up to date.
+    In Edit Mode they are as of the last update of the mesh's arrays.
     """
     with arrays(obj) as mesh:
         vertex, _ = compat.corner_indices(mesh)
@@ -79,22 +79,22 @@ def read_mark(obj: MeshObject) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def read_uv(obj: MeshObject, layer_name: str) -> np.ndarray | None:
-    """UVs (C, 2) of the layer of that name, or else of the active one, or None.
+    """UVs (C, 2) of the layer of that name, else of the active layer, or None.
 
-    In Edit Mode they are those of `read_surface`, of the last time the mesh's arrays were brought up to date.
+    In Edit Mode they are as of the last update, as in `read_surface`.
     """
     layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
     return None if layer is None else read_layer(obj, layer.name)
 
 
 def read_layer(obj: MeshObject, layer_name: str) -> np.ndarray:
-    """UVs (C, 2) of the layer of that name, as of `read_uv`."""
+    """UVs (C, 2) of the layer of that name, as in `read_uv`."""
     with arrays(obj) as mesh:
         return compat.corner_uv(mesh.uv_layers[layer_name])
 
 
 def read_layout(obj: MeshObject, layer_name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Vertex (C,) and edge (C,) of each corner, the next one (C,) of its face, and its UVs (C, 2) in a layer."""
+    """Vertex (C,) and edge (C,) of each corner, the next corner (C,) of its face, and its UVs (C, 2) in a layer."""
     mesh = obj.data
     vertex, edge = compat.corner_indices(mesh)
     start, size = (compat.read_indices(mesh.polygons, name) for name in ("loop_start", "loop_total"))
@@ -104,7 +104,7 @@ def read_layout(obj: MeshObject, layer_name: str) -> tuple[np.ndarray, np.ndarra
 
 
 def has_pins(obj: MeshObject, layer_name: str) -> bool:
-    """Whether UVs of that layer are pinned; in Edit Mode as of `read_surface`."""
+    """Whether UVs of that layer are pinned; in Edit Mode as in `read_surface`."""
     if layer_name not in obj.data.uv_layers:
         return False
     with arrays(obj) as mesh:
@@ -112,9 +112,9 @@ def has_pins(obj: MeshObject, layer_name: str) -> bool:
 
 
 def vertex_weights(obj: MeshObject, group: str) -> np.ndarray | None:
-    """Weights (V,) in [0, 1] of a vertex group, 0 outside of it, or None if the object has no such group.
+    """Weights (V,) in [0, 1] of a vertex group, 0 outside it, or None if the object has no such group.
 
-    In Edit Mode they are those of `read_surface`.
+    In Edit Mode they are as in `read_surface`.
     """
     found = obj.vertex_groups.get(group)
     if found is None:
@@ -130,13 +130,13 @@ def vertex_weights(obj: MeshObject, group: str) -> np.ndarray | None:
 
 
 def selected_vertices(obj: MeshObject) -> np.ndarray:
-    """Whether each vertex (V,) of an object in Edit Mode is selected; as of `read_surface`."""
+    """Whether each vertex (V,) of an object in Edit Mode is selected, as in `read_surface`."""
     with arrays(obj) as mesh:
         return compat.read(mesh.vertices, "select", bool)
 
 
 def shown_faces(obj: MeshObject) -> np.ndarray:
-    """Whether each face (P,) is not hidden; as of `read_surface`."""
+    """Whether each face (P,) is not hidden, as in `read_surface`."""
     with arrays(obj) as mesh:
         return compat.shown_faces(mesh)
 
@@ -150,6 +150,6 @@ def active_vertex(obj: MeshObject) -> int | None:
 
 
 def cursor_place(obj: MeshObject) -> np.ndarray:
-    """Where the 3D cursor is in the space of `read_surface`."""
+    """The place of the 3D cursor in the space of `read_surface`."""
     cursor = bpy.context.scene.cursor.location
     return np.array(cursor, dtype=np.float64) - np.array(obj.matrix_world.translation, dtype=np.float64)

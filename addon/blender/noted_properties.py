@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Custom properties and property groups, noted before they are written."""
+"""Writes custom properties and property groups, and notes them before."""
 
 
 from typing import Any
@@ -23,19 +23,19 @@ def _restore_property(owner: bpy.types.ID, key: str, value: Any) -> None:
 
 
 def _plain(value: Any) -> Any:
-    """A custom property's value, which stays when the property is gone."""
+    """A custom property's value, which remains when the property is gone."""
     if hasattr(value, "to_dict"):
         return value.to_dict()
     return value.to_list() if hasattr(value, "to_list") else value
 
 
 def note_group(run: Transaction, group: bpy.types.PropertyGroup) -> None:
-    """Note all that a property group holds, before it is written."""
+    """Note all values of a property group before it is written."""
     run.before_write(_restore_group, group, _values(group))
 
 
 def _values(group: bpy.types.PropertyGroup) -> dict[str, Any]:
-    """What is set in a property group: plain values by name; lists of such for collections."""
+    """The values set in a property group: plain values by name; lists of such for collections."""
     found: dict[str, Any] = {}
     for prop in group.bl_rna.properties:
         name = prop.identifier

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How what lives on the vertices and corners around a hole goes on into the patch that fills it."""
+"""Continues the data of a hole's vertices and corners into its patch."""
 
 import dataclasses
 from types import ModuleType
@@ -8,16 +8,16 @@ from typing import Any
 import bmesh
 import numpy as np
 
-# Layers of vertices and of corners whose values can be mixed: kind, numbers each. The others are copied from the rim.
+# Layers of vertices and of corners whose values can be mixed: kind, numbers in each. Others are copied from the rim.
 MIXED = (("float", 1), ("float_vector", 3), ("float_color", 4), ("color", 4))
-LEAST_WEIGHT = 1e-6  # of a vertex group: below it a vertex stays out
+LEAST_WEIGHT = 1e-6  # of a vertex group: with less a vertex stays out
 
 
 @dataclasses.dataclass
 class Continued:
     """Values (n + k, ...) at the n vertices of a hole and the k new ones of its patch.
 
-    nearest  (k,) the vertex of the hole that each new one is nearest to: it gets a copy of all that cannot be mixed
+    nearest  (k,) the hole's vertex nearest to each new vertex, which gets a copy of the data that cannot be mixed
     weights  of the vertex groups, by number
     shapes   positions in the shape keys, by name
     vertices, corners   of the layers that can be mixed, by kind and name
@@ -69,9 +69,9 @@ class Continued:
         faces: list[bmesh.types.BMFace],
         triangles: list[list[int]],
     ) -> None:
-        """Give all this to the new vertices and faces of a bmesh.
+        """Give this data to the new vertices and faces of a bmesh.
 
-        They were made after examples on the rim. The corners are copied here: that ends what Python knew of them.
+        They were made after examples on the rim. The corners are copied here, which invalidates references to them.
         """
         rim = len(corners)
         for face, triangle in zip(faces, triangles, strict=True):
@@ -107,15 +107,15 @@ class _Mixer:
         self._fixed = np.arange(rim)
 
     def __call__(self, values: np.ndarray) -> np.ndarray:
-        """As smoothly as the patch's own shape allows."""
+        """Mixes as smoothly as the patch's own shape allows."""
         return self._mixed(values, uniform=False)
 
     def bounded(self, values: np.ndarray) -> np.ndarray:
-        """None of them beyond those at the rim."""
+        """Mixes within the range of the values at the rim."""
         return self._mixed(values, uniform=True)
 
     def _mixed(self, values: np.ndarray, uniform: bool) -> np.ndarray:
-        result = np.repeat(values[:1], len(self._positions), axis=0)  # right for what is the same all around
+        result = np.repeat(values[:1], len(self._positions), axis=0)  # right for a value that is equal all around
         result[self._fixed] = values
         different = np.flatnonzero((values != values[:1]).any(axis=0))
         if len(self._positions) == len(values):

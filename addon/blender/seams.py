@@ -12,7 +12,7 @@ from .transaction import Transaction
 
 
 def mark_seams(run: Transaction, obj: MeshObject, edges: np.ndarray) -> None:
-    """Make these edges (E,) bool of the mesh that was read seams; no seam is taken away. Raises TransferError."""
+    """Make these edges (E,) bool of the mesh that was read seams. Other seams stay. Raises TransferError."""
     taken = compat.seam_name_taken(obj.data)
     if taken is not None:
         raise TransferError(f"the name {taken!r} is that of something else: give that another name")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Selects elements of meshes in Edit Mode, each mesh's selection noted before."""
+"""Selects elements of meshes in Edit Mode, and notes each mesh's selection before."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -16,13 +16,13 @@ from .transaction import Transaction
 def select_only(
     run: Transaction, context: bpy.types.Context, chosen: Sequence[tuple[MeshObject, str, Iterable[int]]]
 ) -> None:
-    """Select these elements and nothing else: `chosen` lists (object in Edit Mode, kind, indices).
+    """Select these elements alone. `chosen` lists (object in Edit Mode, kind, indices).
 
-    The select mode becomes that of the kinds. Indices that no longer exist are passed over.
+    The select mode follows the kinds. Indices that no longer exist are ignored.
     """
     kinds = {kind for _, kind, _ in chosen}
     objects = list(dict.fromkeys(obj for obj, _, _ in chosen))
-    note_selection(run, context, _edited(context))  # of all, as the select mode is theirs too
+    note_selection(run, context, _edited(context))  # all, as they share the select mode
     context.tool_settings.mesh_select_mode = (VERTICES in kinds, EDGES in kinds, FACES in kinds)
     meshes = {obj: bmesh.from_edit_mesh(obj.data) for obj in objects}
     for mesh in meshes.values():
@@ -56,19 +56,19 @@ def _edited(context: bpy.types.Context) -> list[MeshObject]:
 
 
 def note_selection(run: Transaction, context: bpy.types.Context, objects: list[MeshObject]) -> None:
-    """Note the select mode, and what is selected in the meshes of objects in Edit Mode."""
+    """Note the select mode, and the selection in the meshes of objects in Edit Mode."""
     for obj in objects:
         run.before_write(_restore_selection, obj, *_selection(bmesh.from_edit_mesh(obj.data)))
     run.before_write(_restore_select_mode, context.tool_settings, tuple(context.tool_settings.mesh_select_mode))
 
 
 def _selection(mesh: bmesh.types.BMesh) -> tuple[list[list[bool]], list[tuple[str, int]], int | None]:
-    """Whether each vertex, edge and face is selected, and what was in which order last, by number."""
+    """Whether each vertex, edge and face is selected, and the last selected elements in order, by number."""
     sequences = (mesh.verts, mesh.edges, mesh.faces)
     for elements in sequences:
         elements.index_update()
     flags = [[element.select for element in elements] for elements in sequences]
-    order: Any = mesh.select_history  # by number: Python 3.13 does not iterate over it
+    order: Any = mesh.select_history  # by number, as Python 3.13 does not iterate over it
     last = [order[i] for i in range(len(order))]
     history = [(VERTICES if isinstance(one, bmesh.types.BMVert) else EDGES if isinstance(one, bmesh.types.BMEdge)
                 else FACES, one.index) for one in last]  # fmt: skip
@@ -98,9 +98,9 @@ def _restore_select_mode(settings: bpy.types.ToolSettings, mode: tuple[bool, boo
 
 
 def edges_along(obj: MeshObject, vertices: list[int], closed: bool = True) -> list[int | None]:
-    """Edges of an object in Edit Mode along a path of vertices, and from its end to its start if it is closed.
+    """Edges of an object in Edit Mode along a path of vertices; of a closed path also from its end to its start.
 
-    None for each that is no longer there.
+    None for an edge that no longer exists.
     """
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The modifier that plays a sequence: nodes that bring the current frame's vector attribute into a UV layer."""
+"""The modifier that plays a sequence: nodes that copy the current frame's vector attribute into a UV layer."""
 
 from typing import Any
 
@@ -9,15 +9,15 @@ from . import compat
 from .mesh_object import MeshObject
 from .transaction import Transaction
 
-NAME = "Koebe Sequence"  # of the modifier, and of its nodes
+NAME = "Koebe Sequence"  # of the modifier and its nodes
 STORE = "GeometryNodeStoreNamedAttribute"
-DIGITS = 4  # of a frame in an attribute's name, a minus counted, filled up by zeros
+DIGITS = 4  # of a frame in an attribute's name, padded with zeros; a minus counts
 
 
 def put_on(run: Transaction, obj: MeshObject, layer: str, prefix: str, frames: range) -> None:
-    """Let the object show in each frame the UVs of the attribute that is called `prefix` and the last of the frames.
+    """Make the object show in each frame the UVs of the attribute named `prefix` plus the frame.
 
-    Before the first frame and after the last one these stay. What an attribute leaves at (0, 0) keeps the layer's UVs.
+    Outside the frames the first or last frame's UVs stay. Where an attribute is (0, 0), the layer's UVs stay.
     """
     old = _own(obj)
     groups = {group.name for group in bpy.data.node_groups if group.library is None}
@@ -29,7 +29,7 @@ def put_on(run: Transaction, obj: MeshObject, layer: str, prefix: str, frames: r
 
 
 def shown_instead(obj: MeshObject, layer: str) -> str | None:
-    """What to say where a modifier of an earlier run shows its frames' UVs in the place of that layer's, or None."""
+    """The message if a modifier of an earlier run shows its own UVs in place of that layer's, or None."""
     own = _own(obj)
     stores = own.node_group.nodes if own is not None and (own.show_viewport or own.show_render) else ()
     for node in stores:
@@ -57,14 +57,14 @@ def _restore(obj: MeshObject, names: list[str], groups: set[str], old: str | Non
 
 
 class _Builder:
-    """Nodes in a row, each made with what it is fed."""
+    """Builds nodes in a row, each with its inputs."""
 
     def __init__(self) -> None:
         groups: Any = bpy.data.node_groups
         self.tree: Any = groups.new(NAME, "GeometryNodeTree")
 
     def node(self, kind: str, output: str | None, fed: dict[str | int, Any] | None = None, **values: Any) -> Any:
-        """A node's output of that name, or None; `fed` are values or outputs by the names or numbers of inputs."""
+        """A node's output of that name, or None. `fed` holds values or outputs by the name or number of an input."""
         node = self.tree.nodes.new(kind)
         node.location = 180 * len(self.tree.nodes), -120 * (len(self.tree.nodes) % 3)
         for name, value in values.items():
@@ -78,7 +78,7 @@ class _Builder:
         return None if output is None else _enabled(node.outputs, output)
 
     def math(self, operation: str, one: Any, other: Any = 0.0) -> Any:
-        """A number out of two."""
+        """A number computed from two."""
         return self.node("ShaderNodeMath", "Value", {0: one, 1: other}, operation=operation)
 
     def named(self, name: Any) -> Any:
@@ -86,12 +86,12 @@ class _Builder:
         return self.node("GeometryNodeInputNamedAttribute", "Attribute", {"Name": name}, data_type="FLOAT_VECTOR")
 
     def replaced(self, text: Any, mark: str, by: Any) -> Any:
-        """A text with another one in the place of a mark."""
+        """A text with a mark replaced by another text."""
         return self.node("FunctionNodeReplaceString", "String", {"String": text, "Find": mark, "Replace": by})
 
 
 def _enabled(sockets: Any, name: str) -> Any:
-    """The socket of that name which is in use: others are of other data types."""
+    """The socket of that name that is in use; others have other data types."""
     return next(socket for socket in sockets if socket.name == name and socket.enabled)
 
 
@@ -115,7 +115,7 @@ def _nodes(layer: str, prefix: str, frames: range) -> Any:
 
 
 def _attribute_name(build: _Builder, prefix: str, frames: range) -> Any:
-    """The name of the attribute that counts in the scene's frame, as Python has `prefix` and f"{frame:04d}"."""
+    """The attribute's name for the scene's frame, as in Python: `prefix` and f"{frame:04d}"."""
     first, step, last = float(frames[0]), float(frames.step), float(len(frames) - 1)
     scene = build.node("GeometryNodeInputSceneTime", "Frame")
     number = build.math("FLOOR", build.math("DIVIDE", build.math("SUBTRACT", scene, first), step))
@@ -131,7 +131,7 @@ def _attribute_name(build: _Builder, prefix: str, frames: range) -> Any:
         "FunctionNodeSliceString", "String",
         {"String": build.replaced(f"{zeros}#", "#", digits), "Position": position, "Length": width},
     )  # fmt: skip
-    mark = next(chr(code) for code in range(ord("#"), ord("~")) if chr(code) not in prefix)  # of 63 bytes at most
+    mark = next(chr(code) for code in range(ord("#"), ord("~")) if chr(code) not in prefix)  # at most 63 bytes
     pattern = build.node(
         "GeometryNodeSwitch", "Output", {"Switch": is_negative, "False": f"{prefix}{mark}", "True": f"{prefix}-{mark}"},
         input_type="STRING",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shapes of a mesh: as modifiers, drivers and animation make it in frames, and its shape keys."""
+"""The shapes of a mesh: in frames, with modifiers, drivers and animation, and its shape keys."""
 
 import dataclasses
 from collections.abc import Generator, Sequence
@@ -24,7 +24,7 @@ class MeshShape:
     shape             its frame, or the name of its key
     local             (V, 3) in the object's space, in 32 bits
     to_world          (3, 3)
-    triangle_corners  as of `Surface`, as Blender cuts the faces of this shape; None where nobody asked
+    triangle_corners  as in `Surface`, by Blender's triangulation of this shape; None if not requested
     """
 
     shape: str | int
@@ -34,12 +34,12 @@ class MeshShape:
 
     @property
     def label(self) -> str:
-        """What it is called in messages."""
+        """Its name in messages."""
         return label_of(self.shape)
 
     @property
     def positions(self) -> np.ndarray:
-        """Positions (V, 3) as of `read_surface`."""
+        """Positions (V, 3) as in `read_surface`."""
         positions = self.local.astype(np.float64)
         if np.array_equal(self.to_world, np.eye(3)):
             return positions
@@ -56,7 +56,7 @@ def key_names(obj: MeshObject) -> list[str]:
 
 
 def key_shapes(obj: MeshObject, names: Sequence[str]) -> list[MeshShape]:
-    """The shape keys of these names, each as it is at value 1 on the one that it is relative to. In Edit Mode as of
+    """The shape keys of these names, each at value 1 on the key that it is relative to. In Edit Mode as in
     `read_surface`."""
     keys, to_world = obj.data.shape_keys, _rotation(obj)
     return [MeshShape(name, compat.read(keys.key_blocks[name].data, "co", np.float32, 3), to_world) for name in names]
@@ -65,10 +65,10 @@ def key_shapes(obj: MeshObject, names: Sequence[str]) -> list[MeshShape]:
 def frame_shapes(
     context: bpy.types.Context, obj: MeshObject, surface: Surface, frames: Sequence[int]
 ) -> Generator[MeshShape, None, None]:
-    """The shapes in these frames. When it ends, or is closed, the scene is in the frame that it was in.
+    """The shapes in these frames. When it ends, or is closed, the scene is in its former frame.
 
-    Blender has to leave Edit Mode for it, and finds back. Raises TransferError, which names the frame, where a modifier
-    makes other faces than those of the `surface` that was read.
+    Blender must leave Edit Mode for this, and returns. Raises TransferError, which names the frame, if a modifier makes
+    other faces than the `surface` that was read.
     """
     name, scene = obj.name, context.scene
     before = scene.frame_current, scene.frame_subframe

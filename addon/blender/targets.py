@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects an operator is for, whether their meshes can be written, and whether they still are what was read."""
+"""The objects for an operator: whether their meshes can be written, and are still what was read."""
 
 import dataclasses
 import traceback
@@ -25,7 +25,7 @@ def target_objects(context: bpy.types.Context) -> list[MeshObject]:
 
 
 def with_own_meshes(objects: Iterable[MeshObject]) -> list[MeshObject]:
-    """The first one of the objects for each mesh."""
+    """The first of the objects for each mesh."""
     first: dict[str, MeshObject] = {}
     for obj in objects:
         first.setdefault(obj.data.name_full, obj)
@@ -33,7 +33,7 @@ def with_own_meshes(objects: Iterable[MeshObject]) -> list[MeshObject]:
 
 
 def check_readable(obj: MeshObject) -> None:
-    """Raise TransferError where the object does not have its mesh as it is now."""
+    """Raise TransferError if the object's mesh is not up to date."""
     mesh = obj.data
     if mesh.is_editmode and obj.mode != "EDIT":
         raise TransferError(f"{obj.name}: its mesh is in Edit Mode through another object: leave that first")
@@ -43,7 +43,7 @@ def check_readable(obj: MeshObject) -> None:
 
 
 def check_mesh(obj: MeshObject) -> None:
-    """Raise TransferError unless the object's mesh can be read and written, and what is written stays in the file."""
+    """Raise TransferError unless the object's mesh can be read and written, and the file keeps it."""
     mesh = obj.data
     if mesh.library is not None:
         raise TransferError(f"{obj.name}: its mesh is linked from another file: make it local first")
@@ -54,14 +54,14 @@ def check_mesh(obj: MeshObject) -> None:
 
 @dataclasses.dataclass(frozen=True)
 class Target:
-    """An object that was read, to be written later. It is found by its name: it may be gone by then."""
+    """An object that was read, to be written later. It is found by its name, as it may be gone by then."""
 
     name: str
     mark: tuple[np.ndarray, ...]
 
     @classmethod
     def of(cls, obj: MeshObject) -> "Target":
-        """The target that this object is, whose surface was just read."""
+        """A target for this object, whose surface was just read."""
         return cls(obj.name, read_mark(obj))
 
     @property
@@ -70,7 +70,7 @@ class Target:
         return bpy.data.objects.get((self.name, None))
 
     def find(self) -> MeshObject:
-        """The object. Raises TransferError if it is gone, is another mesh now, or cannot be written any more."""
+        """The object. Raises TransferError if it is gone, has another mesh, or cannot be written any more."""
         obj = self.obj
         if obj is None or obj.type != "MESH":
             raise TransferError(f"{self.name}: {GONE}")
@@ -82,17 +82,17 @@ class Target:
 
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
-    """Whether two arrays are, bit for bit: a place that is no number is the same as itself."""
+    """Whether two arrays are equal, bit for bit: a NaN equals itself."""
     return one.shape == other.shape and bool((one.view(np.int32) == other.view(np.int32)).all())
 
 
 def attempt(run: Transaction, name: str, problems: list[str]) -> AbstractContextManager[None]:
-    """A part of the run that may fail for itself: the reason goes to the problems, with the object's name first."""
+    """A part of the run that may fail alone: the reason, with the object's name first, goes to the problems."""
     return run.attempt(lambda error: problems.append(reason(name, error)))
 
 
 def reason(name: str, error: Exception) -> str:
-    """Why the object of that name failed, its name first. What nobody foresaw goes to the console in full."""
+    """Why the object of that name failed, name first. Unforeseen errors go to the console in full."""
     if isinstance(error, KnownError):
         text = str(error)
         return text if text.startswith(f"{name}: ") else f"{name}: {text}"

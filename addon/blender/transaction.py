@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All or nothing: whoever writes into Blender's data first leaves here how to put back what was there.
+"""All or nothing: before any writing into Blender's data, its undoing is noted here.
 
-An operator computes first, then checks that it can write, then writes inside `transaction()`. If that is left by an
-exception, whichever it is, everything is put back, the last thing first. Within it every object is an `attempt` of
-its own: one that fails is put back alone, and the others go on.
+An operator computes first, then checks that it can write, then writes inside `transaction()`. If an exception leaves
+that, everything is undone, in reverse order. Inside it every object is an `attempt` of its own: a failed one is undone
+alone, and the others go on.
 """
 
 import contextlib
@@ -14,21 +14,21 @@ from typing import Any
 
 
 class Transaction:
-    """How to put back what was written so far."""
+    """Undoes everything written so far."""
 
     def __init__(self) -> None:
         self._restores: list[Callable[[], None]] = []
 
     def before_write(self, restore: Callable[..., None], *arguments: Any) -> None:
-        """Call this before anything is written that `restore(*arguments)` puts back.
+        """Call this before writing data that `restore(*arguments)` restores.
 
-        It is called however far the writing came, and maybe twice: so it sets what was, whatever is there now.
+        It is called after any amount of writing, perhaps twice. So it must set the former data, whatever is there now.
         """
         self._restores.append(functools.partial(restore, *arguments))
 
     @contextlib.contextmanager
     def part(self) -> Iterator[None]:
-        """What is written inside is put back if an exception leaves it."""
+        """Undoes the writing inside if an exception leaves it."""
         start = self.mark()
         try:
             yield
@@ -38,7 +38,7 @@ class Transaction:
 
     @contextlib.contextmanager
     def attempt(self, failed: Callable[[Exception], None]) -> Iterator[None]:
-        """A part that may fail for itself: the exception is given to `failed`, and what comes after goes on."""
+        """A part that may fail alone: its exception goes to `failed`, and the run goes on."""
         try:
             with self.part():
                 yield
@@ -46,26 +46,26 @@ class Transaction:
             failed(error)
 
     def mark(self) -> int:
-        """What was written until now, for `put_back`."""
+        """A mark after everything written so far, for `put_back`."""
         return len(self._restores)
 
     def put_back(self, start: int = 0) -> None:
-        """Put back what was written since the mark `start`: after an exception, or where nothing came of it."""
+        """Undo all writing since the mark `start`: after an exception, or if the writing was useless."""
         while len(self._restores) > start:
             try:
                 self._restores[-1]()
             except KeyboardInterrupt:
-                continue  # once more: what was there matters more than that key
+                continue  # again: the former data matters more than that key
             except ReferenceError:
-                pass  # what it belonged to is gone
+                pass  # its owner is gone
             except Exception:
-                traceback.print_exc()  # beside the exception that is on its way; the rest is put back all the same
+                traceback.print_exc()  # beside the pending exception; the rest is undone nevertheless
             self._restores.pop()
 
 
 @contextlib.contextmanager
 def transaction() -> Iterator[Transaction]:
-    """The transaction of a run: as a whole it is one part."""
+    """The transaction of a run. As a whole it is one part."""
     run = Transaction()
     with run.part():
         yield run

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the coordinates of one UV layer, in Object Mode and in Edit Mode, and nothing else."""
+"""Writes the coordinates of one UV layer, in Object Mode and in Edit Mode, and no other data."""
 
 import itertools
 import struct
@@ -48,15 +48,15 @@ def check_layers(obj: MeshObject, names: list[str]) -> None:
 
 
 def planned_uv(obj: MeshObject, layer_name: str, count: int, corners: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    """The UVs (count, 2) of all corners once those of some of them are `uv` (m, 2): in a new layer the others are zero.
+    """The UVs (count, 2) of all corners after some of them became `uv` (m, 2). In a new layer the others are zero.
 
-    In Edit Mode the others are those of the last time the mesh's arrays were brought up to date.
+    In Edit Mode the others are as of the last update of the mesh's arrays.
     """
     values = np.zeros((count, 2), dtype=np.float32)
     if layer_name in obj.data.uv_layers:
         with arrays(obj) as mesh:
             values = compat.corner_uv(mesh.uv_layers[layer_name])
-    # Each point as one number, which NumPy moves five times as fast as a pair.
+    # Take each point as one number, which NumPy moves five times as fast as a pair.
     points = np.ascontiguousarray(uv, dtype=np.float32).view(np.complex64)[:, 0]
     values.view(np.complex64)[:, 0][corners] = points
     return values
@@ -72,9 +72,9 @@ def write_uv(
     mesh = obj.data
     run.before_write(_restore_layers, mesh, *_layers(mesh))
     if layer_name not in mesh.uv_layers:
-        mesh.uv_layers.new(name=layer_name, do_init=False)  # None in Blender 5.2's Edit Mode, though it is made
+        mesh.uv_layers.new(name=layer_name, do_init=False)  # None in 5.2's Edit Mode, though it is made
         if layer_name not in mesh.uv_layers:
-            taken = "that of a vertex group" if layer_name in obj.vertex_groups else "taken"  # as 5.2 allows no more
+            taken = "that of a vertex group" if layer_name in obj.vertex_groups else "taken"  # 5.2 allows no more
             raise TransferError(f"{obj.name}: the name {layer_name!r} is {taken}: choose another layer name")
     else:
         with arrays(obj) as old:
@@ -88,7 +88,7 @@ def _write(obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surfac
         compat.set_corner_uv(obj.data.uv_layers[layer_name], values)
         obj.data.update()
         return
-    # Blender hands over the corners of an edited mesh one by one.
+    # Blender hands over an edited mesh's corners one by one.
     edited = bmesh.from_edit_mesh(obj.data)
     layer = edited.loops.layers.uv[layer_name]
     chosen = np.ascontiguousarray(values[np.repeat(faces, surface.face_size)])
@@ -100,7 +100,7 @@ def _write(obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surfac
 
 
 def _layers(mesh: bpy.types.Mesh) -> tuple[list[str], Any, list[bool], list[bool]]:
-    """Names of the UV layers, and the places of those that are active, for rendering and for cloning."""
+    """Names of the UV layers, and which are active, for rendering and for cloning."""
     layers = list(mesh.uv_layers)
     render, clone = ([getattr(layer, flag) for layer in layers] for flag in ("active_render", "active_clone"))
     return [layer.name for layer in layers], mesh.uv_layers.active_index, render, clone

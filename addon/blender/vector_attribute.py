@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV coordinates as vector attributes (u, v, 0) of a mesh, of its points or of its corners; in Object Mode."""
+"""UV coordinates as vector attributes (u, v, 0) of a mesh's points or corners, in Object Mode."""
 
 import dataclasses
 from typing import Any, Final
@@ -36,7 +36,7 @@ def check(obj: MeshObject, name: str) -> None:
 
 
 def write(run: Transaction, obj: MeshObject, vectors: Vectors) -> None:
-    """Write the values, into a new attribute if there is none of that name on that domain. Not in Edit Mode."""
+    """Write the values, into a new attribute if that domain has none of that name. Not in Edit Mode."""
     check(obj, vectors.name)
     mesh, name = obj.data, vectors.name
     old = _read(mesh, name)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What batch.py has beside the jobs: command line, objects, files, exit codes. May import maps, blender."""
+"""The rest of batch.py, beside the jobs: command line, objects, files, exit codes. May import maps, blender."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line of the batch script: what is out of range is wrong usage, said in one line."""
+"""The command line of the batch script. Values out of range are wrong usage, reported in one line."""
 
 import argparse
 import csv
@@ -12,17 +12,17 @@ from ..maps.option_table import LARGEST, ROWS, Row, rows_of
 from .exit_and_signals import USAGE, Stop
 from .flags import flag
 
-LARGEST_FRAME = 1048574  # that Blender has
+LARGEST_FRAME = 1048574  # in Blender
 DISK = "disk"
 OF_SEQUENCES = ("sequence", "frames", "sequence_target", "play")
-OWN_FLAGS = ("source", "target")  # that are called after the sequence
+OWN_FLAGS = ("source", "target")  # named after the sequence
 IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
 WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
 
 
 @dataclasses.dataclass(frozen=True)
 class Library:
-    """What a run on many files takes beside: `batch` are words of `koebe batch`, `each` those of a run on one file."""
+    """Words for a run on many files: `batch` for `koebe batch`, `each` for the run on each file."""
 
     batch: list[str]
     each: list[str]
@@ -30,11 +30,11 @@ class Library:
 
 @dataclasses.dataclass(frozen=True)
 class Request:
-    """What to do: files as they were given, names of objects or None for all, and the options of the map.
+    """The request: files as given, names of objects or None for all, and the options of the map.
 
-    parts     of a cut into parts, else None
-    domain    of a map that is to no disk, else None
-    sequence  of maps of frames or shape keys, else None
+    parts     for a cut into parts, else None
+    domain    for a map to another domain than the disk, else None
+    sequence  for maps of frames or shape keys, else None
     """
 
     sources: list[str]
@@ -55,7 +55,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse(arguments: list[str]) -> Request:
-    """The request. Raises Stop if it is wrong; ends the program after --help."""
+    """The parsed request. Raises Stop if it is wrong; ends the program after --help."""
     parser = _Parser(
         prog="batch.py", usage=f"{IN_BLENDER}\n       {WITH_BPY}", allow_abbrev=False,
         description="Map the objects of a .blend file without a window.",
@@ -72,7 +72,7 @@ def parse(arguments: list[str]) -> Request:
     many.add_argument("--workers", metavar="N", help="files at a time; default: one for each core")
     many.add_argument("--time-limit", metavar="SECONDS", help="for a file")
     many.add_argument("--retry", action="store_true", help="try files again that could not be mapped")
-    parser.add_argument("--end-with-input", action="store_true", help=argparse.SUPPRESS)  # said by koebe batch
+    parser.add_argument("--end-with-input", action="store_true", help=argparse.SUPPRESS)  # for koebe batch
     parser.add_argument(
         "--objects", action="append", metavar="A,B,...",
         help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
@@ -124,7 +124,7 @@ def parse(arguments: list[str]) -> Request:
 
 
 def _add_option(parser: argparse.ArgumentParser, row: Row) -> None:
-    """A flag for a row. What is not of all maps to the disk, or two flags choose, is None where it is not given."""
+    """A flag for a row. Options that not all disk maps have, or that two flags choose, are None unless given."""
     by_kind: dict[str, dict[str, Any]] = {
         "flag": {"action": argparse.BooleanOptionalAction},
         "integer": {"type": _whole_number, "metavar": "N"},
@@ -141,7 +141,7 @@ def _add_option(parser: argparse.ArgumentParser, row: Row) -> None:
 
 
 def _refuse_others(of: str, asked: str, given: set[str]) -> None:
-    """Options of another map are wrong usage."""
+    """Refuse options of another map as wrong usage."""
     known = {row.name for row in rows_of(of)} | {"parts" if of == "parts" else "domain"}
     for name in sorted(given - known):
         only_parts = name in ROWS and ROWS[name].maps == ["parts"]
@@ -149,24 +149,24 @@ def _refuse_others(of: str, asked: str, given: set[str]) -> None:
 
 
 def _known(kind: Any, values: dict[str, Any]) -> dict[str, Any]:
-    """Of the values that are given those which a choice has."""
+    """The given values that a choice has."""
     names = {field.name for field in dataclasses.fields(kind)} & set(values)
     return {name: values[name] for name in names if values[name] is not None}
 
 
 def _choice(of: str, values: dict[str, Any]) -> Any:
-    """The choice of parts, or of a domain. Raises OptionError."""
+    """The choice for parts or for a domain. Raises OptionError."""
     kind = options.PartsChoice if of == "parts" else DOMAINS[of].choice
     return kind(**_known(kind, values))
 
 
 def _wrong(error: options.OptionError) -> Stop:
-    """The end because an option cannot have its value."""
+    """A Stop for an option with a wrong value."""
     return Stop(USAGE, f"{flag(error.option)}: {error.reason}")
 
 
 def _sequence_choice(own: dict[str, Any], given: set[str]) -> options.SequenceChoice | None:
-    """What is asked for of a sequence, or None without one."""
+    """The choice for a sequence, or None without one."""
     source, frames, target, play = (own[name] for name in OF_SEQUENCES)
     for name in () if source == "FRAMES" else ("frames", "play"):
         if own[name] is not None:
@@ -186,7 +186,7 @@ def _sequence_choice(own: dict[str, Any], given: set[str]) -> options.SequenceCh
 
 
 def _frame_range(text: str) -> range:
-    """The frames A:B or A:B:STEP, B among them."""
+    """The frames A:B or A:B:STEP, including B."""
     try:
         first, last, step = (int(word) for word in (*text.split(":"), "1")[:3])
         if text.count(":") not in (1, 2) or step < 1:
@@ -199,7 +199,7 @@ def _frame_range(text: str) -> range:
 
 
 def _words(values: dict[str, Any]) -> list[str]:
-    """Options as they are written on a command line; those that are None are left out."""
+    """Options as written on a command line, without those that are None."""
     words = []
     for name, value in values.items():
         dashed = name.replace("_", "-")
@@ -221,7 +221,7 @@ def _outer_loop(text: str) -> str | int:
 
 
 def _split(texts: list[str]) -> list[str]:
-    """The names in the values of --objects: commas divide them, except in double quotes, as in a CSV file."""
+    """The names in the values of --objects, separated by commas outside double quotes, as in a CSV file."""
     try:
         names = [name for text in texts for name in next(csv.reader([text], strict=True), None) or [""]]
     except csv.Error as error:

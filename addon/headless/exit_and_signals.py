@@ -13,12 +13,12 @@ from typing import Any, TextIO
 
 from .flags import in_flags
 
-LAST_SECONDS = 5.0  # for a process whose starter is gone
+LAST_SECONDS = 5.0  # for a process whose starter has ended
 DONE, BROKEN, USAGE, UNMAPPABLE, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
 
 class Stop(Exception):
-    """The end of the run: its exit code, the reason told on stderr, and for the report an error's name and entries."""
+    """Ends the run: its exit code, the reason for stderr, and an error's name and entries for the report."""
 
     def __init__(self, code: int, reason: object, name: str = "", objects: Iterable[dict[str, Any]] = ()) -> None:
         super().__init__(code, reason)
@@ -27,28 +27,28 @@ class Stop(Exception):
 
 
 def refusal(reasons: dict[str, str]) -> Stop:
-    """The end because objects cannot be mapped: reasons by name."""
+    """A Stop because objects cannot be mapped: reasons by name."""
     entries = [{"object": name, "error": {"name": "TransferError", "reason": text}} for name, text in reasons.items()]
     lines = "; ".join(f"{name}: {reason}" for name, reason in reasons.items())
     return Stop(UNMAPPABLE, lines, "TransferError", entries)
 
 
 class Signals:
-    """Ctrl-C, SIGTERM and SIGHUP are noted when they come, and obeyed where nothing can be left half done.
+    """Notes Ctrl-C, SIGTERM and SIGHUP when they come, and obeys them where nothing is left half done.
 
-    Blender 3.4 keeps Ctrl-C to itself, and would let the others end it at any moment.
+    Blender 3.4 takes Ctrl-C itself, and the other signals would end it at any moment.
     """
 
     def __init__(self) -> None:
         self.came = False
         for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK"):
             number = getattr(signal, name, None)
-            # What the caller has ignored, as nohup does, stays ignored.
+            # Signals that the caller ignores, as nohup does, stay ignored.
             if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, self._note)
 
     def watch_input(self) -> None:
-        """From now on the end of standard input counts as a signal: that of the process which started this one."""
+        """From now on the end of standard input counts as a signal: the process that started this one has ended."""
         threading.Thread(target=self._wait_for_input, name="koebe input", daemon=True).start()
 
     def _wait_for_input(self) -> None:
@@ -56,7 +56,7 @@ class Signals:
             while os.read(0, 1):
                 pass
         self.came = True
-        time.sleep(LAST_SECONDS)  # nobody is there to wait for the end of what is read or written
+        time.sleep(LAST_SECONDS)  # no process waits for the end of this one's reading or writing
         os._exit(INTERRUPTED)
 
     def _note(self, number: int, frame: FrameType | None) -> None:
@@ -69,7 +69,7 @@ class Signals:
 
 
 def say(text: str, stream: TextIO) -> None:
-    """Print one line, whatever the text holds; a stream that is closed or full does not end the run."""
+    """Print one line with any text. A closed or full stream does not end the run."""
     line = " ".join(text.splitlines())
     with contextlib.suppress(OSError, ValueError):
         encoding = stream.encoding or "utf-8"
@@ -77,7 +77,7 @@ def say(text: str, stream: TextIO) -> None:
 
 
 def drop_what_cannot_be_printed() -> None:
-    """Give up what a closed or full stream still holds: Python tries it again at its end, and 3.13 ends by 120 then."""
+    """Discard the rest in a closed or full stream: Python tries to write it at exit, and 3.13 then exits with 120."""
     for stream in (sys.stdout, sys.stderr):
         try:
             stream.flush()
@@ -87,5 +87,5 @@ def drop_what_cannot_be_printed() -> None:
 
 
 def tell(text: object) -> None:
-    """Say why on stderr."""
+    """Print a reason on stderr."""
     say(f"koebe: {in_flags(text)}", sys.stderr)

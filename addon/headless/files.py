@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The files of a batch run: which is which, and written so that each is whole or absent."""
+"""The files of a batch run: tells them apart, and writes each completely or not at all."""
 
 import contextlib
 import json
@@ -17,24 +17,24 @@ from typing import Any
 
 from .exit_and_signals import BROKEN, USAGE, Stop
 
-PREFIX, SUFFIX = ".koebe-", ".blend"  # of temporary files; Blender may add its suffix where it is missing
-ABANDONED_SECONDS = 24 * 3600.0  # age at which one is of a run that was killed
-LONGEST_PATH = 1022  # bytes that Blender keeps of a path, with the "@" that it adds while it writes
+PREFIX, SUFFIX = ".koebe-", ".blend"  # of temporary files; Blender may add a missing suffix
+ABANDONED_SECONDS = 24 * 3600.0  # older ones belong to killed runs
+LONGEST_PATH = 1022  # bytes of a path in Blender, with the "@" that it adds while writing
 
-Writer = Callable[[Any], None]  # is given a path, or a descriptor where there is no file
+Writer = Callable[[Any], None]  # takes a path, or a descriptor if there is no file
 
 
 class Target:
-    """A file to write. A symbolic link is followed; what no rename can replace is written to directly.
+    """A file to write. Symbolic links are followed; a target that cannot be renamed onto is written to directly.
 
-    Raises Stop with USAGE if it cannot be written, so that a computation is not in vain.
+    Raises Stop with USAGE if it cannot be written, before a long computation.
     """
 
     def __init__(self, given: str, scratch: bool = False) -> None:
-        """`scratch`: the file is another process's to move to its place; it is not there yet, and written directly."""
+        """`scratch`: another process moves the file to its place; it does not exist yet, and is written directly."""
         self.given, self._scratch = given, scratch
         path = os.path.realpath(given)
-        self.path = Path(path[1:] if path.startswith("//") else path)  # which Blender takes for the .blend's folder
+        self.path = Path(path[1:] if path.startswith("//") else path)  # Blender takes it for the .blend's folder
         self._temporary: Path | None = None
         self._write: Writer | None = None
         try:
@@ -46,7 +46,7 @@ class Target:
 
     @property
     def direct(self) -> bool:
-        """Whether it is written to directly: a device, a pipe, or the file into which this process prints."""
+        """Whether it is written to directly: a device, a pipe, or the file that this process prints to."""
         return self._sink is not None
 
     def _require_writable(self) -> None:
@@ -65,23 +65,23 @@ class Target:
             pass
 
     def fill(self, write: Writer) -> None:
-        """Let `write(path)` make the whole file beside its place; `put` moves it there."""
+        """Let `write(path)` make the whole file beside its place. `put` moves it there."""
         if self.direct:
             self._write = write
             return
         _remove_abandoned(self.path.parent)
-        # No file of that name may exist yet: Blender would keep it as a backup.
+        # No file of that name may exist: Blender would keep it as a backup.
         other = self.path if self._scratch else self.path.with_name(f"{PREFIX}{uuid.uuid4().hex}{SUFFIX}")
         temporary = self._temporary = other
         with self._failure():
             write(str(temporary))
             with open(temporary, "rb+") as file:
-                os.fsync(file.fileno())  # a disk may find out only now that it is full
+                os.fsync(file.fileno())  # a disk may only now report that it is full
             if self.path.exists() and not self._scratch:
                 shutil.copymode(self.path, temporary)
 
     def put(self) -> None:
-        """Move what was filled in to its place."""
+        """Move the file to its place."""
         with self._failure():
             if self._write is not None:
                 self._write(os.dup(self._sink) if isinstance(self._sink, int) else self._sink)
@@ -90,7 +90,7 @@ class Target:
                 self._temporary = None
 
     def discard(self) -> None:
-        """Remove what was filled in and not put to its place, and what Blender left of it."""
+        """Remove the file unless it was put to its place, and Blender's leftovers of it."""
         for ending in ("", "@") if self._temporary is not None else ():
             with contextlib.suppress(OSError):
                 os.unlink(f"{self._temporary}{ending}")
@@ -105,7 +105,7 @@ class Target:
 
 
 def write_all(makers: dict[Target, Writer], last_chance: Callable[[], None]) -> None:
-    """Fill every target by its maker, then put them to their places in their order; or nothing, if one fails.
+    """Fill every target by its maker, then put them to their places in order. If one fails, put none.
 
     `last_chance` is called before the first is put, and may raise.
     """
@@ -121,13 +121,13 @@ def write_all(makers: dict[Target, Writer], last_chance: Callable[[], None]) -> 
 
 
 def save_json(path: str | int, content: dict[str, Any]) -> None:
-    """Save plain values in a file or a descriptor; after whatever a device or a pipe was given before."""
+    """Save plain values in a file or a descriptor, for a device or a pipe after its earlier content."""
     with open(path, "a", encoding="utf-8") as file:
         file.write(json.dumps(_finite(content), indent=1, allow_nan=False) + "\n")
 
 
 def _finite(value: Any) -> Any:
-    """The value with null for every number that JSON does not have."""
+    """The value with null for numbers that JSON does not have."""
     if isinstance(value, dict):
         return {key: _finite(one) for key, one in value.items()}
     if isinstance(value, list | tuple):
@@ -136,7 +136,7 @@ def _finite(value: Any) -> Any:
 
 
 def is_same(one: str | Path, other: str | Path) -> bool:
-    """Whether two paths are one file: through links, hard links, and where case does not matter."""
+    """Whether two paths are one file: through links and hard links, and where case does not matter."""
     with contextlib.suppress(OSError):
         return os.path.samefile(one, other)
     if os.path.exists(one) or os.path.exists(other):
@@ -152,12 +152,12 @@ def _folded(name: str) -> str:
 
 
 def _sink(path: str) -> int | str | None:
-    """What to open instead of replacing the file: a descriptor of this process's, the path, or None."""
+    """What to open instead of replacing the file: a descriptor of this process, the path, or None."""
     try:
         status = os.stat(path)
     except FileNotFoundError:
         return None
-    for descriptor in (1, 2):  # opened anew, it would be written over what is printed
+    for descriptor in (1, 2):  # opening it again would overwrite what is printed
         with contextlib.suppress(OSError):
             if os.path.samestat(os.fstat(descriptor), status):
                 return descriptor
@@ -165,7 +165,7 @@ def _sink(path: str) -> int | str | None:
 
 
 def _remove_abandoned(folder: Path) -> None:
-    """Remove what runs that were killed have left in a folder."""
+    """Remove the files of killed runs in a folder."""
     for path in folder.glob(f"{PREFIX}{'[0-9a-f]' * 32}{SUFFIX}*"):
         with contextlib.suppress(OSError):
             if time.time() - path.stat().st_mtime > ABANDONED_SECONDS:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel calls buttons and options, as words of the command line."""
+"""Translates names of the panel's buttons and options to words of the command line."""
 
 import re
 
 from ..maps.domains import DOMAINS
 
-# Texts of the rooms below name what the panel has.
+# Texts of other rooms use the panel's names.
 FLAGS = {
     "Unwrap to Parts": "--parts",
     **{domain.button: f"--domain {name}" for name, domain in DOMAINS.items()},
@@ -21,7 +21,7 @@ _NAMES = re.compile("|".join(rf"(?<![\w-]){re.escape(name)}" for name in FLAGS))
 
 
 def in_flags(text: object) -> str:
-    """The text with flags in the place of the panel's names."""
+    """The text with flags in place of the panel's names."""
     return _NAMES.sub(lambda match: FLAGS[match[0]], str(text))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The objects of a batch run: which they are, out of Edit Mode, and where they are in the world."""
+"""The objects of a batch run: which they are, how they leave Edit Mode, and their places in the world."""
 
 import contextlib
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from .exit_and_signals import UNMAPPABLE, USAGE, Stop
 
 
 def chosen_objects(names: list[str] | None) -> list[MeshObject]:
-    """The mesh objects of the scene, or those named, wherever they are in the file."""
+    """The mesh objects of the scene, or the named ones anywhere in the file."""
     if names is None:
         found = mesh_objects(bpy.context.scene.objects)
         if not found:
@@ -34,7 +34,7 @@ def _named(name: str, asked: str) -> MeshObject:
 
 
 def leave_edit_mode(objects: list[MeshObject]) -> None:
-    """A file may have been saved in Edit Mode, of these objects or of others that share their meshes."""
+    """Leave Edit Mode, in case the file was saved in it, for these objects and for others that share their meshes."""
     meshes = {obj.data for obj in objects}
     active = bpy.context.view_layer.objects.active
     for obj in bpy.context.view_layer.objects:
@@ -46,13 +46,13 @@ def leave_edit_mode(objects: list[MeshObject]) -> None:
 
 @contextlib.contextmanager
 def in_their_places(objects: list[MeshObject]) -> Iterator[None]:
-    """Inside, the world matrices of the objects are true, also of those that Blender does not evaluate.
+    """Inside, the world matrices of the objects are true, also for objects that Blender does not evaluate.
 
-    It leaves out what no view layer shows: objects that are disabled or excluded, or of another scene. An empty that
-    copies the place of such an object makes Blender evaluate it, with parents, constraints and animation, as of the
-    current frame of its own scene.
+    Blender skips objects that no view layer shows: disabled, excluded, or in another scene. An empty that copies the
+    place of such an object makes Blender evaluate it, with parents, constraints and animation, in the current frame of
+    its own scene.
     """
-    bpy.context.evaluated_depsgraph_get()  # brings those of the objects that are shown up to date
+    bpy.context.evaluated_depsgraph_get()  # updates objects that are shown
     hidden: dict[bpy.types.Scene, list[MeshObject]] = {}
     for obj in objects:
         if not obj.visible_get():
@@ -61,9 +61,9 @@ def in_their_places(objects: list[MeshObject]) -> Iterator[None]:
     try:
         for scene, ones in hidden.items():
             helpers += [_helper(obj, scene) for obj in ones]
-            # Not only an update of the view layer: 3.4 does not animate another scene by that.
+            # A view-layer update is not enough: 3.4 does not animate another scene by it.
             scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
-            for obj in ones:  # 3.4 needs to be told again of one whose visibility is animated
+            for obj in ones:  # 3.4 must be told again of an object with animated visibility
                 obj.update_tag(refresh={"OBJECT"})
             scene.view_layers[0].update()
         yield

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One run on Blender objects that maps each by itself, as a choice says."""
+"""A run on Blender objects that maps each by itself, with the settings of a choice."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from .map_job import Job
 
 
 class ChoiceJob(Job):
-    """Reads and writes as `Job` does. A kind of map is a subclass that says how one task is mapped."""
+    """Reads and writes as `Job`. Each kind of map is a subclass that maps one task."""
 
     def __init__(
         self,
@@ -20,16 +20,16 @@ class ChoiceJob(Job):
         selected_only: bool = False,
         refused: list[tuple[str, str]] | None = None,
     ) -> None:
-        """Read the objects. @param options of which layer and checker count. Raises as `Job`."""
+        """Read the objects. @param options only layer and checker are used. Raises as `Job`."""
         self.choice = choice
         self._begin()
         super().__init__(objects, options, selected_only, refused)
 
     def _begin(self) -> None:
-        """Make what has to be there before the objects are read."""
+        """Prepare before the objects are read."""
 
     def _size(self, task: Task) -> int:
-        """How much work a task is, beside others."""
+        """The amount of work of a task, relative to others."""
         return len(task.surface.triangle_face)
 
     def _map(self, task: Task, progress: Progress | None) -> Outcome:

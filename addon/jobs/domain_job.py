@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One run on Blender objects that maps them to domains that are no disks: read, compute, write."""
+"""A run on Blender objects that maps them to other domains than the disk: read, compute, write."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ from ..maps.spheres import SphereOutcome
 from ..maps.tile_pattern import Pattern
 from .choice_job import ChoiceJob
 
-BESIDE = 0.1  # of an object's size, between it and its sphere
+BESIDE = 0.1  # of an object's size, between the object and its sphere
 OTHER_PERIODS = "its tiles have other periods: the checker runs over the cuts of the largest one"
 
 
@@ -27,7 +27,7 @@ class DomainJob(ChoiceJob):
         return map_domain(self.koebe, task, self.choice, progress, self.cancel_token)
 
     def _pattern(self, plan: map_writing.Plan, size: float) -> Pattern:
-        """The checker that runs over the cuts."""
+        """The checker that continues over the cuts."""
         pattern, alike = checker.pattern_for(plan.surface, plan.uv, size)
         if not alike:
             outcome = next(one for one in self.outcomes if one.name == plan.obj.name)
@@ -36,7 +36,7 @@ class DomainJob(ChoiceJob):
 
 
 class SphereJob(DomainJob):
-    """Maps to spheres. Asked to, it adds these as objects, beside their sources."""
+    """Maps to spheres. On request adds the spheres as objects, beside their sources."""
 
     def _write_one(
         self, run: Transaction, outcome: SphereOutcome, plan: map_writing.Plan, material: bpy.types.Material | None

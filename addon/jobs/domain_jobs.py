@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which job maps to which domain."""
+"""The job for each domain."""
 
 from ..maps.options import Chosen
 from .domain_job import DomainJob, SphereJob

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The UV layouts of objects as flat pieces: read, then made objects or a drawing."""
+"""Reads UV layouts of objects as flat pieces, for new objects or a drawing."""
 
 import dataclasses
 
@@ -14,7 +14,7 @@ from ..maps.flat_layout import FlatLayout, flat_layout
 
 @dataclasses.dataclass(frozen=True)
 class Flat:
-    """An object's layout, and the UVs (C, 2) of the layer that it is of."""
+    """An object's layout, and the UVs (C, 2) of its layer."""
 
     obj: MeshObject
     layer: str
@@ -22,13 +22,13 @@ class Flat:
     layout: FlatLayout
 
     def describe(self) -> str:
-        """How true it is, and what was left out."""
+        """How true to scale it is, and which faces were left out."""
         left_out = f"; {self.layout.left_out} faces without UVs are left out" if self.layout.left_out else ""
         return f"{self.obj.name}: {self.layout.describe()}{left_out}"
 
 
 def read_flat(objects: list[MeshObject], layer: str) -> tuple[list[Flat], list[str]]:
-    """The layouts of the objects in the layer of that name, or their active ones; and why others have none."""
+    """The objects' layouts in the layer of that name, or in their active one; why other objects have none."""
     found, problems = [], []
     for obj in objects:
         try:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One run on Blender objects: read, map, write. The operator and the batch script share it.
 
-`Job.compute` touches no Blender data and may run on any thread; everything else belongs to the main one.
+`Job.compute` touches no Blender data and may run on any thread; everything else runs on the main thread.
 """
 
 import dataclasses
@@ -40,7 +40,7 @@ class Job:
     ) -> None:
         """Read the objects. Raises NativeError, or TransferError if none can be mapped.
 
-        One that could not be written later is left out; without a list `refused` for these it ends everything.
+        An object that could not be written later is left out. Without a list `refused` for these, it raises.
         """
         self.koebe = native_package.load()
         self.options, self.selected_only = options, selected_only
@@ -101,11 +101,11 @@ class Job:
         return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
 
     def _check_room(self, obj: MeshObject) -> None:
-        """Raise TransferError unless what is to be written has a place."""
+        """Raise TransferError unless the results can be written to the object."""
         uv_layers.check_layer(obj, self.options.layer)
 
     def _even_importance(self) -> None:
-        """Count from the least importance there is, an object without the group having none. Raises TransferError."""
+        """Subtract the least importance over all objects; without the group it is 0. Raises TransferError."""
         known = [task.importance for task in self.tasks if task.importance is not None]
         if not known:
             raise TransferError(
@@ -130,7 +130,7 @@ class Job:
         self.outcomes = map_surfaces(self.koebe, self.tasks, self.options, progress, self.cancel_token)
 
     def line(self, outcome: Outcome) -> str:
-        """One line on a surface of which something was mapped."""
+        """One line on a surface with at least one mapped island."""
         return outcome.line()
 
     def entries(self, outcome: Outcome) -> list[dict[str, Any]]:
@@ -138,29 +138,29 @@ class Job:
         return outcome.entries()
 
     def rows(self) -> list[dict[str, Any]]:
-        """What the report in Blender keeps of what was written."""
+        """The rows of the report in Blender."""
         left_out = [failure_row(name, text) for name, text in self.refused]
         return [row for outcome in self.outcomes for row in outcome.rows(self.options.layer)] + left_out
 
     def read_old_uv(self) -> None:
-        """Note where the islands are now, for the placement "keep": call it before anything changes."""
+        """Note the present places of the islands, for the placement "keep". Call it before anything changes."""
         self.tasks = [self._with_old_uv(*pair) for pair in zip(self.targets, self.tasks, strict=True)]
 
     def _with_old_uv(self, target: Target, task: Task) -> Task:
         obj = target.obj
-        assert obj is not None  # it was read a moment ago
+        assert obj is not None  # it was just read
         return dataclasses.replace(task, old_uv=mesh_reading.read_uv(obj, self.options.layer))
 
     @property
     def mapped_any(self) -> bool:
-        """Whether there is anything to write, or was written."""
+        """Whether anything can be written, or was written."""
         return any(outcome.mapped for outcome in self.outcomes)
 
     def write(self, run: Transaction | None = None) -> None:
-        """Write the UV layer of every object with a mapped island, and put the checker on if asked.
+        """Write the UV layer of every object with a mapped island, and put the checker on if requested.
 
-        One object that cannot be written is left as it was, and its outcome gets the reason. Without a transaction
-        `run` it ends everything, and all are left as they were.
+        An object that cannot be written stays as it was, and its outcome gets the reason. Without a transaction `run`
+        it raises, and all objects stay as they were.
         """
         if run is None:
             with transaction() as run:
@@ -214,7 +214,7 @@ class Job:
         if material is not None:
             try:
                 checker.check(plan.obj)
-            except TransferError as error:  # the map is there all the same
+            except TransferError as error:  # the map is there nevertheless
                 outcome.remarks.append(f"it has no checker. {error}")
             else:
                 checker.put_on(run, plan.obj, material)

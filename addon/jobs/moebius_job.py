@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Möbius maps of the circle domains in one object's UV layer: read, shown while something is dragged, written."""
+"""Möbius maps of the circle domains in one object's UV layer: reads, shows during a drag, writes."""
 
 from types import ModuleType
 
@@ -15,7 +15,7 @@ from ..maps.moebius import Moebius
 from ..maps.surface import next_corners
 from ..maps.wording import few
 
-MOST_EDGES = 60_000  # that are drawn while something is dragged
+MOST_EDGES = 60_000  # limit of edges drawn during a drag
 
 
 class MoebiusJob:
@@ -25,9 +25,9 @@ class MoebiusJob:
     """
 
     def __init__(self, koebe: ModuleType, obj: MeshObject, layer: str = "") -> None:
-        """Read the object's UV layer, the active one without a name. Raises TransferError if it has no circle domain.
+        """Read the object's UV layer, without a name the active one. Raises TransferError if it has no circle domain.
 
-        In Edit Mode the whole mesh is read, whatever is selected.
+        In Edit Mode the whole mesh is read, with any selection.
         """
         check_mesh(obj)
         self.surface = mesh_reading.read_surface(obj, selected_only=False)
@@ -47,7 +47,7 @@ class MoebiusJob:
         return self.target.name
 
     def domain_at(self, u: float, v: float, reach: float) -> int | None:
-        """Number of the domain whose disk has that place of the UVs inside, or nearly: in `reach` times its radius."""
+        """Number of the domain whose disk holds that place of the UVs, or nearly: within `reach` times its radius."""
         away = [abs(domain.in_disk(u, v)) for domain in self.domains]
         nearest = int(np.argmin(away))
         return nearest if away[nearest] <= reach else None
@@ -60,7 +60,7 @@ class MoebiusJob:
         return z.astype(np.complex64)
 
     def edges(self, domain: CircleDomain) -> np.ndarray:
-        """Vertices (e, 2) of a domain's edges, each once; of more than MOST_EDGES so many, spread evenly."""
+        """Vertices (e, 2) of a domain's edges, each once. Of more than MOST_EDGES, that many, spread evenly."""
         island, vertex = domain.island, np.zeros(len(self.surface.corner_vertex), dtype=np.int32)
         vertex[island.corners] = island.corner_vertex
         first = np.unique(self.surface.corner_edge[island.corners], return_index=True)[1]
@@ -68,17 +68,17 @@ class MoebiusJob:
         return np.stack([vertex[corners], vertex[next_corners(self.surface)[corners]]], axis=1)
 
     def show(self, domain: CircleDomain, points: np.ndarray) -> None:
-        """Write a domain's image into the layer, in Object Mode, as fast as can be: a frame of many."""
+        """Write a domain's image into the layer, in Object Mode, fast enough for every frame of a drag."""
         island = domain.island
         values = self._values.view(np.complex64)[:, 0]
-        if len(island.corners) == len(values):  # then they are all, in their order
+        if len(island.corners) == len(values):  # then all corners are there, in order
             np.take(points, island.corner_vertex, out=values, mode="clip")
         else:
             values[island.corners] = points.take(island.corner_vertex)
         self._set(self._values)
 
     def put_back(self) -> None:
-        """Write what was read, in Object Mode."""
+        """Write the UVs that were read, in Object Mode."""
         self._set(self._old)
         self._values[:] = self._old
 
@@ -92,7 +92,7 @@ class MoebiusJob:
             obj.data.update_tag()
 
     def write(self, run: Transaction, image: CircleImage) -> None:
-        """Write an image for good, in any mode. Raises TransferError if the mesh is not what was read."""
+        """Write an image permanently, in any mode. Raises TransferError if the mesh has changed since it was read."""
         island = image.domain.island
         plan = map_writing.plan(
             self.target, self.layer, self.surface, island.corners, image.uv[island.corner_vertex]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One run on Blender objects that cuts them into even parts: read, compute, write."""
+"""A run on Blender objects that cuts them into even parts: read, compute, write."""
 
 import bpy
 
@@ -13,7 +13,7 @@ from .choice_job import ChoiceJob
 
 
 class PartsJob(ChoiceJob):
-    """Has parts for outcomes. Asked to, it marks their cuts as seams."""
+    """Has parts as outcomes. On request marks their cuts as seams."""
 
     choice: PartsChoice
 
@@ -28,5 +28,5 @@ class PartsJob(ChoiceJob):
             (one,) = outcome.islands
             try:
                 seams.mark_seams(run, plan.obj, one.cuts)
-            except TransferError as error:  # the map is there all the same
+            except TransferError as error:  # the map is there nevertheless
                 outcome.remarks.append(f"its cuts are no seams. {error}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One run on Blender objects that maps them to cylinders: which faces are meant."""
+"""A run on Blender objects that maps them to cylinders. It chooses the faces to map."""
 
 import dataclasses
 
@@ -14,11 +14,11 @@ from .domain_job import DomainJob
 
 
 class RingJob(DomainJob):
-    """Maps to cylinders. In Edit Mode vertices may tell which loops are the rims."""
+    """Maps to cylinders. In Edit Mode selected vertices can choose the rims."""
 
     def _surface(self, obj: MeshObject) -> Surface:
-        """The surface, in Edit Mode of the selected faces. Where vertices tell which loops are the rims, because that
-        is asked for or no face is selected, it is all of the islands that have such vertices."""
+        """The surface, in Edit Mode of the selected faces. If selected vertices choose the rims, because that is an
+        option or no face is selected, it is the whole of the islands with such vertices."""
         surface = super()._surface(obj)
         if not self.selected_only or (self.choice.rims != "selected" and surface.selected.any()):
             return surface

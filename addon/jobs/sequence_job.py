@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One run on Blender objects that maps their shapes one after the other: read, compute, write."""
+"""A run on Blender objects that maps their shapes one after another: read, compute, write."""
 
 import dataclasses
 from collections.abc import Generator
@@ -25,14 +25,14 @@ STAYS_IN_EDIT_MODE = (
 
 
 class SequenceJob(ChoiceJob):
-    """Has sequences for outcomes. Objects are read first, `read_shapes` comes before `compute`."""
+    """Has sequences as outcomes. First reads the objects, then `read_shapes`, then `compute`."""
 
     choice: SequenceChoice
 
     def _begin(self) -> None:
         scene: Any = bpy.context.scene
         self.frames = self.choice.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
-        self.names: dict[str, list[str]] = {}  # by object: what holds the UVs of each shape
+        self.names: dict[str, list[str]] = {}  # by object: names of the layers or attributes with each shape's UVs
         self.shapes: dict[str, list[shapes.MeshShape]] = {}
 
     def _check_room(self, obj: MeshObject) -> None:
@@ -57,7 +57,7 @@ class SequenceJob(ChoiceJob):
         return self.choice.source == "FRAMES" or self.choice.target == "ATTRIBUTE"
 
     def read_shapes(self, context: bpy.types.Context) -> Generator[float, None, None]:
-        """Read the shapes of all objects, step by step, with the share that is read. Raises TransferError."""
+        """Read the shapes of all objects step by step; yields the share that is read. Raises TransferError."""
         if self.choice.source != "FRAMES":
             return
         steps = len(self.frames) * len(self.targets)
@@ -68,7 +68,7 @@ class SequenceJob(ChoiceJob):
                 yield (number * len(self.frames) + len(read)) / steps
 
     def compute(self, progress: Progress | None = None) -> None:
-        """As of `ChoiceJob`."""
+        """As in `ChoiceJob`."""
         self._alike = {task.name: self._keep_one(task) for task in self.tasks}
         super().compute(progress)
 
@@ -84,7 +84,7 @@ class SequenceJob(ChoiceJob):
         return outcome
 
     def _keep_one(self, task: Task) -> int:
-        """Keep the first shape of an object alone where all are alike: their number, or 0."""
+        """Keep only the first shape of an object if all are alike. Returns their number, or 0."""
         found, surface = self.shapes[task.name], task.surface
         used = surface.triangle_corners[surface.selected[surface.triangle_face]]
         if len(found) < 2 or not are_alike(found, surface.corner_vertex[used]):
@@ -103,7 +103,7 @@ class SequenceJob(ChoiceJob):
             ]
         surface, obj = outcome.task.surface, target.find()
         points = [point_values(surface, *uv) for uv in uvs]
-        cut = any(values is None for values in points)  # then all of them are of the corners
+        cut = any(values is None for values in points)  # then all values are of the corners
         return self._shown(target, outcome, uvs[0]), obj, [
             vector_attribute.Vectors(name, "CORNER", *uv) if cut or values is None
             else vector_attribute.Vectors(name, "POINT", *values)
@@ -113,12 +113,12 @@ class SequenceJob(ChoiceJob):
     def _shown(
         self, target: Target, outcome: SequenceOutcome, uv: tuple[np.ndarray, np.ndarray]
     ) -> map_writing.Plan | None:
-        """What is written of the first frame to the UV layer in which all are played, or None where it has no place."""
+        """The plan for the first frame in the UV layer that plays all frames, or None if it has no place."""
         if not (self.choice.play and self.choice.source == "FRAMES"):
             return None
         try:
             return map_writing.plan(target, self.options.layer, outcome.maps[0].task.surface, *uv)
-        except TransferError as error:  # the attributes are there all the same
+        except TransferError as error:  # the attributes are there nevertheless
             outcome.remarks.append(f"nothing plays its frames. {error}")
             return None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs on Blender objects as shapes: read, compute, write. As in `map_job`, `compute` touches no Blender data."""
+"""Runs on objects as shapes: read, compute, write. As in `map_job`, `compute` touches no Blender data."""
 
 
 from ..blender import carried_material, map_writing, mesh_reading, uv_layers
@@ -16,7 +16,7 @@ from . import native_package
 
 
 class _ShapeJob:
-    """The surfaces of some mesh objects, the first one being what the others are held against."""
+    """The surfaces of some mesh objects; the others are compared with the first."""
 
     def __init__(self, objects: list[MeshObject]) -> None:
         """Read the objects. Raises NativeError, or TransferError if the first one cannot be read."""
@@ -39,7 +39,7 @@ class _ShapeJob:
             self.surfaces.append(surface)
 
     def _read(self, obj: MeshObject) -> None:
-        """Read more of an object; a TransferError leaves it out."""
+        """Read more of an object. A TransferError leaves the object out."""
 
     def _map(self, index: int, progress: Progress | None) -> Shape:
         return map_shape(
@@ -47,7 +47,7 @@ class _ShapeJob:
         )
 
     def _share(self, index: int, progress: Progress | None) -> Progress | None:
-        """Progress of one surface as a part of that of all, by triangles."""
+        """One surface's progress as a part of all surfaces' progress, by triangles."""
         if progress is None:
             return None
         sizes = [len(surface.triangle_face) for surface in self.surfaces]
@@ -78,8 +78,8 @@ class MeasureJob(_ShapeJob):
 class CarryJob(_ShapeJob):
     """Gives the other objects UVs that fit the texture of the first one.
 
-    carried   for each of the other objects that could be read, what it gets, or None
-    failures  why others get nothing
+    carried   the result for each of the other objects that could be read, or None
+    failures  the reasons of objects without a result
     """
 
     def __init__(self, objects: list[MeshObject], layer: str, fit_holes: bool) -> None:
@@ -101,7 +101,7 @@ class CarryJob(_ShapeJob):
         self.carried: list[Carried | None] = LATER
 
     def _read(self, obj: MeshObject) -> None:
-        if self.targets:  # the first one is not written
+        if self.targets:  # the first object is not written
             check_mesh(obj)
             uv_layers.check_layer(obj, self.layer)
         self.targets.append(Target.of(obj))
@@ -109,7 +109,7 @@ class CarryJob(_ShapeJob):
     def compute(self, progress: Progress | None = None) -> None:
         """Fill `carried`, and `failures`.
 
-        Raises ShapeError if it is the source that cannot be used, and `koebe.Cancelled`.
+        Raises ShapeError if the source cannot be used, and `koebe.Cancelled`.
         """
         source = read_source(self.koebe, self._map(0, progress), self.source_uv)
         carried: list[Carried | None] = []
@@ -127,7 +127,7 @@ class CarryJob(_ShapeJob):
     def write(self, run: Transaction, with_material: bool) -> None:
         """Write the UVs, and give targets without a material the painted one of the source.
 
-        One that cannot be written is left as it was: it gets None in `carried`, and its reason in `failures`.
+        An object that cannot be written stays as it was: it gets None in `carried`, and its reason in `failures`.
         """
         for index, (target, one) in enumerate(zip(self.targets[1:], self.carried, strict=True)):
             if one is not None:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces as arrays, what becomes of them in the UVs, and the words for it. Never bpy; no other room."""
+"""Surfaces as arrays, their maps to UVs, and the texts about them. Imports no bpy and no other room."""

@@ -12,13 +12,13 @@ from .shapes import Shape, ShapeError, map_shape
 from .triangles import as_complex, as_points, flipped_triangles
 from .upright import upright_turn
 
-# UV units: what may lie off its circle, or differ between the corners of a vertex, in UVs of 32 bits.
+# UV units: distance from a circle, or between the corners of a vertex, allowed in 32-bit UVs.
 ON_CIRCLE = 1e-5
 
 
 @dataclasses.dataclass(frozen=True)
 class Domain:
-    """Circles of a disk in the form of a result: the unit circle first. `loops` are the vertices of each."""
+    """Circles of a disk in the form of a result, the unit circle first. `loops` are the vertices of each."""
 
     centers: np.ndarray
     radii: np.ndarray
@@ -27,10 +27,10 @@ class Domain:
 
 @dataclasses.dataclass(frozen=True)
 class Source:
-    """The surface whose texture is carried: its shape, and where its circle domain lies in the UVs."""
+    """The surface whose texture is carried: its shape, and the place of its circle domain in the UVs."""
 
     shape: Shape
-    points: np.ndarray  # (n, 2) its vertices in the unit disk that the UVs show
+    points: np.ndarray  # (n, 2) its vertices in the unit disk of the UVs
     domain: Domain
     center: np.ndarray
     radius: float
@@ -38,10 +38,10 @@ class Source:
 
 @dataclasses.dataclass
 class Carried:
-    """UVs (n, 2), in 32 bits, of a target's island, and how well they fit. Lengths are parts of the UV square.
+    """UVs (n, 2), in 32 bits, of a target's island, and their fit. Lengths are in units of the UV square.
 
     residual     root mean square, over the holes, of the differences of centres and radii after the alignment
-    largest      that of the worst hole
+    largest      the same for the worst hole
     fitted       whether the holes were then bent onto the source's
     angle_error  mean difference of the angles on the surface and in the UVs, degrees
     flipped      triangles (k,) of the island that are turned over
@@ -59,7 +59,7 @@ class Carried:
 
 
 def read_source(koebe: ModuleType, shape: Shape, corner_uv: np.ndarray) -> Source:
-    """The `Source` of a shape with UVs (C, 2) at its surface's corners. Raises ShapeError: no circle domain."""
+    """The `Source` of a shape with UVs (C, 2) at its surface's corners. Raises ShapeError without a circle domain."""
     island, result = shape.island, shape.result
     uv = corner_uv[island.some_corner()].astype(np.float64)
     if np.abs(uv[island.corner_vertex] - corner_uv[island.corners]).max() > ON_CIRCLE:
@@ -69,7 +69,7 @@ def read_source(koebe: ModuleType, shape: Shape, corner_uv: np.ndarray) -> Sourc
         rim = np.setdiff1d(loop, off)
         circles.append(koebe.fit_circle(uv[rim if len(rim) > 2 else loop]))
     outer = int(np.argmax([radius for _, radius, _ in circles]))
-    # As exact as 32-bit UVs tell, and 0.5 where it is meant, so that no rim leaves the UV square by rounding.
+    # As exact as 32-bit UVs, and 0.5 where that is meant, so that no rim leaves the UV square by rounding.
     circles = [(np.round(center, 7), round(radius, 7), off) for center, radius, off in circles]
     center, radius, _ = circles[outer]
     inside = all(np.linalg.norm(c - center) + r < radius for k, (c, r, _) in enumerate(circles) if k != outer)
@@ -93,12 +93,12 @@ def carry(
     progress: Progress | None = None,
     cancel: Any = None,
 ) -> Carried:
-    """The target's UVs such that the source's texture fits both: `Carried`. Raises ShapeError.
+    """UVs of the target that fit the source's texture: `Carried`. Raises ShapeError.
 
-    The target's circle domain is laid over that of the source by the automorphism of the disk that brings its holes
-    nearest (koebe.align_domains): conformal, and exact where the modules are equal. With fewer than two holes the
-    circles leave the rotation open: then both stand upright. fit_holes: the rims of the holes are put on the
-    source's circles, and the rest follows harmonically; no longer conformal where the holes differ.
+    The automorphism of the disk that brings the holes nearest lays the target's circle domain over the source's
+    (koebe.align_domains): conformal, and exact where the modules are equal. With fewer than two holes the circles leave
+    the rotation open; then both stand upright. fit_holes: the rims of the holes are put on the source's circles, and
+    the rest follows harmonically. The map is then no longer conformal where the holes differ.
     """
     target, match = _with_matching_outer_loop(koebe, source, target, progress, cancel)
     try:
@@ -136,9 +136,9 @@ def _flips(target: Shape, source: Source, points: np.ndarray) -> np.ndarray:
 def _with_matching_outer_loop(
     koebe: ModuleType, source: Source, target: Shape, progress: Progress | None, cancel: Any
 ) -> tuple[Shape, list[int]]:
-    """The target with the loop outside that corresponds to the source's rim, and its loop for each of the source's.
+    """The target with the outer loop that corresponds to the source's rim, and its loop for each of the source's loops.
 
-    The loops are matched with the longest ones outside, which need not be how the source lies in the UVs.
+    First the loops are matched with the longest ones outside, which may differ from the source's place in the UVs.
     """
     mine, yours = len(source.domain.radii), len(target.result.loops)
     if mine != yours:
@@ -158,7 +158,7 @@ def _with_matching_outer_loop(
 
 
 def _upright_like(koebe: ModuleType, source: Source, target: Shape, points: np.ndarray) -> np.ndarray:
-    """Points of the target's disk turned about the middle of its hole, until up is where it is in the source."""
+    """Points of the target's disk, rotated about the middle of its hole until up is as in the source."""
     ring = Domain(np.zeros_like(source.domain.centers), source.domain.radii.copy(), source.domain.loops)
     if len(ring.radii) == 2:
         ring.radii[1] = koebe.conformal_module(source.domain)[0]
@@ -166,7 +166,7 @@ def _upright_like(koebe: ModuleType, source: Source, target: Shape, points: np.n
     given, turned = to_ring(source.points), to_ring(points)
     turn = upright_turn(target.island, turned) / upright_turn(source.shape.island, given)
     z = turn * as_complex(turned)
-    a, direction = to_ring.a, to_ring.turn  # w = direction (z - a) / (1 - conj(a) z), undone
+    a, direction = to_ring.a, to_ring.turn  # w = direction (z - a) / (1 - conj(a) z), inverted
     z = (z + direction * a) / (direction + np.conj(a) * z)
     return as_points(z)
 
@@ -174,7 +174,7 @@ def _upright_like(koebe: ModuleType, source: Source, target: Shape, points: np.n
 def _bent_onto_holes(
     koebe: ModuleType, source: Source, target: Shape, match: list[int], points: np.ndarray
 ) -> np.ndarray:
-    """Points with the rims of the holes on the source's circles, at their angles, and the others harmonic between."""
+    """Points with the holes' rims on the source's circles, at their angles, and the other points harmonic between."""
     result = target.result
     fixed, values = [result.loops[0]], [points[result.loops[0]]]
     for k, partner in enumerate(match):

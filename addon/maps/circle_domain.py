@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Circle domains as they lie in a UV layer, and their Möbius images: nothing is solved, circles stay circles."""
+"""Circle domains in a UV layer, and their images under Möbius maps. Nothing is solved; circles stay circles."""
 
 import dataclasses
 import functools
@@ -15,12 +15,12 @@ from .triangles import as_complex, as_points, longest_edges
 from .upright import upright_turn
 from .uv_islands import uv_islands, vertex_uv
 
-ON_CIRCLE = 1e-5  # UV units: what may lie off its circle in UVs of 32 bits
-LEAST_ROUND = 0.5  # share of a loop's vertices that are on its circle; the others are those of parts that hang on it
+ON_CIRCLE = 1e-5  # UV units: distance from its circle allowed in 32-bit UVs
+LEAST_ROUND = 0.5  # share of a loop's vertices on its circle; the others belong to parts that hang on the loop
 
 
 class DomainError(KnownError):
-    """UVs that are no circle domain, or a map of one that cannot be made."""
+    """UVs that are not a circle domain, or a map of one that is impossible."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Loop:
     """A boundary loop of an island and its circle in the unit disk.
 
     vertices  of the island, along the loop
-    on        those of them that lie on the circle
+    on        the vertices that lie on the circle
     """
 
     vertices: np.ndarray
@@ -43,7 +43,7 @@ class CircleDomain:
 
     old_uv          (n, 2) UVs of the island's vertices, in 32 bits as they were stored
     points          (n,) complex, the vertices in the unit disk
-    loops           the rim first, then the holes; as they are read, by the first vertex of the mesh on each
+    loops           the rim first, then the holes; at first sorted by the mesh's first vertex on each
     offset, scale   the disk's centre and radius in the UVs
     """
 
@@ -59,29 +59,29 @@ class CircleDomain:
         return as_points(self.offset + self.scale * z)
 
     def key(self, loop: Loop) -> int:
-        """The first vertex of the mesh on a loop, by which it is known again."""
+        """The mesh's first vertex on a loop, which identifies the loop."""
         return int(self.island.source_vertex[loop.vertices].min())
 
     def numbered(self, keys: list[int]) -> "CircleDomain":
-        """The domain with its holes in the order of these keys, those of all loops."""
+        """The domain with its holes in the order of these keys of all loops."""
         known = {self.key(loop): loop for loop in self.loops[1:]}
         return dataclasses.replace(self, loops=[self.loops[0], *(known.pop(key) for key in keys if key in known),
                                                 *known.values()])  # fmt: skip
 
     def in_disk(self, u: float, v: float) -> complex:
-        """The point of the plane in which the disk is the unit disk."""
+        """The point in the plane where the disk is the unit disk."""
         return (complex(u, v) - self.offset) / self.scale
 
     def hole_at(self, z: complex, near: float = 0.0) -> int:
-        """Number of the hole whose circle has that point inside, or else the nearest one not farther than `near`; or 0.
+        """Number of the hole whose circle holds that point, or else of the nearest hole within `near`; or 0.
         """
         away = {k: abs(z - loop.center) - loop.radius for k, loop in enumerate(self.loops) if k}
         nearest = min(away, key=lambda k: away[k], default=0)
         return nearest if nearest and away[nearest] <= near else 0
 
     def rim_change(self, number: int) -> Moebius:
-        """The map of the domain that makes a hole the rim: its circle turned inside out; then the point goes to 0 at
-        which the surface's area balances, and up is up. None is needed for the rim, number 0.
+        """The map of the domain that makes a hole the rim: it inverts the hole's circle, then brings the point where
+        the surface's area balances to 0, then turns up upwards. The rim, number 0, needs no map.
         """
         if not 0 <= number < len(self.loops):
             raise DomainError(f"there is no loop {number}: the island has {len(self.loops)}")
@@ -97,8 +97,8 @@ class CircleDomain:
     def moved(self, number: int, center: complex, angle: float, hole: int = 0) -> Moebius:
         """The map that makes a loop the rim, then brings a point of the disk to 0, then turns by an angle in radians.
 
-        With `hole`, the number of a loop, its circle comes into the middle in the place of the point. Raises
-        DomainError if there is no such loop, or if the point is not inside the disk.
+        With `hole`, the number of a loop, its circle comes to the middle instead of the point. Raises DomainError if
+        there is no such loop, or if the point is not inside the disk.
         """
         if not abs(center) < 1.0:
             raise DomainError("the centre has to be inside the disk: less than 1 from (0, 0)")
@@ -110,7 +110,7 @@ class CircleDomain:
         return rotation(angle).after(changed) if angle else changed
 
     def _middle_of(self, hole: int, changed: Moebius, rim: int) -> complex:
-        """The point that has to come to 0, after `changed`, for a hole's circle to be in the middle."""
+        """The point that must come to 0, after `changed`, to bring a hole's circle to the middle."""
         if not 0 < hole < len(self.loops):
             raise DomainError(f"there is no hole {hole}: the island has {len(self.loops) - 1}")
         if hole == rim:
@@ -125,7 +125,7 @@ class CircleDomain:
 
     @functools.cached_property
     def _ears(self) -> np.ndarray:
-        """Triangles (k, 3) with two edges on one loop, the vertex between them, the tip, first."""
+        """Triangles (k, 3) with two edges on one loop, first the tip, the vertex between these edges."""
         triangles, number = self.island.triangles, np.full(len(self.points), -1)
         for k, loop in enumerate(self.loops):
             number[loop.vertices] = k
@@ -136,10 +136,10 @@ class CircleDomain:
         return triangles[found[:, None], (tip[:, None] + np.arange(3)) % 3]
 
     def _turn_ears(self, z: np.ndarray) -> np.ndarray:
-        """Turn back the ears among points z (n,) that are turned over: their tips (k,).
+        """Turn flipped ears among points z (n,) back. Returns their tips (k,).
 
-        A triangle with three vertices on the rim is turned over where that becomes a hole, as its edges are straight:
-        its tip is mirrored into the hole, so that the angles stay.
+        A triangle with three vertices on the rim flips when the rim becomes a hole, as its edges are straight. Its tip
+        is mirrored into the hole, so that the angles stay.
         """
         tip, one, other = z[self._ears].T
         over = ((one - tip).conj() * (other - tip)).imag <= 0.0
@@ -149,13 +149,13 @@ class CircleDomain:
         return self._ears[over, 0]
 
     def moved_points(self, moved: Moebius) -> np.ndarray:
-        """Images (n,) of the points, as far as they matter while something is dragged."""
+        """Images (n,) of the points, accurate enough for a drag."""
         z = moved.apply(self.points)
         self._turn_ears(z)
         return z
 
     def image(self, moved: Moebius) -> "CircleImage":
-        """The whole image of the domain, ready to be written and reported."""
+        """The complete image of the domain, ready to be written and reported."""
         if moved.is_identity:
             return CircleImage(self, self.loops, self.old_uv, rounded(self.old_uv, self.island.triangles)[1])
         z = moved.apply(self.points)
@@ -163,14 +163,14 @@ class CircleDomain:
         off = self._turn_ears(z)
         loops = [dataclasses.replace(loop, on=np.setdiff1d(loop.on, off)) for loop in loops]
         rim = int(np.argmax([loop.radius for loop in loops]))
-        loops[0], loops[rim] = loops[rim], loops[0]  # the others keep their numbers
+        loops[0], loops[rim] = loops[rim], loops[0]  # the other loops keep their numbers
         uv, flipped = rounded(self.placed(z), self.island.triangles)
         return CircleImage(self, loops, uv, flipped)
 
     def _moved_loop(self, loop: Loop, moved: Moebius, z: np.ndarray) -> Loop:
-        """The image of a loop, whose points z (n,) are put onto its circle: 32 bits had left them beside it.
+        """The image of a loop. Puts its points z (n,) onto its circle, as 32 bits had moved them off it.
 
-        So are the tips of ears, which had been mirrored into it.
+        Tips of ears, which had been mirrored into the loop, go there too.
         """
         center, radius = moved.circle(loop.center, loop.radius)
         on = np.union1d(loop.on, np.intersect1d(loop.vertices, self._ears[:, 0]))
@@ -181,7 +181,7 @@ class CircleDomain:
 
 @dataclasses.dataclass(frozen=True)
 class CircleImage:
-    """What a Möbius map has made of a circle domain.
+    """The image of a circle domain under a Möbius map.
 
     loops    the rim first
     uv       (n, 2) in 32 bits
@@ -195,7 +195,7 @@ class CircleImage:
 
     @property
     def too_small(self) -> int:
-        """How many triangles have become too small for UVs of 32 bits, that were not so before."""
+        """The number of triangles that became too small for 32-bit UVs."""
         triangles = self.domain.island.triangles
         now, before = (
             longest_edges(uv.astype(np.float64)[triangles]) < RESOLUTION for uv in (self.uv, self.domain.old_uv)
@@ -204,7 +204,7 @@ class CircleImage:
 
 
 def read_domains(koebe: ModuleType, surface: Surface, uv: np.ndarray) -> tuple[list[CircleDomain], list[DomainError]]:
-    """The islands of a surface with UVs (C, 2) that are circle domains, and why the others are none."""
+    """The islands of a surface with UVs (C, 2) that are circle domains, and the reasons why others are not."""
     domains, errors = [], []
     for island in uv_islands(surface, uv):
         try:
@@ -215,12 +215,12 @@ def read_domains(koebe: ModuleType, surface: Surface, uv: np.ndarray) -> tuple[l
 
 
 def read_domain(koebe: ModuleType, island: Island, uv: np.ndarray) -> CircleDomain:
-    """The circle domain that an island is in UVs (C, 2) of the surface's corners. Raises DomainError."""
+    """The circle domain of an island with UVs (C, 2) of the surface's corners. Raises DomainError."""
     return domain_in(koebe, island, vertex_uv(island, uv))
 
 
 def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDomain:
-    """The same, of the UVs (n, 2) of its vertices in 32 bits."""
+    """The circle domain of an island with UVs (n, 2) of its vertices in 32 bits."""
     if not np.isfinite(old_uv).all():
         raise DomainError("its UVs are not finite")
     if not np.isfinite(island.vertices).all():
@@ -233,7 +233,7 @@ def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDo
         raise DomainError("it is closed: it has no rim")
     loops.sort(key=lambda loop: -loop.radius)
     rim = loops[0]
-    # As exact as 32-bit UVs tell, and 0.5 where it is meant.
+    # As exact as 32-bit UVs, and 0.5 where that is meant.
     offset, scale = complex(round(rim.center.real, 7), round(rim.center.imag, 7)), round(rim.radius, 7)
     holes = sorted(loops[1:], key=lambda loop: int(island.source_vertex[loop.vertices].min()))
     inside = [dataclasses.replace(loop, center=(loop.center - offset) / scale, radius=loop.radius / scale)
@@ -268,6 +268,6 @@ def _fitted(koebe: ModuleType, plane: np.ndarray, vertices: np.ndarray) -> Loop:
 
 
 def _in_disk(z: np.ndarray) -> np.ndarray:
-    """Points that rounding had put beyond the unit circle, on it."""
+    """Points with those that rounding put beyond the unit circle moved onto it."""
     return z / np.maximum(np.abs(z), 1.0)
 

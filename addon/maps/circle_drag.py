@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a pointer does to a circle domain: what it has hold of, and the Möbius map that a drag makes."""
+"""Drags in a circle domain: what the pointer holds, and the Möbius map of the drag."""
 
 import cmath
 import dataclasses
@@ -8,17 +8,17 @@ import math
 from .circle_domain import CircleDomain
 from .moebius import Moebius, center_and_turn, dragged, own_center, rotation
 
-REACH = 1.35  # radii from the disk's middle: so far outside a drag turns it
-FARTHEST = 0.98  # radii from the middle: nothing is dragged farther out, where 32 bits would not tell faces apart
-STEP = math.radians(5.0)  # of a turn, if it goes in steps
+REACH = 1.35  # radii from the disk's middle: up to here a drag outside the disk turns it
+FARTHEST = 0.98  # radii from the middle: no drag goes farther out, where 32 bits cannot tell faces apart
+STEP = math.radians(5.0)  # of a turn, with steps
 TURN, POINT, HOLE = "turn", "point", "hole"
 
 
 @dataclasses.dataclass(frozen=True)
 class Grip:
-    """What a drag has hold of.
+    """The place that a drag holds.
 
-    start  where it began, in the unit disk
+    start  where the drag began, in the unit disk
     hole   number of the hole there, or 0
     """
 
@@ -28,7 +28,7 @@ class Grip:
 
     @classmethod
     def at(cls, domain: CircleDomain, u: float, v: float, near: float) -> "Grip":
-        """What is at a place of the UVs. A hole is taken hold of from as far as `near`, in UV units."""
+        """The grip at a place of the UVs. A hole can be held within `near`, in UV units."""
         start = domain.in_disk(u, v)
         return cls(domain, start, domain.hole_at(start, near / domain.scale))
 
@@ -38,9 +38,9 @@ class Grip:
         return HOLE if self.hole else POINT if abs(self.start) < 1.0 else TURN
 
     def moved(self, u: float, v: float, snap: float, steps: bool) -> Moebius:
-        """The map that a drag to that place of the UVs makes: what is held follows it; outside, the disk turns.
+        """The map of a drag to that place of the UVs: what is held follows; outside, the disk turns.
 
-        A hole that comes as near to the middle as `snap`, in UV units, goes there. With `steps` a turn goes in such.
+        A hole within `snap` of the middle, in UV units, goes to the middle. With `steps` a turn goes in steps.
         """
         now = self.domain.in_disk(u, v)
         if self.kind == TURN:
@@ -60,5 +60,5 @@ class Grip:
 
 
 def _held(z: complex) -> complex:
-    """A point of the disk that is not too near to its rim."""
+    """The point of the disk, moved away from the rim if it is too near to it."""
     return z * min(1.0, FARTHEST / abs(z)) if z else z

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What became of a surface whose islands were mapped to circle domains."""
+"""The outcome of a surface whose islands are mapped to circle domains."""
 
 import dataclasses
 import functools
@@ -20,24 +20,24 @@ from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, few, in_mesh, 
 if TYPE_CHECKING:
     from koebe import UniformizeResult
 
-# The kind of warning that the solver gives of its disk in 32 bits; it does not hold for the rectangle made of it.
+# The solver's warning about its 32-bit disk; it does not apply to a rectangle made of the disk.
 OF_THE_DISK = "below_resolution"
 
 
 @dataclasses.dataclass
 class IslandOutcome:
-    """What became of one island: a result of `koebe.uniformize`, its shape and its place, or an error.
+    """The outcome of one island: a result of `koebe.uniformize` with shape and place, or an error.
 
     sheet       the island with the vertices that have UVs: itself, or cut open if it was unrolled
-    shape       (n, 2) those vertices before they are placed, in the unit disk: the result's disk, or a rectangle
-    turn        complex number of modulus 1 by which the shape is turned about 0
-    distortion  `koebe.distortion` of the shape, where it is not that of the result
-    stored      what the UVs hold of the map
-    lost        what to say first where more is lost in the UVs than may be, or empty
-    places      the vertices that were asked for, by the solver's names: center, point
-    opening     what was cut to get this piece, with others, or None
+    shape       (n, 2) these vertices before placement, in the unit disk: the result's disk, or a rectangle
+    turn        complex number of modulus 1 that turns the shape about 0
+    distortion  `koebe.distortion` of the shape, if it is not the result's
+    stored      the map as stored in the UVs
+    lost        the first sentence if more area is lost in the UVs than allowed, or empty
+    places      the requested vertices, by the solver's names: center, point
+    opening     the cuts that made this piece, with others, or None
     symmetry    the island made symmetric, or None
-    remark      why something that was asked for was not done with it, or empty
+    remark      why a requested step was not done, or empty
     """
 
     island: Island
@@ -57,19 +57,19 @@ class IslandOutcome:
 
     @property
     def unrolled(self) -> bool:
-        """Whether it is a rectangle: then its circles are not in the UVs."""
+        """Whether it is a rectangle: then the UVs do not show its circles."""
         return self.sheet is not self.island
 
     @property
     def angle_error(self) -> float:
-        """Mean difference, in degrees, of the triangles' angles on the surface and in the UVs, once these are there."""
+        """Mean difference, in degrees, of the triangles' angles on the surface and in the map, or in its stored UVs."""
         if self.stored is not None:
             return self.stored.angle_error
         return (self.distortion["angle_error_deg"] if self.distortion else self.result.angle_error_deg)["mean"]
 
     @functools.cached_property
     def density_ratio(self) -> float:
-        """Texel density (a length over a length) at 95 % of the area over that at 5 %."""
+        """Texel density (a length over a length) at 95 % of the area over the density at 5 %."""
         return density_ratio(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)))
 
     def turned(self, points: np.ndarray) -> np.ndarray:
@@ -103,7 +103,7 @@ class IslandOutcome:
         return np.unique(self.sheet.triangle_face[self.flipped])
 
     def circles(self) -> tuple[np.ndarray, np.ndarray]:
-        """Centres (k, 2) and radii (k,) of the loops' circles in the UVs; of a rectangle they mean nothing."""
+        """Centres (k, 2) and radii (k,) of the loops' circles in the UVs; meaningless for a rectangle."""
         if self.symmetry is not None:
             domain, loops = self.symmetry.image.domain, self.symmetry.image.loops
             centers = domain.placed(np.array([loop.center for loop in loops]))
@@ -112,13 +112,13 @@ class IslandOutcome:
 
 
 class SurfaceOutcome(Outcome):
-    """What became of one surface, each island a circle domain."""
+    """The outcome of one surface, each island a circle domain."""
 
     islands: list[IslandOutcome]
 
     @property
     def lost(self) -> list[IslandOutcome]:
-        """The mapped islands of which more is lost in the UVs than may be."""
+        """The mapped islands that lose more area in the UVs than allowed."""
         return [outcome for outcome in self.mapped if outcome.lost]
 
     @property
@@ -142,7 +142,7 @@ class SurfaceOutcome(Outcome):
 
     @property
     def openings(self) -> list[Opening]:
-        """What was cut, for each island that was."""
+        """The cuts, for each island that was cut."""
         return list({id(one.opening): one.opening for one in self.islands if one.opening is not None}.values())
 
     def line(self) -> str:
@@ -179,7 +179,7 @@ class SurfaceOutcome(Outcome):
         return [*[lost] * bool(one.lost), *native, *self._own_warnings()]
 
     def notes(self) -> list[tuple[IslandOutcome, str]]:
-        """What was done to the mapped islands beside their maps, each said once: cuts, symmetry."""
+        """Notes on the mapped islands, beside their maps, each once: cuts, symmetry."""
         found: list[tuple[IslandOutcome, str]] = []
         said: set[int] = set()
         for one in self.mapped:
@@ -194,13 +194,12 @@ class SurfaceOutcome(Outcome):
         return found
 
     def said_notes(self) -> list[str]:
-        """The notes as one."""
+        """All notes in one list."""
         said = few(super().said_notes(), "; ")
         return [said] if said else []
 
     def entries(self) -> list[dict[str, Any]]:
-        """As of `Outcome`. A piece of an island that was cut has the number of the cut, and the first of these has what
-        was done."""
+        """As in `Outcome`. A piece of a cut island has the number of the cut, and the first such piece has the cuts."""
         numbers = {id(opening): number for number, opening in enumerate(self.openings)}
         said: set[int] = set()
         result = super().entries()
@@ -234,7 +233,7 @@ class SurfaceOutcome(Outcome):
         result.update(one.stored.figures())
         result["unrolled"] = one.unrolled
         result["warnings"] = self.warnings(one)
-        result["flipped"] = len(one.flipped)  # of the UVs as they are written: turned, placed and rounded
+        result["flipped"] = len(one.flipped)  # of the written UVs: turned, placed and rounded
         result["below_resolution"] = _below_resolution(one)
         return {**result, **entry, "placement": one.placement.to_dict()}
 
@@ -257,7 +256,7 @@ class SurfaceOutcome(Outcome):
         }  # fmt: skip
 
     def rows(self, layer: str) -> list[dict[str, Any]]:
-        """As of `Outcome`. The first mapped piece of an island that was cut has its cuts."""
+        """As in `Outcome`. The first mapped piece of a cut island has its cuts."""
         result, said = super().rows(layer), set[int]()
         for one, row in zip([] if self.not_written else self.islands, result):
             if one.error is None and one.opening is not None and id(one.opening) not in said:
@@ -267,7 +266,7 @@ class SurfaceOutcome(Outcome):
 
 
 def _cuts(opening: Opening) -> dict[str, Any]:
-    """What was cut, in the mesh's numbers."""
+    """The cuts in the mesh's numbers."""
     return {
         "cuts": [{"kind": kind, "elements": vertices.tolist()} for kind, vertices in opening.cuts],
         "handles_cut": opening.handles,
@@ -278,7 +277,7 @@ def _cuts(opening: Opening) -> dict[str, Any]:
 
 
 def _paths(opening: Opening) -> list[list[int]]:
-    """Vertices along each cut; those of bow ties one by one."""
+    """Vertices along each cut; each bow tie by itself."""
     return [
         path
         for kind, vertices in opening.cuts
@@ -293,7 +292,7 @@ def _below_resolution(one: IslandOutcome) -> int:
 
 
 def _with_copied(corners: np.ndarray, uv: np.ndarray, openings: list[Opening]) -> tuple[np.ndarray, np.ndarray]:
-    """The corners and those that take their places, as far as these are mapped."""
+    """The corners with those that take their places, if these are mapped."""
     copied = [opening.copied for opening in openings if len(opening.copied[0])]
     if not copied:
         return corners, uv

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the UVs of a surface are from its shape, face by face."""
+"""The distortion of a surface's UVs, face by face."""
 
 import numpy as np
 
@@ -16,17 +16,17 @@ def both_areas(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def texel_density(surface: Surface, uv: np.ndarray) -> float:
-    """Lengths in the UVs (C, 2) over lengths in space, in the mean over the selected faces' area; 0 without UVs."""
+    """Mean length in the UVs (C, 2) over length in space, over the selected faces' area; 0 without UVs."""
     chosen = surface.selected[surface.triangle_face]
     in_space, in_plane = (values[chosen].sum() for values in both_areas(surface, uv))
     return float(np.sqrt(abs(in_plane) / in_space)) if in_space > 0.0 else 0.0
 
 
 def face_values(surface: Surface, uv: np.ndarray, kind: str) -> np.ndarray:
-    """Distortion of each face (P,), NaN for those whose UVs have no area.
+    """Distortion of each face (P,), NaN for faces without area in the UVs.
 
-    ANGLE: the mean difference, in degrees, of the triangles' angles on the surface and in the UVs (C, 2).
-    AREA: the logarithm to base 2 of the texel density over its mean, so that 1 means twice as many texels per length.
+    ANGLE: the mean difference, in degrees, of the triangles' angles on the surface and in the UVs (C, 2). AREA: the
+    logarithm to base 2 of the texel density over its mean, so that 1 means twice as many texels per length.
     """
     in_space, in_plane = both_areas(surface, uv)
     values = np.full(len(in_space), np.nan)

@@ -5,10 +5,10 @@ import numpy as np
 
 from .distortion import ANGLE
 
-# What the ends of the legend stand for: degrees from 0, and doublings of the texel density to either side of 0.
+# The ends of the legend: degrees from 0, and doublings of the texel density to either side of 0.
 ANGLE_END, AREA_END = 10.0, 2.0
-# sRGB colours at equal steps of the legend: for the angle as Blender's own stretch display, blue is good and red is
-# bad; for the area blue has few texels, red has many.
+# sRGB colours at equal steps of the legend. Angle, as in Blender's stretch display: blue is good, red is bad. Area:
+# blue has few texels, red has many.
 ANGLE_RAMP = np.array(
     [(0.11, 0.27, 0.75), (0.10, 0.66, 0.78), (0.36, 0.76, 0.30), (0.96, 0.83, 0.20), (0.85, 0.15, 0.12)]
 )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A domain beside the disk: its names, what a surface has to be for it, and what there is to choose."""
+"""A domain beside the disk: its names, its requirements on a surface, and its options."""
 
 import dataclasses
 import functools
@@ -11,8 +11,8 @@ from .options import OF_RUNS, Chosen, of_map
 
 
 class DomainError(MapError):
-    """A surface that is no such domain. `offer` are the operators that take it: "parts", "uniformize", or a domain's
-    name."""
+    """A surface that does not fit a domain. `offer` names the operators that take it: "parts", "uniformize", or a
+    domain."""
 
     def __init__(self, reason: str, *offer: str) -> None:
         super().__init__(reason)
@@ -21,14 +21,14 @@ class DomainError(MapError):
 
 @dataclasses.dataclass(frozen=True)
 class Domain:
-    """A canonical domain that is no disk: its UVs are a tile, the layout of a sphere, or cut open at the handles.
+    """A domain other than the disk: its UVs are a tile, the layout of a sphere, or cut open at the handles.
 
     name     of its operator, and of `koebe.NAME_map`
-    title    what one such map is called
-    button   what the operator is called, without "Koebe"
+    title    name of such a map
+    button   name of the operator, without "Koebe"
     icon     of the button
-    check    of the number of handles and of boundary loops; raises DomainError
-    outcome  a `DomainOutcome`: what becomes of a surface
+    check    takes the numbers of handles and of boundary loops; raises DomainError
+    outcome  a `DomainOutcome`, of one surface
     tooltip  of the operator: at most 239 letters, Blender cuts off the rest
     """
 
@@ -42,10 +42,10 @@ class Domain:
 
     @functools.cached_property
     def choice(self) -> type[Chosen]:
-        """What to compute: the options of the map. Its `domain` is this one."""
+        """The options of the map as a class. Its `domain` is this one."""
         return of_map(self.name, *OF_RUNS)(type("DomainChoice", (Chosen,), {"domain": self}))
 
 
 def takers(handles: int) -> tuple[str, ...]:
-    """The operators that take a surface with so many handles, one at least."""
+    """The operators that take a surface with so many handles, at least one."""
     return ("torus",) if handles == 1 else ("schottky", "parts")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What became of a surface whose islands were mapped to domains that are no disks. Each has the UVs to itself."""
+"""The outcome of a surface mapped to other domains than the disk. Each island has the UV square to itself."""
 
 import dataclasses
 import functools
@@ -24,12 +24,12 @@ from .wording import UNEVEN_TEXELS, counted, in_mesh, too_uneven
 
 @dataclasses.dataclass
 class DomainIsland:
-    """What became of one island: a result of the native package, or an error.
+    """The outcome of one island: a result of the native package, or an error.
 
     corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
-    triangle_uv  (t, 3, 2) the same of the island's triangles
-    flipped      triangles (k,) whose area in these is not positive
-    stored       what these UVs hold of the map
+    triangle_uv  (t, 3, 2) UVs of the island's triangles
+    flipped      triangles (k,) without positive area in the UVs
+    stored       the map as stored in the UVs
     cuts         (E,) bool, edges of the surface along which the UVs are cut
     """
 
@@ -55,7 +55,7 @@ class DomainIsland:
 
     @functools.cached_property
     def density_ratio(self) -> float:
-        """Texel density at 95 % of the area over that at 5 %."""
+        """Texel density at 95 % of the area over the density at 5 %."""
         corners = np.arange(3 * len(self.texel_uv)).reshape(-1, 3)
         return density_ratio(self.island.areas, np.abs(signed_areas(self.texel_uv.reshape(-1, 2), corners)))
 
@@ -65,30 +65,30 @@ class DomainIsland:
         return np.unique(self.island.triangle_face[self.flipped])
 
     def faces(self, triangles: Sequence[int] | np.ndarray) -> list[int]:
-        """Faces of the surface that triangles of the island are of."""
+        """The surface's faces of the island's triangles."""
         return np.unique(self.island.triangle_face[np.asarray(triangles, dtype=np.int64)]).tolist()
 
     def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
         """Compute the result, and take its UVs.
 
-        loops  the island's boundary loops; there are as many as the domain wants
-        run    progress and cancel, as the native package takes them
+        loops  the island's boundary loops; their number fits the domain
+        run    progress and cancel, for the native package
         """
         result = self._solve(koebe, choice, **run)
         self.take_corners(task.surface, result.uv.astype(np.float32))
         self.result = result
 
     def _solve(self, koebe: ModuleType, choice: Chosen, **arguments: Any) -> Any:
-        """The result of the domain's function of the native package, with what all of them take."""
+        """Call the domain's function of the native package, with the arguments common to all."""
         return getattr(koebe, f"{choice.domain.name}_map")(
             self.island.vertices, self.island.triangles, polygon=self.island.triangle_face,
             **choice.solver_arguments(), **arguments,
         )  # fmt: skip
 
     def take_corners(self, surface: Surface, triangle_uv: np.ndarray) -> None:
-        """The UVs of the polygons' corners out of those (t, 3, 2) of the triangles' corners, in 32 bits.
+        """Take the UVs of the polygons' corners from those (t, 3, 2) of the triangles' corners, in 32 bits.
 
-        Raises MapError where a polygon has two for a corner.
+        Raises MapError if a corner of a polygon has two UVs.
         """
         inside = np.zeros(len(surface.face_size), dtype=bool)
         inside[self.island.faces] = True
@@ -103,7 +103,7 @@ class DomainIsland:
         self.cuts = cut_edges(dataclasses.replace(surface, selected=inside), uv)
 
     def judge(self, koebe: ModuleType, most_lost: float) -> None:
-        """Look at what is stored. Raises LostAreaError where more is lost than may be."""
+        """Judge the stored UVs. Raises LostAreaError if more area is lost than allowed."""
         island, turned = self.island, np.asarray(self.result.turned, dtype=np.int64)
         self.stored = judge_corners(koebe, island.vertices, island.triangles, self.triangle_uv, turned)
         self.flipped = flipped_corners(self.triangle_uv, turned)
@@ -113,7 +113,7 @@ class DomainIsland:
 
 @dataclasses.dataclass
 class DomainOutcome(Outcome):
-    """What became of one surface: each island has the UV square for itself. A subclass says what `kind` they are of."""
+    """The outcome of a surface: each island has the UV square to itself. A subclass names the islands' `kind`."""
 
     kind: ClassVar[type[DomainIsland]]
 
@@ -121,11 +121,11 @@ class DomainOutcome(Outcome):
     choice: Chosen
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
-        found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # told already
+        found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # already reported
         return [*(in_mesh(one.island, warning) for warning in found), *self._own_warnings()]
 
     def figures(self) -> list[str]:
-        """What is to be said of the mapped islands beside angles and flips."""
+        """Further figures of the mapped islands, beside angles and flips."""
         raise NotImplementedError
 
     def line(self) -> str:
@@ -154,13 +154,13 @@ class DomainOutcome(Outcome):
         self._adapt(one, result)
         result.update(one.stored.figures())
         result["flipped"] = len(one.flipped)
-        if one.error is not None:  # too much is lost: it is not done
+        if one.error is not None:  # too much area is lost: it is not finished
             result["converged"] = False
         result["warnings"] = self.warnings(one)
         return {**result, **entry, "domain": self.choice.domain.name}
 
     def _adapt(self, one: Any, result: dict[str, Any]) -> None:
-        """Make of the native result's dict what holds in the mesh and in the UVs as they are written."""
+        """Change the native result's dict to the mesh's numbers and to the UVs as written."""
 
     def _row(self, one: Any) -> dict[str, Any]:
         result = one.result
@@ -179,13 +179,13 @@ class DomainOutcome(Outcome):
         }  # fmt: skip
 
     def _loop_row(self, one: Any, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
-        """What the report keeps of a loop, given its number and what the native result says of it."""
+        """A loop's row of the report, from its number and the native result's entry."""
         raise NotImplementedError
 
 
 def islands_to_map(surface: Surface) -> list[Island]:
-    """The islands of the selected faces. A seam with the same island on both sides divides nothing: these UVs go on
-    over their cuts, wherever those are. But edges of more than two faces come apart at seams."""
+    """The islands of the selected faces. A seam with the same island on both sides is ignored: the UVs continue over
+    cuts anyway. But edges of more than two faces come apart at seams."""
     islands = cut_into_islands(surface)
     chosen = np.repeat(surface.selected, surface.face_size)
     edges = surface.corner_edge[chosen]
@@ -229,7 +229,7 @@ def checked_loops(koebe: ModuleType, island: Island, domain: Domain) -> list[np.
 
 
 def handles_of(island: Island, loops: list[np.ndarray]) -> int:
-    """Of a manifold island with these boundary loops, by Euler's formula."""
+    """The genus of a manifold island with these boundary loops, by Euler's formula."""
     on_boundary = sum(map(len, loops))
     edges = (3 * len(island.triangles) + on_boundary) // 2
     return (2 - (len(island.vertices) - edges + len(island.triangles)) - len(loops)) // 2

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors whose text an artist reads, and what an error of the native package carries."""
+"""Errors whose text an artist reads, and the data in the native package's errors."""
 
 from collections.abc import Sequence
 
 
 class KnownError(Exception):
-    """An error whose text is meant to be read: what is wrong, and what to do about it."""
+    """An error whose text is for the artist: what is wrong, and what to do about it."""
 
 
 NOWHERE = "one of its vertices has a coordinate that is NaN or infinite: delete it"
 
 
 class MapError(KnownError):
-    """An island that cannot be mapped, beside the native package's own errors."""
+    """An island that cannot be mapped, beyond the native package's own errors."""
 
 
 def kind_of(error: Exception | None) -> str | None:
@@ -21,5 +21,5 @@ def kind_of(error: Exception | None) -> str | None:
 
 
 def elements_of(error: Exception | None) -> Sequence[int]:
-    """The elements that a `koebe.KoebeError` is about; none of any other error."""
+    """The elements of a `koebe.KoebeError`; empty for any other error."""
     return getattr(error, "elements", ())

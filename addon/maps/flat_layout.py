@@ -11,12 +11,12 @@ from .surface import Surface, next_corners
 from .triangles import areas, signed_areas
 from .uv_islands import uv_islands
 
-PERCENTILES = (5.0, 95.0)  # between which the lengths of most edges lie
-TRUE = 0.05  # share that these may be off where the pieces are called true to scale
+PERCENTILES = (5.0, 95.0)  # most edges' lengths lie between these
+TRUE = 0.05  # largest error of these for pieces that count as true to scale
 
 
 class FlatError(KnownError):
-    """A layer whose layout cannot be made flat pieces."""
+    """A layer whose layout cannot be made into flat pieces."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,16 +33,16 @@ class Piece:
 
 @dataclasses.dataclass(frozen=True)
 class FlatLayout:
-    """The islands of a UV layer side by side as they lie there: n vertices, p faces, c corners.
+    """The islands of a UV layer side by side, at their places: n vertices, p faces, c corners.
 
-    points         (n, 2) places in the surface's unit of length, the lowest coordinates being 0
+    points         (n, 2) in the surface's unit of length; the least coordinates are 0
     corner_vertex  (c,) vertex of each corner
     corners        (c,) corner of the surface
     faces          (p,) face of the surface, in its order
     face_size      (p,) number of corners
     edges          (e, 2) vertices of the edges between two faces of a piece, for engraving
-    scale          length on the surface for one unit of the UVs, right in the mean of the areas
-    left_out       number of faces that have no UVs
+    scale          length on the surface per unit of the UVs, right in the mean of the areas
+    left_out       number of faces without UVs
     lengths        5th and 95th percentile over the edges of length here / length on the surface
     """
 
@@ -59,18 +59,18 @@ class FlatLayout:
 
     @property
     def is_true(self) -> bool:
-        """Whether nearly all lengths are those on the surface."""
+        """Whether nearly all lengths equal those on the surface."""
         return max(abs(share - 1.0) for share in self.lengths) <= TRUE
 
     def describe(self) -> str:
-        """How far it is from true to scale, in words."""
+        """How true to scale it is, in words."""
         low, high = (100.0 * share for share in self.lengths)
         text = f"lengths are {low:.4g} % to {high:.4g} % of those on the surface (9 of 10 edges)"
         return f"true to scale: {text}" if self.is_true else f"not true to scale: {text}"
 
 
 def flat_layout(surface: Surface, uv: np.ndarray) -> FlatLayout:
-    """The layout of UVs (C, 2) of the surface's corners, cut where they are cut. Raises FlatError without any."""
+    """The layout of UVs (C, 2) of the surface's corners, cut where the UVs are cut. Raises FlatError without UVs."""
     if not np.isfinite(uv).all():
         raise FlatError("its UVs are not finite")
     plane = uv.astype(np.float64)
@@ -100,7 +100,7 @@ def flat_layout(surface: Surface, uv: np.ndarray) -> FlatLayout:
 
 
 def _numbers(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertex (C,) of the layout at each corner, -1 without one, and one corner (n,) at each of these vertices."""
+    """Vertex (C,) of the layout at each corner, or -1, and a corner (n,) at each of these vertices."""
     vertex, source, count = np.full(len(uv), -1), [], 0
     for island in uv_islands(surface, uv):
         vertex[island.corners] = island.corner_vertex + count
@@ -110,7 +110,7 @@ def _numbers(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _with_area(surface: Surface, plane: np.ndarray) -> np.ndarray:
-    """Which faces (P,) have an area in the UVs."""
+    """The faces (P,) with an area in the UVs."""
     each = np.abs(signed_areas(plane, surface.triangle_corners))
     return np.bincount(surface.triangle_face, each, minlength=len(surface.face_size)) > 0.0
 
@@ -150,7 +150,7 @@ def _rims_and_edges(starts: np.ndarray, ends: np.ndarray) -> tuple[list[np.ndarr
 
 
 def _pieces(points: np.ndarray, triangles: np.ndarray, rims: list[np.ndarray]) -> list[Piece]:
-    """The pieces, each with the boundaries of its own: the one that encloses most is the outline."""
+    """The pieces, each with its own boundaries. The boundary with the largest area is the outline."""
     root = connected_components(len(points), triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel())
     of_piece: dict[int, list[np.ndarray]] = {}
     for rim in rims:

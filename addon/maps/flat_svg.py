@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flat pieces as SVG for cutting and engraving: millimetres, one group a piece."""
+"""Flat pieces as SVG for cutting and engraving, in millimetres, with one group per piece."""
 
 from collections.abc import Sequence
 from xml.sax.saxutils import escape, quoteattr
@@ -10,17 +10,17 @@ from .flat_layout import FlatLayout
 
 BORDER = 5.0  # mm around the drawing and between objects
 STROKE = 0.1  # mm
-CUT, HOLE, ENGRAVE = "#ff0000", "#0000ff", "#000000"  # colours by which cutters tell apart what to do
-DIGITS = 4  # after the point: a tenth of a micrometre
+CUT, HOLE, ENGRAVE = "#ff0000", "#0000ff", "#000000"  # colours that tell cutters what to do
+DIGITS = 4  # after the point: down to a tenth of a micrometre
 
 
 def flat_svg(named: Sequence[tuple[str, FlatLayout]], millimetres: float, edges: bool = False) -> str:
     """The document with the layouts of some objects side by side, and their names.
 
-    millimetres  of the drawing for one unit of length of the surface
-    edges        draw the edges between faces too, to be engraved
+    millimetres  of the drawing per unit of length of the surface
+    edges        also draw the edges between faces, for engraving
 
-    Holes come before the outline of their piece, as they have to be cut first.
+    Holes come before the outline of their piece, as they must be cut first.
     """
     width, height, groups = BORDER, 0.0, []
     tallest = max(float(layout.points[:, 1].max()) for _, layout in named) * millimetres

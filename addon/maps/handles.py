@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces with handles as fundamental domains of Schottky groups: from a surface to UV coordinates of its corners."""
+"""Maps surfaces with handles to fundamental domains of Schottky groups, with UV coordinates per corner."""
 
 import dataclasses
 from types import ModuleType
@@ -15,11 +15,11 @@ from .outcomes import LATER, Task, in_numbers
 from .rounding import RESOLUTION
 from .wording import counted
 
-ROUND = 1e-3  # of its radius, by which the vertices of a hole that is round may be off its circle
+ROUND = 1e-3  # largest distance of a round hole's vertices from its circle, over the radius
 
 
 class CutError(MapError):
-    """Handles that cannot be cut open; `elements` are vertices of the cuts that there would be."""
+    """Handles that cannot be cut open. `elements` are vertices of the attempted cuts."""
 
     kind = "cut"
 
@@ -30,19 +30,19 @@ class CutError(MapError):
 
 @dataclasses.dataclass
 class SchottkyIsland(DomainIsland):
-    """What became of one island: a result of `koebe.schottky_map`, or an error.
+    """The outcome of one island: a result of `koebe.schottky_map`, or an error.
 
-    circles  center (2,) and radius in the UVs of each loop of the result; 0 and 0 of one that the cuts have torn
+    circles  center (2,) and radius in the UVs of each loop of the result; 0 and 0 for a loop that the cuts tear
     """
 
     circles: list[tuple[tuple[float, float], float]] = LATER
 
     def cut(self) -> str:
-        """What the UVs are cut along."""
+        """What the UVs are cut along, in words."""
         return "circles" if self.result.by_circles else "edges"
 
     def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
-        """As of `DomainIsland`, its handles cut open."""
+        """As in `DomainIsland`, with its handles cut open."""
         island = self.island
         try:
             super().map(koebe, task, choice, loops, **run)
@@ -50,13 +50,13 @@ class SchottkyIsland(DomainIsland):
             if kind_of(error) != "genus":
                 raise
             known = [vertex for vertex in elements_of(error) if vertex < len(island.vertices)]
-            raise CutError(str(error), known) from error  # not that it has handles
+            raise CutError(str(error), known) from error  # the handles are not the fault
         triangles, uv, found = island.triangles, self.result.uv, self.result.loops
         self.circles = [_circle(koebe, triangles, uv, loop["vertices"]) for loop in found]
 
 
 class SchottkyOutcome(DomainOutcome):
-    """What became of one surface, its islands mapped into the disk, their handles cut open."""
+    """The outcome of one surface with its islands mapped into the disk, their handles cut open."""
 
     kind = SchottkyIsland
 
@@ -69,7 +69,7 @@ class SchottkyOutcome(DomainOutcome):
         ]
 
     def _adapt(self, one: SchottkyIsland, result: dict[str, Any]) -> None:
-        """Circles and generators are those of `koebe.SchottkyMap`."""
+        """Circles and generators are as in `koebe.SchottkyMap`."""
         in_numbers(result["handles"], one.island.source_vertex, "cut")
 
     def _row(self, one: SchottkyIsland) -> dict[str, Any]:
@@ -85,7 +85,7 @@ class SchottkyOutcome(DomainOutcome):
 def _circle(
     koebe: ModuleType, triangles: np.ndarray, uv: np.ndarray, loop: list[int]
 ) -> tuple[tuple[float, float], float]:
-    """Of a loop whose corners, in the UVs (t, 3, 2) of triangles (t, 3), are on one circle, one for each vertex."""
+    """The circle of a loop whose corners in the UVs (t, 3, 2) of triangles (t, 3), one per vertex, lie on it."""
     at_loop = np.isin(triangles, loop)
     places = np.unique(np.column_stack([triangles[at_loop], uv[at_loop]]), axis=0)
     if len(places) == len(loop):

@@ -11,11 +11,11 @@ FEW = 16
 
 
 def whole_island(surface: Surface) -> Island | None:
-    """The surface as its own island, array for array, or None if a part of it is not selected or it has a seam, or if
-    it is seen at once that it is several.
+    """The surface as its own island, array for array, or None if a part of it is not selected, it has a seam, or it
+    clearly has several parts.
 
-    It is what `cut_into_islands` gives if the surface is connected and no two parts of it touch in a vertex only. The
-    solver finds out, so that nobody need look twice.
+    This equals `cut_into_islands` if the surface is connected and no two parts of it touch in a vertex only. The solver
+    checks that, so it is not checked here.
     """
     used = np.zeros(len(surface.positions), dtype=bool)
     used[surface.corner_vertex] = True
@@ -38,11 +38,11 @@ def whole_island(surface: Surface) -> Island | None:
 def _falls_apart(triangles: np.ndarray, count: int) -> bool:
     """Whether the vertices up to some number share no triangle with those after it, as in joined objects.
 
-    That is found in a few passes; where parts are numbered in turn the solver finds out.
+    This takes a few passes. Parts with mixed numbers are left to the solver.
     """
     a, b, c = triangles.T
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    # Triangles across the gap after each vertex: those that begin up to it, less those that have ended.
+    # Triangles that span the gap after each vertex: those that begin before it, less those that end before it.
     across = np.cumsum(np.bincount(low, minlength=count) - np.bincount(high, minlength=count))
     return bool((across[:-1] == 0).any())
 
@@ -50,13 +50,13 @@ def _falls_apart(triangles: np.ndarray, count: int) -> bool:
 def cut_into_islands(surface: Surface) -> list[Island]:
     """Islands of the selected faces, cut along seams, in the order of their first faces.
 
-    Faces are neighbours if they share an edge that is no seam; corners are one vertex if they meet
-    at the end of such an edge. So surfaces that touch in a vertex only come apart there. Edges with
-    three or more faces stay as they are, unless they are seams: the solver names them.
+    Faces are neighbours if they share an edge that is not a seam. Corners are one vertex if they meet at the end of
+    such an edge. So surfaces that touch in a vertex only come apart there. Edges with three or more faces stay, unless
+    they are seams: the solver reports them.
     """
     corner_face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
     at: np.ndarray | slice
-    if surface.selected.all():  # a slice takes no new memory, as indices would
+    if surface.selected.all():  # a slice needs no new memory, as indices would
         corners, at = np.arange(len(corner_face), dtype=np.int32), slice(None)
     else:
         corners = at = np.flatnonzero(surface.selected[corner_face]).astype(np.int32)
@@ -69,7 +69,7 @@ def cut_into_islands(surface: Surface) -> list[Island]:
 
 
 def _neighbours(surface: Surface, corners: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of corners whose edges are the same edge of two faces, and no seam."""
+    """Pairs of corners whose edges are the same edge of two faces, and not a seam."""
     # Of several writes to one place the last stays.
     first, last = np.full((2, len(surface.seam)), -1, dtype=np.int32)
     last[edges] = corners
@@ -77,7 +77,7 @@ def _neighbours(surface: Surface, corners: np.ndarray, edges: np.ndarray) -> tup
     two = first != last
     joined = two & ~surface.seam
     crowded = None
-    if np.count_nonzero(last >= 0) + np.count_nonzero(two) < len(corners):  # some edge has more than two
+    if np.count_nonzero(last >= 0) + np.count_nonzero(two) < len(corners):  # some edge has more than two faces
         crowded = (np.bincount(edges, minlength=len(surface.seam)) > 2) & ~surface.seam
         joined &= ~crowded
     here, there = first[joined], last[joined]
@@ -105,7 +105,7 @@ def _split(
     corner_root: np.ndarray,
     face_root: np.ndarray,
 ) -> list[Island]:
-    """The islands. `at` takes the `corners` from an array of all of them."""
+    """Split into islands. `at` takes the `corners` from an array of all corners."""
     faces = np.flatnonzero(surface.selected)
     roots, islands = corners[corner_root[at] == corners], faces[face_root[faces] == faces]
     rank_of_root = np.zeros(len(face_root), dtype=np.int32)
@@ -114,7 +114,7 @@ def _split(
 
     root_island = island_of_face[corner_face[roots]]
     root_vertex = surface.corner_vertex[roots]
-    order = np.lexsort((root_vertex, root_island))  # stable: equal ones stay in the order of their roots
+    order = np.lexsort((root_vertex, root_island))  # stable: equal keys stay in the order of their roots
     roots, root_island, root_vertex = roots[order], root_island[order], root_vertex[order]
     rank = np.zeros(len(corner_root), dtype=np.int32)
     rank[roots] = np.arange(len(roots), dtype=np.int32)
@@ -149,12 +149,12 @@ def _split(
 
 
 def _groups(keys: np.ndarray, values: np.ndarray, count: int) -> list[np.ndarray]:
-    """`values` with key 0, those with key 1, …, each in their order."""
+    """The values with key 0, with key 1, …, each in order."""
     if count == 1:
         return [values]
     if count <= FEW:
         return [values[keys == key] for key in range(count)]
-    if (keys[1:] < keys[:-1]).any():  # those of joined objects are in order
+    if (keys[1:] < keys[:-1]).any():  # joined objects are in order
         short = keys.astype(np.min_scalar_type(count))  # sorted in one pass
         values = values[np.argsort(short, kind="stable")]
     ends = np.cumsum(np.bincount(keys, minlength=count))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From surfaces to UV coordinates of their corners: the one function behind operator and batch."""
+"""Maps surfaces to UV coordinates of their corners: the one function behind operator and batch."""
 
 import contextlib
 import dataclasses
@@ -29,10 +29,10 @@ from .tube import unroll
 from .upright import upright_turn
 from .wording import counted
 
-# Of the largest coordinate: so far beside a line the rounding of 32-bit coordinates may leave a vertex, and a bit more.
+# Of the largest coordinate: the distance from a line that rounding to 32 bits can cause, and a little more.
 FLAT = 2.4e-7
-FEW = 1000  # triangles that are looked at first
-MOST_IMPORTANT = 4.0  # texel density asked for at importance 1, over that at 0: as the solver has it
+FEW = 1000  # triangles that are checked first
+MOST_IMPORTANT = 4.0  # texel density at importance 1 over that at 0, as in the solver
 
 
 def map_surfaces(
@@ -41,9 +41,9 @@ def map_surfaces(
     """Map every island of every task's surface to its circle domain and lay the islands out.
 
     `koebe` is the native package; `progress(fraction, stage)` is called on this thread; `cancel` is a
-    `koebe.CancelToken`, and `koebe.Cancelled` ends everything. Any other error is the outcome of its island. Islands
-    are mapped side by side, at most `options.threads` at once, and the outcomes are the same for any number. An
-    exception that leaves this function raises the token, so that nothing goes on behind its back.
+    `koebe.CancelToken`, and `koebe.Cancelled` ends the run. Any other error is its island's outcome. Islands are mapped
+    side by side, at most `options.threads` at once, and any number gives the same outcomes. An exception that leaves
+    this function raises the token, so that all work stops.
     """
     run = _Run(koebe, options, sum(map(_size, tasks)), progress, cancel or koebe.CancelToken())
     outcomes = [SurfaceOutcome(task, islands) for task, islands in zip(tasks, run.map(tasks), strict=True)]
@@ -52,7 +52,7 @@ def map_surfaces(
     _lay_out(koebe, outcomes, options)
     for outcome in outcomes:
         for one in outcome.mapped:
-            if not np.isfinite(one.uv).all():  # worked out here, on this thread
+            if not np.isfinite(one.uv).all():  # computed here, on this thread
                 one.error = MapError("its UVs are not finite")
     if options.symmetry == "auto":
         for outcome in outcomes:
@@ -67,24 +67,24 @@ def map_surfaces(
 
 
 def judge_island(koebe: ModuleType, one: IslandOutcome, most_lost: float) -> None:
-    """Look at what is stored of a mapped and placed island."""
+    """Judge the stored UVs of a mapped and placed island."""
     one.stored = judge(koebe, one.sheet.vertices, one.sheet.triangles, one.uv, turned_of(one.result))
     if one.stored.lost_area > most_lost:
         one.lost = f"{lost_text(one.stored.lost_area)}. {SERVES['parts']} serves here"
 
 
 class _Run:
-    """The native calls of one run, some at once."""
+    """The native calls of a run, several at once."""
 
     def __init__(
         self, koebe: ModuleType, options: Options, size: int, progress: Progress | None, cancel: Any
     ) -> None:
         self._koebe, self._options, self._progress, self._cancel = koebe, options, progress, cancel
-        self._total, self._done, self._told = max(size, 1), 0, 0.0  # triangles: all, done for good; share last told
+        self._total, self._done, self._told = max(size, 1), 0, 0.0  # triangles: all, finished; last reported share
 
     def map(self, tasks: Sequence[Task]) -> list[list[IslandOutcome]]:
         """The outcome of each island of each task's surface."""
-        # Each surface as it is, and what the solver refuses so, cut into its islands.
+        # First try each surface as a whole; cut those that the solver refuses into islands.
         wholes = [whole_island(task.surface) for task in tasks]
         each = iter(
             self._map_all([(task, [whole]) for task, whole in zip(tasks, wholes, strict=True) if whole], _is_mapped)
@@ -100,7 +100,7 @@ class _Run:
         return outcomes
 
     def _open(self, tasks: Sequence[Task], outcomes: list[list[IslandOutcome]]) -> None:
-        """Put, in the place of each island that cannot be mapped as it is, the outcomes of its pieces."""
+        """Replace each island that cannot be mapped by the outcomes of its pieces."""
         opened = [[self._opened(task, one) for one in ones] for task, ones in zip(tasks, outcomes, strict=True)]
         named = [_names_left(task, ones, found)
                  for task, ones, found in zip(tasks, outcomes, opened, strict=True)]  # fmt: skip
@@ -120,7 +120,7 @@ class _Run:
             ones[:] = result
 
     def _opened(self, task: Task, one: IslandOutcome) -> tuple[Opening, list[Island]] | None:
-        """The pieces of an island that the solver has refused, or None where that cannot help."""
+        """The pieces of an island that the solver has refused, or None if cutting cannot help."""
         if not self._may_open(one):
             return None
         try:
@@ -129,25 +129,25 @@ class _Run:
             raise
         except (MapError, MemoryError, self._koebe.SolverError) as error:
             one.error = foreseen(self._koebe, error)
-        except self._koebe.KoebeError:  # of arrays that are no mesh: the solver has said so too
+        except self._koebe.KoebeError:  # the arrays are not a mesh, as the solver has said
             pass
         return None
 
     def _may_open(self, one: IslandOutcome) -> bool:
-        """Whether an island may be mapped once it is cut."""
+        """Whether the options allow to cut this island and map its pieces."""
         return self._options.cut and isinstance(one.error, (self._koebe.TopologyError, self._koebe.InputError))
 
     def _is_last(self, one: IslandOutcome) -> bool:
-        """Whether nothing more will be tried with an island."""
+        """Whether this is the last attempt for an island."""
         return not self._may_open(one)
 
     def _map_all(
         self, surfaces: list[tuple[Task, list[Island]]], counts: Callable[[IslandOutcome], bool]
     ) -> list[list[IslandOutcome]]:
-        """The outcomes of islands of surfaces. The work of those that do not count is to be done again."""
+        """The outcomes of islands of surfaces. Attempts that are not the last do not count as finished work."""
         units: list[Unit[IslandOutcome]] = []
         count = sum(len(islands) for _, islands in surfaces)
-        threads = self._options.threads if count == 1 else 1  # several go side by side, each on one
+        threads = self._options.threads if count == 1 else 1  # several run side by side, each on one thread
         for task, islands in surfaces:
             centers, points = places.centers(islands, task.center), places.points(islands, task.point)
             for island, center, point in zip(islands, centers, points, strict=True):
@@ -169,11 +169,11 @@ class _Run:
         return [list(itertools.islice(each, len(islands))) for _, islands in surfaces]
 
     def _may_be_of_memory(self, error: Exception | None) -> bool:
-        """Whether an island that failed beside others is to be tried alone."""
+        """Whether an island that failed beside others must be tried alone."""
         return isinstance(error, self._koebe.SolverError) or isinstance(getattr(error, "__cause__", None), MemoryError)
 
     def _share(self, size: int) -> Progress | None:
-        """Progress of work of this size as a part of that of all, which never falls."""
+        """Progress of work of this size as a part of the progress of all work, which never falls."""
         progress, done = self._progress, self._done
         if progress is None:
             return None
@@ -188,7 +188,7 @@ class _Run:
 def _names_left(
     task: Task, ones: Sequence[IslandOutcome], found: Sequence[tuple[Opening, list[Island]] | None]
 ) -> Task:
-    """The task for the pieces: a place in space is theirs only if no other island has taken it."""
+    """The task for the pieces: they get a place in space only if no other island has taken it."""
     others = [one.places for one, pair in zip(ones, found, strict=True) if pair is None]
     left: dict[str, Any] = {}
     for name in ("center", "point"):
@@ -206,12 +206,12 @@ def _is_any(one: IslandOutcome) -> bool:
 
 
 def _size(task: Task) -> int:
-    """The number of a surface's triangles that are to be mapped."""
+    """The number of a surface's triangles to map."""
     return int(np.count_nonzero(task.surface.selected[task.surface.triangle_face]))
 
 
 def _cut(task: Task, whole: IslandOutcome | None = None) -> list[Island]:
-    """The islands of a surface, or none where the whole of it is one, mapped or not."""
+    """The islands of a surface; empty if the whole surface is one island, mapped or not."""
     if whole is not None and whole.error is None:
         return []
     islands = cut_into_islands(task.surface)
@@ -235,12 +235,12 @@ def _map_island(
     with failing_alone(koebe, [one]):
         check_area(island)
         if options.tube == "unroll" and _is_tube(koebe, island):
-            # A concentric annulus keeps its digits however small the hole; moved off the centre it loses them.
+            # A concentric annulus keeps its digits for a hole of any size; moved off the centre it loses them.
             arguments["balance"] = "none"
             vertices = {"outer": vertices["outer"]}
         if vertices.get("center") is not None:
             places.check_center(island, vertices["center"])
-            arguments["balance"] = "none"  # which chooses the centre as well
+            arguments["balance"] = "none"  # the balance would choose the centre as well
         if vertices.get("point") is not None:
             places.check_point(island, vertices["point"])
         if importance is not None and arguments["balance"] == "area":
@@ -253,7 +253,7 @@ def _map_island(
             **vertices,
             **arguments,
         )
-        if not _is_unrolled(one, options):  # else it is done for all of the surface together
+        if not _is_unrolled(one, options):  # otherwise the whole surface is turned together
             _shape(one, options)
     return one
 
@@ -263,14 +263,14 @@ def _is_tube(koebe: ModuleType, island: Island) -> bool:
 
 
 def check_area(island: Island) -> None:
-    """Raise MapError where every face is collapsed; coordinates that are not finite are the solver's to judge."""
+    """Raise MapError if every face is collapsed. The solver judges coordinates that are not finite."""
     some = island.triangles[:: max(1, len(island.triangles) // FEW)]
     if _are_flat(island.vertices, some) and _are_flat(island.vertices, island.triangles):
         raise MapError("the surface is collapsed to a line: none of its faces has an area")
 
 
 def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
-    """Whether no triangle has an area beyond what rounding can give it."""
+    """Whether no triangle has more area than rounding can cause."""
     a, b, c = (vertices.take(corner, axis=0) for corner in triangles.T)
     with np.errstate(invalid="ignore"):
         longest = np.max([np.linalg.norm(one - two, axis=1) for one, two in ((a, b), (b, c), (c, a))], axis=0)
@@ -279,7 +279,7 @@ def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
 
 @contextlib.contextmanager
 def failing_alone(koebe: ModuleType, ones: Iterable[Any]) -> Iterator[None]:
-    """Whatever goes wrong inside is the error of these islands, and what comes after goes on."""
+    """Makes any exception inside the error of these islands; the run goes on."""
     try:
         yield
     except koebe.Cancelled:
@@ -290,7 +290,7 @@ def failing_alone(koebe: ModuleType, ones: Iterable[Any]) -> Iterator[None]:
 
 
 def foreseen(koebe: ModuleType, error: Exception) -> Exception:
-    """The error, if it was meant to be read; else one that says so, and where it comes from on the console."""
+    """The error, if its text is for the artist; else an error that says so, with its origin on the console."""
     if isinstance(error, (koebe.KoebeError, MapError)):
         return error
     traceback.print_exception(type(error), error, error.__traceback__)
@@ -300,13 +300,13 @@ def foreseen(koebe: ModuleType, error: Exception) -> Exception:
 
 
 def _shape(one: IslandOutcome, options: Options) -> None:
-    """Give a mapped island its shape: the disk as it is."""
+    """Give a mapped island its shape: the unchanged disk."""
     one.sheet, one.shape = one.island, one.result.uv
     _turn(one, options)
 
 
 def _turn(one: IslandOutcome, options: Options) -> None:
-    """Turn a shape upright, if asked."""
+    """Turn a shape upright, if requested."""
     if options.upright and one.result.point is None:
         turn = upright_turn(one.sheet, one.shape)
         # A rectangle stays level.
@@ -318,7 +318,7 @@ def _is_unrolled(one: IslandOutcome, options: Options) -> bool:
 
 
 def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> None:
-    """Give the mapped tubes of a surface their shapes, if they are to be rectangles."""
+    """Give the mapped tubes of a surface their shapes, if they become rectangles."""
     tubes = [one for one in outcome.mapped if _is_unrolled(one, options)]
     with failing_alone(koebe, tubes):
         cases = [(one.island, one.result.uv, one.result.loops, one.opening is not None) for one in tubes]
@@ -337,7 +337,7 @@ def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> Non
 
 
 def _outer_loop(island: Island, outer: str | int) -> str | int:
-    """The solver's `outer` for this island: a vertex counts only for the island that has it."""
+    """The solver's `outer` for this island: a vertex counts only in its own island."""
     if isinstance(outer, str):
         return outer
     here = np.flatnonzero(island.source_vertex == outer)
@@ -374,7 +374,7 @@ def _half_size(one: IslandOutcome) -> float:
 
 
 def _keep_places(outcome: SurfaceOutcome) -> bool:
-    """Place every island where it was, or none: whether all of them had a place."""
+    """Place every island at its former place, or none. Returns whether all had a place."""
     if outcome.task.old_uv is None:
         return False
     found = [fit_placement(one.flat, outcome.task.old_uv[one.sheet.some_corner()]) for one in outcome.mapped]
@@ -387,7 +387,7 @@ def _keep_places(outcome: SurfaceOutcome) -> bool:
 
 
 def _natural_radius(island: Island, uv: np.ndarray, importance: np.ndarray | None) -> float:
-    """Radius of the disk at which the island's mean texel density is one; larger where it is important."""
+    """Radius of the disk where the island's mean texel density is one; larger where it is important."""
     in_disk, on_surface = np.abs(signed_areas(uv, island.triangles)).sum(), island.areas
     if importance is not None:
         weight = importance[island.source_vertex][island.triangles].mean(axis=1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Circle domains of surfaces that are their own mirror images, made exactly symmetric."""
+"""Makes circle domains of mirror-symmetric surfaces exactly symmetric."""
 
 import dataclasses
 from types import ModuleType
@@ -11,16 +11,16 @@ from .moebius import balance_point, rotation, to_middle
 from .triangles import as_points, flipped_triangles
 from .upright import upright_turn
 
-GRID = 2.0**-24  # UV units: places u in [0, 1] that are such multiples, and 1 - u, are exact in 32 bits
+GRID = 2.0**-24  # UV units: for multiples u in [0, 1] both u and 1 - u are exact in 32 bits
 NO_MIRROR = "no plane was found in which the surface is its own mirror image, vertex by vertex and face by face"
 
 
 @dataclasses.dataclass(frozen=True)
 class Symmetry:
-    """What was made symmetric.
+    """The result of making a domain symmetric.
 
-    pairs  number of vertices that have another one as their image
-    moved  by how much a vertex was moved at most beside a Möbius map, in UV units
+    pairs  number of vertices whose mirror image is another vertex
+    moved  largest move of a vertex besides the Möbius map, in UV units
     """
 
     image: CircleImage
@@ -29,11 +29,11 @@ class Symmetry:
 
 
 def symmetric(koebe: ModuleType, domain: CircleDomain) -> Symmetry:
-    """The domain made exactly symmetric to the vertical line through its middle. Raises DomainError where it cannot.
+    """The domain made exactly symmetric to the vertical line through its middle. Raises DomainError if impossible.
 
-    A conformal map of a symmetric surface is symmetric up to a Möbius map and what the triangles spoil. So the mirror
-    is brought onto the vertical line, the centre stays as nearly as it can, and every vertex goes halfway between where
-    it is and the mirror image of its partner.
+    A conformal map of a symmetric surface is symmetric up to a Möbius map and errors of the triangles. So the mirror
+    line is brought onto the vertical line, with the centre kept as nearly as possible. Then every vertex goes halfway
+    to the mirror image of its partner.
     """
     island = domain.island
     image = koebe.mirror_image(island.vertices, island.triangles, polygon=island.triangle_face)
@@ -52,7 +52,7 @@ def symmetric(koebe: ModuleType, domain: CircleDomain) -> Symmetry:
 
 
 def _partners(domain: CircleDomain, image: np.ndarray) -> list[int]:
-    """Number of the loop that is the mirror image of each. Raises DomainError if the rim is not its own."""
+    """For each loop the number of its mirror image. Raises DomainError if the rim's mirror image is another loop."""
     number = np.full(len(image), -1)
     for k, loop in enumerate(domain.loops):
         number[loop.vertices] = k
@@ -63,17 +63,17 @@ def _partners(domain: CircleDomain, image: np.ndarray) -> list[int]:
 
 
 def _on_the_line(domain: CircleDomain, image: np.ndarray) -> np.ndarray:
-    """The points (n,) with the mirror on the imaginary axis, and the old centre as near to the middle as can be."""
+    """The points (n,) with the mirror on the imaginary axis, and the old centre as near to the middle as possible."""
     weights = domain.weights()
     moved = to_middle(balance_point(domain.points / np.maximum(np.abs(domain.points), 1.0), weights + weights[image]))
     z = moved.apply(domain.points)
-    across = complex((weights * z[image] * z).sum())  # of angle t where the mirror is z -> exp(i t) conj(z)
+    across = complex((weights * z[image] * z).sum())  # of angle t if the mirror is z -> exp(i t) conj(z)
     turned = rotation(0.5 * (np.pi - float(np.angle(across)))).after(moved)
     return to_middle(1j * turned(0.0).imag).after(turned).apply(domain.points)
 
 
 def _upright(domain: CircleDomain, z: np.ndarray) -> np.ndarray:
-    """The points, or upside down, as the surface's up has it."""
+    """The points, turned upside down if the surface's up requires it."""
     return z if upright_turn(domain.island, as_points(z)).real >= 0.0 else -z
 
 
@@ -86,7 +86,7 @@ def _halfway(
     partner: list[int],
     number: int,
 ) -> Loop:
-    """A loop with the circle halfway between its own and its partner's mirrored one; its points go onto that circle."""
+    """A loop on the circle halfway between its own and its partner's mirrored circle."""
     other = domain.loops[partner[number]]
     (center, radius, _), (mirrored, second, _) = (koebe.fit_circle(as_points(z[one.on])) for one in (loop, other))
     center, radius = 0.5 * (complex(*center) - complex(*mirrored).conjugate()), 0.5 * (radius + second)

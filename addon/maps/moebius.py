@@ -8,9 +8,9 @@ import numpy as np
 
 from .triangles import blocks
 
-# Steps of Newton's method for the balance point, and where they end: far below what 32-bit UVs show (disk radius 1).
+# Newton's method for the balance point: limit of steps, and accuracy, far below 32-bit UVs (disk radius 1).
 BALANCE_STEPS, BALANCED = 60, 1e-9
-LONGEST_STEP = 0.5  # of that method, in the unit disk: from far away its steps may be too long
+LONGEST_STEP = 0.5  # of that method, in the unit disk: its steps may be too long at first
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Moebius:
     def apply(self, z: np.ndarray) -> np.ndarray:
         """Images of points (n,).
 
-        Blocks of them at a time: what is computed on the way stays in the processor's cache.
+        Computes blocks of points, so that intermediate values stay in the processor's cache.
         """
         result = np.empty_like(z)
         for part in blocks(len(z)):
@@ -42,7 +42,7 @@ class Moebius:
         return result
 
     def after(self, first: "Moebius") -> "Moebius":
-        """The map that does `first`, then this one."""
+        """The map that applies `first`, then this one."""
         return Moebius(
             self.a * first.a + self.b * first.c, self.a * first.b + self.b * first.d,
             self.c * first.a + self.d * first.c, self.c * first.b + self.d * first.d,
@@ -50,7 +50,7 @@ class Moebius:
 
     @property
     def inverse(self) -> "Moebius":
-        """The map that undoes this one."""
+        """The inverse map."""
         return Moebius(self.d, -self.b, -self.c, self.a)
 
     @property
@@ -61,7 +61,7 @@ class Moebius:
     def circle(self, center: complex, radius: float) -> tuple[complex, float]:
         """Centre and radius of the image of a circle that does not pass through the pole.
 
-        The new centre is the image of the point that is mirrored to the pole in the circle.
+        The new centre is the image of the pole's mirror image in the circle.
         """
         if self.c == 0:
             return self(center), abs(self.a / self.d) * radius
@@ -77,30 +77,30 @@ def rotation(angle: float) -> Moebius:
 
 
 def to_middle(point: complex) -> Moebius:
-    """The map of the unit disk onto itself that brings a point of it to 0 and does not turn there."""
+    """The automorphism of the unit disk that brings a point to 0 and does not rotate there."""
     return Moebius(1.0, -point, -complex(point).conjugate(), 1.0)
 
 
 def dragged(start: complex, end: complex) -> Moebius:
-    """The map of the unit disk onto itself that brings one point of it to another and does not turn there."""
+    """The automorphism of the unit disk that brings one point to another and does not rotate there."""
     return to_middle(end).inverse.after(to_middle(start)) if start != end else Moebius()
 
 
 def inside_out(center: complex, radius: float) -> Moebius:
-    """The map that makes the circle the unit circle, and what is outside it the inside; infinity goes to 0."""
+    """The map that takes the circle to the unit circle and its outside to the inside; infinity goes to 0."""
     return Moebius(0.0, radius, 1.0, -center)
 
 
 def center_and_turn(moved: Moebius) -> tuple[complex, float]:
-    """The point of the unit disk that goes to 0, and the angle of the turn after `to_middle`, of a map of the disk
-    onto itself: together they are that map."""
+    """The point of the unit disk that an automorphism brings to 0, and the angle of the rotation after `to_middle`.
+    Together they give the automorphism."""
     center = moved.inverse(0.0)
     turn = moved.after(to_middle(center).inverse)
     return center, cmath.phase(turn.a / turn.d)
 
 
 def own_center(center: complex, radius: float) -> complex:
-    """The point of the unit disk that comes to 0 together with the centre of a circle inside the disk.
+    """The point of the unit disk after whose `to_middle` a circle inside the disk is centred at 0.
 
     It is the circle's centre in the disk's hyperbolic geometry: halfway between the ends of the diameter through 0.
     """
@@ -112,9 +112,9 @@ def own_center(center: complex, radius: float) -> complex:
 
 
 def balance_point(z: np.ndarray, weights: np.ndarray) -> complex:
-    """The point of the unit disk such that, once it is at 0, the weighted mean of points (n,) of the disk is 0.
+    """The point of the unit disk after whose `to_middle` the weighted mean of points (n,) is 0.
 
-    There is exactly one unless half of the weight is in one point [Douady and Earle 1986]; found by Newton's method.
+    It is unique unless one point has half of the weight [Douady and Earle 1986]. Found by Newton's method.
     """
     share = weights / weights.sum()
     moved = Moebius()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which elements of a mesh an error is about."""
+"""The elements of a mesh that an error is about."""
 
 import numpy as np
 
@@ -13,9 +13,9 @@ SHOWN_BY_VERTICES = ("nonmanifold_vertex", "genus", "cut")
 
 
 def offending_elements(surface: Surface, island: Island, error: Exception | None) -> tuple[str, np.ndarray]:
-    """(VERTICES, EDGES or FACES, indices) of what to show for an island that could not be mapped.
+    """(VERTICES, EDGES or FACES, indices) to show for an island that could not be mapped.
 
-    Where the error names nothing that could be seen, as on a closed surface, that is the whole island.
+    If the error names no visible element, as for a closed surface, shows the whole island.
     """
     kind, elements = kind_of(error), elements_of(error)
     not_finite = np.flatnonzero(~np.isfinite(island.vertices).all(axis=1))
@@ -31,6 +31,6 @@ def offending_elements(surface: Surface, island: Island, error: Exception | None
 
 
 def _crowded_edges(surface: Surface, island: Island) -> np.ndarray:
-    """Edges with three or more faces of the island, seams aside."""
+    """Edges with three or more faces of the island, except seams."""
     uses = np.bincount(surface.corner_edge[island.corners], minlength=len(surface.seam))
     return np.flatnonzero((uses > 2) & ~surface.seam)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Islands that cannot be mapped as they are, opened, cut and split in the UVs until each piece can."""
+"""Opens, cuts and splits islands in the UVs until each piece can be mapped."""
 
 import dataclasses
 from types import ModuleType
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True)
 class Opening:
-    """What was done to an island, in the surface's numbers.
+    """The changes to an island, in the surface's numbers.
 
-    cuts         kind, as in `koebe.SurfaceCut`, and vertices along each cut; of bow ties all such vertices
-    handles      how many were cut
+    cuts         kind, as in `koebe.SurfaceCut`, and vertices along each cut; for bow ties all such vertices
+    handles      number of handles cut
     turned       faces (k,) that were turned to the direction of the others
-    left_out     faces (k,) that no piece has: degenerate, or doubles of others
+    left_out     faces (k,) in no piece: degenerate, or duplicates of others
     copied       corners (m,) of such faces, and the corners (m,) whose places they take
     """
 
@@ -35,16 +35,16 @@ class Opening:
 def open_island(
     koebe: ModuleType, surface: Surface, island: Island, cancel: Any
 ) -> tuple[Opening, list[Island]] | None:
-    """The pieces of an island, polygons whole, or None where there is nothing to cut, to turn or to leave out.
+    """The pieces of an island, with whole polygons, or None if nothing must be cut, turned or left out.
 
-    Raises MapError where a cut would have to go through a polygon, and what `koebe.open_surface` raises.
+    Raises MapError if a cut would go through a polygon, and the errors of `koebe.open_surface`.
     """
     opened = koebe.open_surface(island.vertices, island.triangles, polygon=island.triangle_face, cancel=cancel)
     turned = [piece.source_face[piece.turned] for piece in opened.pieces]
     if len(opened.pieces) == 1 and not (opened.cuts or opened.left_out or len(turned[0])):
         return None
     corners = _triangle_corners(surface, island)
-    vertex = np.full(len(surface.corner_vertex), -1, dtype=np.int32)  # of its piece, at each corner
+    vertex = np.full(len(surface.corner_vertex), -1, dtype=np.int32)  # in its piece, at each corner
     pieces = [_piece(island, corners, vertex, piece) for piece in opened.pieces]
     out = np.array([one.face for one in opened.left_out], dtype=np.int64)
     opening = Opening(
@@ -65,10 +65,10 @@ def _triangle_corners(surface: Surface, island: Island) -> np.ndarray:
 
 
 def _piece(island: Island, corners: np.ndarray, vertex: np.ndarray, piece: "koebe.SurfacePiece") -> Island:
-    """A piece as an island; notes the vertex at each of its corners."""
+    """A piece as an island. Notes the vertex at each of its corners."""
     own = corners[piece.source_face]
     own[piece.turned] = own[piece.turned][:, [0, 2, 1]]
-    shared = (vertex[own] >= 0).any()  # a corner of another piece too
+    shared = (vertex[own] >= 0).any()  # some corner is also in another piece
     vertex[own] = piece.triangles
     if shared or (vertex[own] != piece.triangles).any():
         raise MapError("it could be opened only by a cut through a polygon: triangulate its faces")
@@ -87,7 +87,7 @@ def _piece(island: Island, corners: np.ndarray, vertex: np.ndarray, piece: "koeb
 def _copied(
     island: Island, corners: np.ndarray, vertex: np.ndarray, left_out: "list[koebe.LeftOutFace]"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Corners that no piece has, and those whose places they take."""
+    """Corners in no piece, and the corners whose places they take."""
     places: dict[int, int] = {}
     for out in left_out:
         if out.like is None:

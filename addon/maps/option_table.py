@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of options: what each map can be asked for in Blender and by batch.py, and what is said of it."""
+"""The table of options: the options of each map in Blender and in batch.py, and their texts."""
 
 import dataclasses
 import json
@@ -10,7 +10,7 @@ from typing import Any
 
 PACKED = Path(__file__).with_name("options.json")
 LARGEST = 2**31 - 1  # of whole numbers, here and in the native module
-SOURCE = Path(__file__).parents[2] / "native" / "options" / "options.json"  # of a checkout
+SOURCE = Path(__file__).parents[2] / "native" / "options" / "options.json"  # in a checkout
 RANGE = {"above": (operator.gt, "above"), "min": (operator.ge, "from"),
          "max": (operator.le, "to"), "below": (operator.lt, "to below")}  # fmt: skip
 
@@ -20,10 +20,10 @@ class Row:
     """An option.
 
     kind     "number", "integer", "flag", "choice", "loop", "vertex", "weights" or "text"
-    maps     that have it
-    choices  (word, label, what it means) each
-    range    of a number: min, max, and what it must be above or below
-    blender  what is other, or more, for the property
+    maps     that have the option
+    choices  (word, label, meaning) each
+    range    of a number: min, max, above, below
+    blender  different or additional values for the property
     """
 
     name: str
@@ -46,7 +46,7 @@ class Row:
         return [word for word, _, _ in self.choices]
 
     def problem(self, value: Any) -> str:
-        """Why it cannot have this value, or nothing."""
+        """Why it cannot have this value, or empty."""
         if self.kind in ("loop", "vertex") and not isinstance(value, str):
             return "" if value >= 0 else f"{value} is not a vertex index"
         if self.choices:
@@ -61,7 +61,7 @@ class Row:
 def _row(entry: dict[str, Any]) -> Row:
     blender = entry.get("blender", {})
     default = blender.get("default", entry["default"])
-    own = [choice for choice in entry.get("choices", []) if choice[1]]  # those with a label
+    own = [choice for choice in entry.get("choices", []) if choice[1]]  # the choices with a label
     fronts = entry.get("in", "command python blender batch").split()
     return Row(
         entry["name"], entry["kind"], blender.get("maps", entry["maps"]).split(),

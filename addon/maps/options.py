@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from .option_table import ROWS, Row, rows_of
 
-WRITTEN = ("layer", "checker", "checker_size", "checker_even")  # what all maps write beside the UVs
-OF_RUNS = (*WRITTEN, "threads")  # in the `Options` of a run, whatever its map is
+WRITTEN = ("layer", "checker", "checker_size", "checker_even")  # written by all maps beside the UVs
+OF_RUNS = (*WRITTEN, "threads")  # in the `Options` of every run
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
 MAX_LAYER_NAME_BYTES = 63
 
 
-# Blender keeps values of its own under these names from 4.0 on, of edges, faces or vertices: where a UV layer has the
-# name, it reads the one for the other, and ends when it writes.
+# From 4.0 on Blender keeps its own values under these names, for edges, faces or vertices. If a UV layer has the name,
+# it confuses them, and crashes when it writes.
 BLENDERS_OWN = {
     "position", "material_index", "uv_seam", "sharp_edge", "sharp_face", "custom_normal", "crease_edge", "crease_vert",
     "bevel_weight_edge", "bevel_weight_vert", "freestyle_edge", "freestyle_face",
@@ -24,7 +24,7 @@ BLENDERS_OWN = {
 
 
 class OptionError(ValueError):
-    """An option has a value that cannot be used: its name, and why."""
+    """An option has an unusable value: its name, and the reason."""
 
     def __init__(self, option: str, reason: str) -> None:
         super().__init__(f"{option}: {reason}")
@@ -32,14 +32,14 @@ class OptionError(ValueError):
 
 
 class Chosen:
-    """Values of options by their names: a frozen dataclass with what the table has of a map (`of_map`).
+    """Values of options by name: a frozen dataclass with the table's options of a map (`of_map`).
 
-    Raises OptionError where a value is none that the option can have.
+    Raises OptionError for a value that the option cannot have.
     """
 
     rows: ClassVar[list[Row]]
 
-    if TYPE_CHECKING:  # the fields are not known before the table is read
+    if TYPE_CHECKING:  # the fields are unknown until the table is read
 
         def __init__(self, *values: Any, **named: Any) -> None: ...
 
@@ -51,7 +51,7 @@ class Chosen:
                 raise OptionError(row.name, problem)
 
     def solver_arguments(self) -> dict[str, Any]:
-        """Keyword arguments of the solver's function, but for vertices and what is computed for each island."""
+        """Keyword arguments of the solver's function, except vertices and values computed for each island."""
         return {
             row.name: getattr(self, row.name)
             for row in self.rows
@@ -63,7 +63,7 @@ Kind = TypeVar("Kind", bound=type[Chosen])
 
 
 def of_map(of: str, *without: str) -> Callable[[Kind], Kind]:
-    """Gives a class the options of a map as fields, after its own ones."""
+    """Gives a class the options of a map as fields, after its own fields."""
 
     def made(kind: Kind) -> Kind:
         kind.rows = [row for row in rows_of(of) if row.name not in without]
@@ -79,9 +79,9 @@ def of_map(of: str, *without: str) -> Callable[[Kind], Kind]:
 class Options(Chosen):
     """What to compute and what to write.
 
-    Beside their words, outer, center and point may be the index of a mesh vertex. The island that has the centre is not
-    balanced: both choose the centre. The one that has the rim point is not turned upright, and the point's loop is its
-    rim.
+    Instead of their words, outer, center and point may be the index of a mesh vertex. The island with the centre is not
+    balanced, as both choose the centre. The island with the rim point is not turned upright, and its rim is the loop of
+    the point.
     """
 
     def __post_init__(self) -> None:
@@ -100,9 +100,9 @@ class PartsChoice(Chosen):
 
 @dataclasses.dataclass(frozen=True)
 class SequenceChoice:
-    """Which shapes of a mesh are mapped one after the other, and what holds their UVs.
+    """The shapes of a mesh to map one after another, and where to keep their UVs.
 
-    frames  of the source "FRAMES"; None: the scene's
+    frames  of the source "FRAMES"; None: the scene's frames
     target  "ATTRIBUTE" (a vector attribute for each shape) or "LAYERS" (a UV layer for each)
     play    show the attributes of the frames in a UV layer, by a modifier
     """
@@ -120,7 +120,7 @@ class SequenceChoice:
             raise OptionError("frames", "the last frame is before the first one")
 
     def name(self, layer: str, shape: str | int) -> str:
-        """The name of what holds the UVs of one shape, which is a frame or the name of a key. Raises OptionError."""
+        """The name of the layer or attribute for one shape, a frame or the name of a key. Raises OptionError."""
         number = f"{shape:04d}" if isinstance(shape, int) else shape
         name = f"{layer}{' ' if self.target == 'LAYERS' else '_'}{number}"
         if len(name.encode("utf-8")) > MAX_LAYER_NAME_BYTES:
@@ -129,7 +129,7 @@ class SequenceChoice:
 
 
 def label_of(shape: str | int) -> str:
-    """What a shape is called in messages."""
+    """The shape's name in messages."""
     return f"frame {shape}" if isinstance(shape, int) else f"key {shape!r}"
 
 

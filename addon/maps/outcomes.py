@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is to be mapped, and what became of it, whatever the kind of map."""
+"""The tasks of a map of any kind, and their outcomes."""
 
 import dataclasses
 from collections.abc import Callable
@@ -13,13 +13,13 @@ from .surface import Surface
 from .wording import MIRRORED, PINNED, explain, failure_line, own_warning
 
 Progress = Callable[[float, str], None]  # called with a fraction and a stage
-# A vertex of the surface, or a place (3,) in its space that a vertex is to be nearest to.
+# A vertex of the surface, or a place (3,) in its space: then the nearest vertex is meant.
 Place = int | np.ndarray | None
-LATER: Any = None  # of what is not there from the start, and is not asked for before it is
+LATER: Any = None  # for values that are set later, before they are used
 
 
 def share_of(progress: Progress | None, done: int, size: int, total: int) -> Progress | None:
-    """Progress of some of all work as a part of that of all, given what is done before."""
+    """Progress of a part of the work as progress of all work, after the finished part."""
     if progress is None:
         return None
     return lambda fraction, stage: progress((done + fraction * size) / max(total, 1), stage)
@@ -29,11 +29,10 @@ def share_of(progress: Progress | None, done: int, size: int, total: int) -> Pro
 class Task:
     """A surface to map.
 
-    `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `center` and `point` are
-    the vertices that go to the disk's centre and to its right end; `old_uv` (C, 2) are the UVs of the
-    surface's corners that the placement "keep" goes by; `mirrored` tells that its object's scale is
-    negative, `pinned` that UVs of the layer to write are pinned. `importance` (V,) in [0, 1] weighs the balance.
-    `picked` (V,) bool are the vertices by which the rims of rings are known.
+    `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `center` and `point` are the
+    vertices for the disk's centre and its right end; `old_uv` (C, 2) are the UVs of the surface's corners for the
+    placement "keep"; `mirrored`: its object's scale is negative; `pinned`: UVs of the layer to write are pinned.
+    `importance` (V,) in [0, 1] weighs the balance. `picked` (V,) bool are vertices that choose the rims of rings.
     """
 
     name: str
@@ -50,11 +49,11 @@ class Task:
 
 @dataclasses.dataclass
 class Outcome:
-    """What became of one surface. A kind of map is a subclass, and what it leaves open.
+    """The outcome of one surface. Each kind of map is a subclass with the missing parts.
 
-    islands      what became of each: with a `result` of the native package, or an `error`
+    islands      the outcome of each: with a `result` of the native package, or an `error`
     not_written  why nothing of it could be written, or None
-    remarks      what to say of the object beside its islands
+    remarks      notes on the object beside its islands
     """
 
     task: Task
@@ -79,12 +78,12 @@ class Outcome:
 
     @property
     def converged(self) -> bool:
-        """Whether every mapped island is what it promises."""
+        """Whether every mapped island keeps its promises."""
         return all(one.result.converged for one in self.mapped)
 
     @property
     def is_good(self) -> bool:
-        """Whether there is nothing in its line that has to be looked at."""
+        """Whether its line has nothing to look at."""
         return self.converged
 
     def corner_uv(self) -> tuple[np.ndarray, np.ndarray]:
@@ -93,7 +92,7 @@ class Outcome:
         return np.concatenate([one.corners for one in mapped]), np.concatenate([one.uv for one in mapped])
 
     def offending(self) -> list[tuple[str, np.ndarray]]:
-        """Kind and numbers of the elements at fault, for each island that has an error."""
+        """Kind and numbers of the offending elements, for each island with an error."""
         return [offending_elements(self.task.surface, one.island, one.error) for one in self.failed]
 
     # ---------------------------------------------------------------- words
@@ -103,15 +102,15 @@ class Outcome:
         raise NotImplementedError
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
-        """What to watch out for in a mapped island: kind, elements in the mesh's numbers, text."""
+        """Warnings about a mapped island: kind, elements in the mesh's numbers, text."""
         raise NotImplementedError
 
     def notes(self) -> list[tuple[Any, str]]:
-        """What was done to mapped islands beside their maps, or cannot be otherwise."""
+        """Notes on mapped islands: changes beside their maps, and limits."""
         return []
 
     def said_warnings(self) -> list[str]:
-        """What to watch out for in all of it."""
+        """The warnings of all islands."""
         return [warning["text"] for one in self.mapped for warning in self.warnings(one)]
 
     def said_notes(self) -> list[str]:
@@ -119,7 +118,7 @@ class Outcome:
         return [text for _, text in self.notes()]
 
     def _own_warnings(self) -> list[dict[str, Any]]:
-        """What to watch out for in all islands, beside what the solver warns of."""
+        """Warnings about all islands, beside the solver's."""
         task = self.task
         return [own_warning("mirrored", MIRRORED)] * task.mirrored + [own_warning("pinned", PINNED)] * task.pinned
 
@@ -133,7 +132,7 @@ class Outcome:
         raise NotImplementedError
 
     def _head(self, index: int, one: Any, faces: int) -> dict[str, Any]:
-        """Which island it is, and its error."""
+        """The number of the island, and its error."""
         entry: dict[str, Any] = {"object": self.task.name, "island": index, "island_faces": faces}
         if one.error is None:
             return entry
@@ -147,9 +146,9 @@ class Outcome:
     # ---------------------------------------------------------------- the report in Blender
 
     def rows(self, layer: str) -> list[dict[str, Any]]:
-        """What the report keeps of each island that was written to a UV layer, or why it was not.
+        """Rows of the report for each island written to a UV layer, or the reason why it was not.
 
-        By the names of state/run_report.py; lists are kept there as JSON, but `loops` as entries of their own.
+        Keys are the names in state/run_report.py. The report keeps lists as JSON, but `loops` as entries of their own.
         """
         if self.not_written:
             return [failure_row(self.name, self.not_written)]
@@ -171,11 +170,11 @@ class Outcome:
         return result
 
     def _row(self, one: Any) -> dict[str, Any]:
-        """What the report keeps of a mapped island beside words."""
+        """The row of a mapped island, without its texts."""
         raise NotImplementedError
 
     def _failure_row(self) -> dict[str, Any]:
-        """The row of an object of which nothing can be kept."""
+        """The row of an object without any result."""
         offers = [_offer(one.error) for one in self.failed]
         return failure_row(self.task.name, failure_line(self), offers[0] if offers else "")
 
@@ -186,12 +185,12 @@ def failure_row(name: str, text: str, offer: str = "") -> dict[str, Any]:
 
 
 def _offer(error: Exception | None) -> str:
-    """The operators that take what this error is of."""
+    """The operators that take a surface with this error."""
     return " ".join(getattr(error, "offer", ()))
 
 
 def in_numbers(paths: list[dict[str, Any]], numbers: np.ndarray, *keys: str) -> None:
-    """Turn the solver's vertices in dicts of a report into those of the mesh."""
+    """Translate the solver's vertices in a report's dicts to the mesh's."""
     for path in paths:
         for key in keys:
             if key in path:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the islands' disks lie in the UV square."""
+"""Places the islands' disks in the UV square."""
 
 import cmath
 import dataclasses
@@ -11,7 +11,7 @@ import numpy as np
 
 from .triangles import as_complex, as_points
 
-# UV units: an island that was smaller had no place of its own, as in a layer that was never unwrapped.
+# UV units: a smaller island had no place of its own, as in a layer that was never unwrapped.
 SMALLEST_PLACE = 1e-6
 
 
@@ -33,7 +33,7 @@ class Placement:
 
 
 def fit_placement(points: np.ndarray, targets: np.ndarray) -> Placement | None:
-    """The placement that puts `points` (n, 2) of the disk where `targets` (n, 2) are, or None if these are one point.
+    """The placement that puts `points` (n, 2) of the disk at `targets` (n, 2), or None if these are one point.
 
     Centre, root mean square radius and mean direction agree.
     """
@@ -41,7 +41,7 @@ def fit_placement(points: np.ndarray, targets: np.ndarray) -> Placement | None:
     source_center, target_center = source.mean(), target.mean()
     source, target = source - source_center, target - target_center
     size = np.linalg.norm(target) / np.linalg.norm(source)
-    if not SMALLEST_PLACE <= size < np.inf:  # nor where the targets are not finite
+    if not SMALLEST_PLACE <= size < np.inf:  # nor if the targets are not finite
         return None
     rotation = float(np.angle(np.vdot(source, target)))
     offset = target_center - cmath.rect(size, rotation) * source_center
@@ -49,6 +49,6 @@ def fit_placement(points: np.ndarray, targets: np.ndarray) -> Placement | None:
 
 
 def packed(koebe: ModuleType, radii: Sequence[float], margin: float) -> list[Placement]:
-    """Placements of disks in the unit square, as `koebe.pack_disks` has them."""
+    """Placements of disks in the unit square, by `koebe.pack_disks`."""
     centers, scales = koebe.pack_disks(radii, margin)
     return [Placement((x, y), scale) for (x, y), scale in zip(centers.tolist(), scales.tolist(), strict=True)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces cut in their UVs into even parts: from a surface to UV coordinates of its corners."""
+"""Cuts surfaces in their UVs into even parts, with UV coordinates per corner."""
 
 import dataclasses
 from types import ModuleType
@@ -16,20 +16,20 @@ from .stored import LostAreaError
 from .surface import Surface, next_corners
 from .wording import counted, density_text, in_mesh
 
-# The price of a part at the dial's ends: as few parts as there can be, and texels as even as they can be.
+# The price of a part at the dial's ends: as few parts as possible, and texels as even as possible.
 HIGHEST, LOWEST = 0.03, 0.0003
-# More than any unevenness costs: no cut is made but those without which there would be no map.
+# More than any unevenness costs: only necessary cuts are made.
 NO_CUTS = 1e3
 
 
 def price_of(evenness: float) -> float:
-    """The price of a part, by a dial from 0, fewer parts, to 1, more even ones."""
+    """The price of a part, from a dial between 0, fewer parts, and 1, more even parts."""
     return float(HIGHEST * (LOWEST / HIGHEST) ** evenness)
 
 
 @dataclasses.dataclass(frozen=True)
 class Numbers:
-    """What the solver's triangles (t,) and vertices (n,) are on the surface."""
+    """The solver's triangles (t,) and vertices (n,) in the surface's numbers."""
 
     triangle_face: np.ndarray
     source_vertex: np.ndarray
@@ -37,9 +37,9 @@ class Numbers:
 
 @dataclasses.dataclass
 class PartsIsland:
-    """What became of all selected faces: a result of `koebe.parts`, or an error, or both if too much is lost.
+    """The outcome of all selected faces: a result of `koebe.parts`, or an error, or both if too much area is lost.
 
-    numbers      what the solver's triangles and vertices are on the surface
+    numbers      the solver's triangles and vertices in the surface's numbers
     corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
     cuts         (E,) bool, edges of the surface along which the UVs are cut
     """
@@ -58,7 +58,7 @@ class PartsIsland:
 
 
 class PartsOutcome(Outcome):
-    """What became of one surface: the parts of all of it are its one island."""
+    """The outcome of one surface: all its parts are one island."""
 
     islands: list[PartsIsland]
 
@@ -66,7 +66,7 @@ class PartsOutcome(Outcome):
         return [in_mesh(one.numbers, warning) for warning in one.result.warnings if warning.kind != LostAreaError.kind]
 
     def offending(self) -> list[tuple[str, np.ndarray]]:
-        """Nothing: it cannot be mended face by face."""
+        """Empty: no single face can be mended."""
         return []
 
     def line(self) -> str:
@@ -102,7 +102,7 @@ class PartsOutcome(Outcome):
         return {**result, **entry}
 
     def rows(self, layer: str) -> list[dict[str, Any]]:
-        """As of `Outcome`; they have no circles to be drawn, and what cannot be mapped names no elements."""
+        """As in `Outcome`. Parts have no circles to draw, and a failure names no elements."""
         return [self._failure_row()] if self.failed or self.not_written else super().rows(layer)
 
     def _row(self, one: PartsIsland) -> dict[str, Any]:
@@ -120,10 +120,10 @@ def cut_into_parts(
 ) -> PartsOutcome:
     """Cut the selected faces of a surface into parts. Seams stay cuts. Polygons stay whole.
 
-    A seam that makes a disk of a tube is where that tube is unrolled. Where it is not mapped as a tube after all, it
-    is a cut as the others are.
+    A seam that makes a disk of a tube is where that tube is unrolled. If it is not mapped as a tube, the seam is a cut
+    like the others.
 
-    Errors are the outcome's; `koebe.Cancelled` goes on.
+    Errors are stored in the outcome; `koebe.Cancelled` is raised.
     """
     surface, price = task.surface, price_of(choice.evenness) if choice.seams == "add" else NO_CUTS
     arguments = {"price": price, **choice.solver_arguments()}
@@ -146,7 +146,7 @@ def _map(
     progress: Progress | None,
     cancel: Any,
 ) -> None:
-    """Fill the result. @param slits (E,) bool, seams that are cut only where a tube is opened."""
+    """Fill in the result. @param slits (E,) bool, seams that are cut only where a tube is opened."""
     vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
     positions, sources, count = [], [], 0
     for island in cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~slits)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which vertices of the islands go to the centre of the disk and to its rightmost point."""
+"""Chooses the vertices for the centre of the disk and for its rightmost point."""
 
 from collections.abc import Sequence
 
@@ -11,15 +11,15 @@ from .surface import Island
 
 
 def centers(islands: Sequence[Island], place: Place) -> list[int | None]:
-    """The vertex of each island that goes to 0: of the mesh's vertex `place`, or of the place nearest to which it is.
+    """The vertex of each island for 0: the mesh's vertex `place`, or the vertex nearest to that place.
 
-    A place is that of one island only. Raises nothing: `check_center` judges the vertex.
+    A place counts for one island only. Raises nothing: `check_center` judges the vertex.
     """
     return _vertices(islands, place, rim=False)
 
 
 def points(islands: Sequence[Island], place: Place) -> list[int | None]:
-    """The boundary vertex of each island that goes to 1, as `centers`."""
+    """The boundary vertex of each island for 1, as in `centers`."""
     return _vertices(islands, place, rim=True)
 
 
@@ -64,7 +64,7 @@ def _nearest(island: Island, place: np.ndarray, rim: bool) -> tuple[float, int |
 
 
 def _on_rim(island: Island) -> np.ndarray:
-    """Which vertices lie on an edge of one face only, or on none."""
+    """Whether each vertex lies on an edge of only one face, or on no edge."""
     ends = np.sort(np.concatenate([island.triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
     edges, uses = np.unique(ends, axis=0, return_counts=True)
     result = np.zeros(len(island.vertices), dtype=bool)

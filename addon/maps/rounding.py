@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rounds UV coordinates to 32 bits so that no triangle is turned over by it.
+"""Rounds UV coordinates to 32 bits without turning triangles over.
 
-Along a rim whose neighbours lie s apart, a triangle of three of them is s²/2 high: the solver leaves it enough for the
-unit square, but an island that is turned and made smaller is rounded anew.
+Along a rim with neighbours s apart, a triangle of three of them is s²/2 high. The solver leaves enough height for the
+unit square, but an island that is turned and shrunk is rounded anew.
 """
 
 import itertools
@@ -11,19 +11,19 @@ import numpy as np
 
 from .triangles import flipped_triangles, longest_edges, signed_areas
 
-# UV units: an edge below this is a dozen steps of a 32-bit number near 1 at most, so that a triangle without a longer
-# one cannot be drawn at all. As in the native report.
+# UV units: a shorter edge is at most a dozen steps of a 32-bit number near 1, so a triangle without a longer edge
+# cannot be drawn. As in the native report.
 RESOLUTION = 1e-6
-MOST = 500  # triangles to repair
-REACH = 3  # units in the last place that a coordinate may move by
+MOST = 500  # number of triangles to repair
+REACH = 3  # units in the last place that a coordinate may move
 STEPS = sorted(itertools.product(range(-REACH, REACH + 1), repeat=2), key=lambda step: step[0] ** 2 + step[1] ** 2)
 
 
 def rounded(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 2) in 32 bits, and which triangles (m, 3) are flipped then.
+    """Points (n, 2) in 32 bits, and which triangles (m, 3) are then flipped.
 
-    Where rounding turns a triangle over, one of its vertices takes another neighbour in the grid of the 32-bit numbers,
-    the nearest with which all triangles around it are right.
+    If rounding turns a triangle over, one of its vertices moves to the nearest neighbour in the grid of 32-bit numbers
+    where all triangles around it are right.
     """
     uv = points.astype(np.float32)
     flipped = flipped_triangles(triangles, uv)
@@ -43,12 +43,12 @@ def rounded(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _worth_it(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Which triangles (k, 3) are right before they are rounded, and large enough to be drawn."""
+    """Which triangles (k, 3) are right before rounding, and large enough to be drawn."""
     return (signed_areas(points, triangles) > 0.0) & (longest_edges(points[triangles]) >= RESOLUTION)
 
 
 def _turn_back(uv: np.ndarray, corners: list[int], around: dict[int, list[list[int]]]) -> None:
-    """Move one corner of a triangle by as few units in the last place as turn it back."""
+    """Move one corner of a triangle by the fewest units in the last place that turn it back."""
     if _area(uv, corners) > 0.0:
         return
     for step in STEPS[1:]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams and the cuts of a layout: edges that UVs are cut along, and seams along which a tube is unrolled."""
+"""Seams and cuts of a layout: edges along which UVs are cut, and seams along which a tube is unrolled."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from .surface import Island, Surface, next_corners
 
 
 def cut_edges(surface: Surface, uv: np.ndarray) -> np.ndarray:
-    """Whether the UVs (C, 2) of the faces at each edge (E,) lie apart there, of the selected faces alone."""
+    """Whether the UVs (C, 2) of the selected faces at each edge (E,) lie apart there."""
     following = next_corners(surface)
     corners = np.flatnonzero(np.repeat(surface.selected, surface.face_size))
     corners = corners[np.argsort(surface.corner_edge[corners], kind="stable")]
@@ -22,16 +22,16 @@ def cut_edges(surface: Surface, uv: np.ndarray) -> np.ndarray:
 
 
 def inner_seams(surface: Surface) -> np.ndarray:
-    """The seams (E,) that have selected faces on both sides."""
+    """The seams (E,) with selected faces on both sides."""
     chosen = np.repeat(surface.selected, surface.face_size)
     return surface.seam & (np.bincount(surface.corner_edge[chosen], minlength=len(surface.seam)) > 1)
 
 
 def tube_slits(surface: Surface, islands: list[Island]) -> np.ndarray:
-    """The seams (E,) that make disks of islands which would be tubes without them.
+    """The seams (E,) that make disks of islands that would otherwise be tubes.
 
-    An island that is a disk has such a path if both its sides lie in the island's boundary, and something else between
-    them at either end. Of several the longest is taken.
+    A disk has such a path if both sides of the path lie in its boundary, with other edges between them at either end.
+    Of several paths the longest is taken.
     """
     found = np.zeros(len(surface.seam), dtype=bool)
     if not surface.seam.any():
@@ -47,13 +47,13 @@ def tube_slits(surface: Surface, islands: list[Island]) -> np.ndarray:
 
 
 def _length(surface: Surface, corners: np.ndarray, following: np.ndarray) -> float:
-    """Of the edges that begin at these corners."""
+    """Length of the edges that begin at these corners."""
     ends = surface.corner_vertex[np.stack([corners, following[corners]])]
     return float(np.linalg.norm(np.diff(surface.positions[ends], axis=0), axis=-1).sum())
 
 
 def _boundary_of_disk(surface: Surface, island: Island, following: np.ndarray) -> np.ndarray:
-    """The corners whose edges bound an island, in order; none unless it is a disk."""
+    """The corners whose edges bound an island, in order; empty unless the island is a disk."""
     none = np.zeros(0, dtype=np.int64)
     edges = surface.corner_edge[island.corners]
     if not surface.seam[edges].any():
@@ -78,7 +78,7 @@ def _boundary_of_disk(surface: Surface, island: Island, following: np.ndarray) -
 
 
 def _paths_with_both_sides(edges: np.ndarray, vertices: np.ndarray) -> list[list[int]]:
-    """Places of the paths in a closed boundary whose edges are in it twice, run through in both directions.
+    """Places of the paths in a closed boundary that runs along them twice, in both directions.
 
     edges, vertices  (n,) along the boundary; a vertex is where its edge begins
     """

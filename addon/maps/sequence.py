@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The maps of one surface in several shapes, each laid over the first: frames of an animation, shape keys."""
+"""Maps one surface in several shapes, each laid over the first: frames of an animation, shape keys."""
 
 import dataclasses
 from collections.abc import Sequence
@@ -19,14 +19,14 @@ from .wording import counted
 if TYPE_CHECKING:
     import koebe
 
-ALIKE = 1e-6  # of the largest coordinate: so much may edges differ in shapes that have one form, by rounding to 32 bits
+ALIKE = 1e-6  # of the largest coordinate: rounding error to 32 bits of edges in equal shapes
 NAMED = 6  # shapes in one message
 
 
 class Shape(Protocol):
     """A shape of a surface.
 
-    positions  (V, 3), as of a `Surface`
+    positions  (V, 3), as in `Surface`
     """
 
     @property
@@ -37,14 +37,14 @@ class Shape(Protocol):
 
 @dataclasses.dataclass
 class SequenceOutcome(Outcome):
-    """What became of a surface in its shapes: a map of each, or nothing and the one that has none.
+    """The outcome of a surface in its shapes: a map of each, or only the shape that failed.
 
-    islands  those of the shape at fault
+    islands  those of the failed shape
     labels   of the shapes
     maps     in the order of the shapes; the names of their tasks name the shapes
     broken   the shape that could not be mapped
-    alike    the number of shapes that are one up to their places, and so have one map; 0 where they are not
-    written  what holds the UVs of each shape: a UV layer, or if not `in_layers` something else
+    alike    number of shapes that are equal up to their places, and so have one map; 0 otherwise
+    written  the UV layer for each shape or, if not `in_layers`, its attribute
     """
 
     labels: list[str]
@@ -56,12 +56,12 @@ class SequenceOutcome(Outcome):
 
     @property
     def name(self) -> str:
-        """Name of the surface's object, and of the shape at fault."""
+        """Name of the surface's object, and of the failed shape."""
         return self.task.name if self.broken is None else self.broken.name
 
     @property
     def mapped(self) -> list[SurfaceOutcome]:
-        """The maps that can be written, or were: all or none."""
+        """The maps that can be written, or were: all, or an empty list."""
         return [] if self.broken is not None or self.not_written else self.maps
 
     @property
@@ -74,7 +74,7 @@ class SequenceOutcome(Outcome):
         return self.converged and not self.alike
 
     def offending(self) -> list[tuple[str, np.ndarray]]:
-        """Nothing: what is shown is another shape."""
+        """Empty: the object shows another shape."""
         return []
 
     def line(self) -> str:
@@ -83,7 +83,7 @@ class SequenceOutcome(Outcome):
         return f"{self.task.name}: {self.figures()}, {seconds:.2f} s"
 
     def figures(self) -> str:
-        """What came out, over all maps."""
+        """Figures over all maps."""
         results = [one.result for made in self.maps for one in made.mapped]
         sweeps, angles = [result.sweeps for result in results], [made.mean_angle_error for made in self.maps]
         words = [
@@ -99,7 +99,7 @@ class SequenceOutcome(Outcome):
         return ", ".join(words)
 
     def said_warnings(self) -> list[str]:
-        """What to watch out for, each said once, with the shapes that it holds for unless these are all."""
+        """The warnings, each once, with the shapes that it applies to unless it applies to all."""
         found: dict[str, list[str]] = {}
         for label, made in zip(self.labels, self.maps, strict=True):
             for text in dict.fromkeys(made.said_warnings()):
@@ -110,7 +110,7 @@ class SequenceOutcome(Outcome):
         ]
 
     def entries(self) -> list[dict[str, Any]]:
-        """One entry of the JSON report per shape and island; `shape` and `written` tell which, and where it is."""
+        """One entry of the JSON report per shape and island; `shape` and `written` name the shape and its UVs."""
         if self.broken is not None:
             return [{**one, "object": self.task.name} for one in self.broken.entries()]
         return [
@@ -120,7 +120,7 @@ class SequenceOutcome(Outcome):
         ]
 
     def rows(self, layer: str) -> list[dict[str, Any]]:
-        """What the report keeps of each shape and island; its layer is that of the shape, if it has one."""
+        """Rows of the report for each shape and island. The layer is the shape's, if it has one."""
         if not self.mapped:
             return [self._failure_row()]
         said, layers = self.figures(), self.written if self.in_layers else [""] * len(self.written)
@@ -132,9 +132,9 @@ class SequenceOutcome(Outcome):
 
 
 def are_alike(shapes: Sequence[Shape], triangles: np.ndarray) -> bool:
-    """Whether all shapes have one form up to scale, by the edges of the triangles (t, 3): then they have one map.
+    """Whether all shapes are equal up to scale, by the edges of the triangles (t, 3): then they have one map.
 
-    Moved and turned they do, and bent without stretching.
+    Moving, turning and bending without stretching keeps them equal.
     """
     first = _edge_lengths(shapes[0].positions, triangles)
     for shape in shapes[1:]:
@@ -151,7 +151,7 @@ def _edge_lengths(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def named(labels: Sequence[str]) -> str:
-    """The first of the shapes, and how many more there are."""
+    """The first shapes' labels, and the number of the others."""
     more = [f"{len(labels) - NAMED} more"] if len(labels) > NAMED else []
     return ", ".join([*labels[:NAMED], *more])
 
@@ -163,10 +163,10 @@ def _from_to(least: int, most: int) -> str:
 def map_sequence(
     koebe: ModuleType, task: Task, shapes: Sequence[Shape], options: Options, progress: Progress | None, cancel: Any
 ) -> SequenceOutcome:
-    """Map the task's surface, which has the first shape, as `map_surfaces` does, and then the other shapes over it.
+    """Map the task's surface, in its first shape, by `map_surfaces`, and then the other shapes over it.
 
-    What a map leaves open, the outer loop, the cuts, the turn and the place in the UVs, is as in the first one. It ends
-    with the first shape that has no map. Raises `koebe.Cancelled`.
+    The free choices, which are outer loop, cuts, turn and place in the UVs, are as in the first map. Ends with the
+    first shape that has no map. Raises `koebe.Cancelled`.
     """
     kept = _Kept(koebe)
     outcome = SequenceOutcome(task, [], [shape.label for shape in shapes], [])
@@ -185,7 +185,7 @@ def map_sequence(
 
 
 class _Kept:
-    """The native package, except that its maps leave behind the surfaces that they are of, to be mapped again."""
+    """The native package, except that it keeps the surface of each map, to map it again."""
 
     def __init__(self, koebe: ModuleType) -> None:
         self._koebe = koebe
@@ -197,14 +197,14 @@ class _Kept:
     def uniformize(
         self, vertices: np.ndarray, triangles: np.ndarray, *, progress: Any, cancel: Any, engine: str, **options: Any
     ) -> "koebe.UniformizeResult":
-        """As that of the package, of its condensed engine, which alone can map again."""
+        """As the package's, with the condensed engine, which alone can map again."""
         surface = self._koebe.Surface(vertices, triangles, **options)
         result = surface.uniformize(progress=progress, cancel=cancel)
-        self._surfaces[id(result)] = result, surface  # the result too: no other can have its number then
+        self._surfaces[id(result)] = result, surface  # keep the result, too: then no other result gets its id
         return result
 
     def surface_of(self, result: "koebe.UniformizeResult") -> "koebe.Surface":
-        """The surface that a result is of."""
+        """The surface of a result."""
         return self._surfaces[id(result)][1]
 
 
@@ -214,7 +214,7 @@ def _of_shape(task: Task, shape: Shape) -> Task:
 
 
 def _saying(progress: Progress | None, shape: Shape) -> Progress | None:
-    """Progress whose stage is the shape."""
+    """Progress with the shape as its stage."""
     if progress is None:
         return None
     return lambda fraction, stage: progress(fraction, f"mapping {shape.label}")
@@ -239,7 +239,7 @@ def _next_map(
                 vertices, progress=share_of(progress, done, size, total), cancel=cancel
             )
             one.shape = one.result.uv
-            if not np.isfinite(one.uv).all():  # worked out here, on this thread
+            if not np.isfinite(one.uv).all():  # computed here, on this thread
                 raise MapError("its UVs are not finite")
             judge_island(kept, one, most_lost)  # type: ignore[arg-type]
         ones.append(one)
@@ -248,7 +248,7 @@ def _next_map(
 
 
 def point_values(surface: Surface, corners: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """Vertices (k,) and their UVs (k, 2), given those (m, 2) of corners (m,); None where corners of a vertex differ."""
+    """Vertices (k,) and their UVs (k, 2), from UVs (m, 2) of corners (m,); None if corners of a vertex differ."""
     vertex = surface.corner_vertex[corners]
     values = np.zeros((len(surface.positions), 2), dtype=uv.dtype)
     values[vertex] = uv

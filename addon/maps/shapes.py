@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes by their circle domains: what tells them apart, how far they are from each other."""
+"""Compares shapes by their circle domains: their modules, and the distances between them."""
 
 import dataclasses
 from types import ModuleType
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 class ShapeError(KnownError):
-    """A surface that cannot be compared with another, or carry its texture."""
+    """A surface that cannot be compared with another, or cannot carry its texture."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Shape:
     """A surface of one island, mapped to its circle domain with the longest loop outside.
 
-    result  what `koebe.uniformize` gave, in the vertices of the island
+    result  of `koebe.uniformize`, in the vertices of the island
     """
 
     name: str
@@ -34,7 +34,7 @@ class Shape:
 
 @dataclasses.dataclass
 class Comparison:
-    """How a shape compares with the first one: its distance, or why there is none."""
+    """The comparison of a shape with the first one: its distance, or why there is none."""
 
     name: str
     distance: float | None = None
@@ -50,9 +50,9 @@ def map_shape(
     cancel: Any = None,
     outer: str | int = "longest",
 ) -> Shape:
-    """The `Shape` of a surface. Raises ShapeError; `koebe.Cancelled` passes.
+    """The `Shape` of a surface. Raises ShapeError and `koebe.Cancelled`.
 
-    The disk is balanced where its holes do not say where its centre is.
+    The disk is balanced if its holes do not determine its centre.
     """
     islands = cut_into_islands(surface)
     if len(islands) != 1:
@@ -77,7 +77,7 @@ def module(koebe: ModuleType, shape: Shape) -> list[tuple[str, float]]:
 
 
 def compare(koebe: ModuleType, first: Shape, other: Shape) -> Comparison:
-    """The `Comparison` of two shapes: the distance of their modules, corresponding loops found by best fit."""
+    """The `Comparison` of two shapes: the distance of their modules, with corresponding loops found by best fit."""
     mine, yours = len(first.result.loops), len(other.result.loops)
     if mine != yours:
         return Comparison(other.name, message=f"{yours} loops, not {mine}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Computations side by side on the cores: the native package leaves Python alone while it computes."""
+"""Computations side by side on the cores: the native package does not need Python while it computes."""
 
 import collections
 import concurrent.futures
@@ -10,25 +10,25 @@ from typing import Generic, TypeVar
 
 from .outcomes import Progress
 
-MOST_IN_HAND = 1_000_000  # triangles of all that run at once, for the memory's sake; a larger one runs alone
-POLL_SECONDS = 0.05  # how often progress is passed on
+MOST_IN_HAND = 1_000_000  # triangles of all running computations, to limit memory; a larger one runs alone
+POLL_SECONDS = 0.05  # interval of progress reports
 
 T = TypeVar("T")
 
 
 @dataclasses.dataclass(frozen=True)
 class Unit(Generic[T]):
-    """A computation by itself: `compute(progress)` may run on any thread; `size` is that of its work, in triangles."""
+    """A computation: `compute(progress)` may run on any thread; `size` is its work in triangles."""
 
     size: int
     compute: Callable[[Progress | None], T]
 
 
 def core_count() -> int:
-    """How many threads of this process can run at once."""
+    """The number of threads of this process that can run at once."""
     try:
         return len(os.sched_getaffinity(0))
-    except AttributeError:  # there is no such thing on Windows and macOS
+    except AttributeError:  # Windows and macOS do not have it
         return os.cpu_count() or 1
 
 
@@ -39,12 +39,12 @@ def side_by_side(
     stop: Callable[[], None],
     counts: Callable[[T], bool],
 ) -> list[T]:
-    """The results of the units, in their order, whichever ends first.
+    """The results of the units in their order, whichever ends first.
 
-    At most `threads` run at once, 0: one for each core. `progress` is called on this thread, with the share of all work
-    that is done; with one unit or one thread everything runs on it. Work of a unit whose result does not `counts` is to
-    be done again by somebody else. If a unit, or `progress`, raises, `stop` is called so that the other ones end soon,
-    they are awaited, and the error goes on.
+    At most `threads` run at once, 0: one for each core. `progress` is called on this thread with the finished share of
+    all work. With one unit or one thread everything runs on this thread. Work of a unit whose result does not `counts`
+    must be done again by the caller. If a unit or `progress` raises, calls `stop` so that the others end soon, waits
+    for them, and raises the error.
     """
     threads = min(threads or core_count(), len(units))
     shared = _Shared([unit.size for unit in units], progress)
@@ -55,7 +55,7 @@ def side_by_side(
             shared.fractions[index] = float(counts(alone[-1]))
         return alone
     results: dict[int, T] = {}
-    # The largest first, so that all cores are busy to the end.
+    # Start with the largest, so that all cores are busy to the end.
     waiting = collections.deque(sorted(range(len(units)), key=lambda index: -units[index].size))
     running: dict[concurrent.futures.Future[T], int] = {}
     with concurrent.futures.ThreadPoolExecutor(threads, thread_name_prefix="koebe") as pool:
@@ -84,7 +84,7 @@ def _has_room(units: Sequence[Unit[T]], running: "collections.abc.ValuesView[int
 
 
 class _Shared:
-    """The progress of all units: each notes its own, and one thread tells the sum, which never falls."""
+    """The progress of all units. Each unit notes its own, and one thread reports the sum, which never falls."""
 
     def __init__(self, sizes: list[int], progress: Progress | None) -> None:
         self.fractions = [0.0] * len(sizes)
@@ -92,7 +92,7 @@ class _Shared:
         self._stage, self._told = "", (0.0, "")
 
     def of(self, index: int, tell: bool) -> Progress | None:
-        """The progress of one unit; `tell` if it is on the thread that tells."""
+        """The progress of one unit; `tell` if its thread reports the sum."""
         if self._progress is None:
             return None
 

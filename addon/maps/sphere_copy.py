@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mapped surfaces as spheres in space: the same faces, each island on a sphere of its own."""
+"""Mapped surfaces as spheres in space: the same faces, with each island on its own sphere."""
 
 import dataclasses
 
@@ -7,7 +7,7 @@ import numpy as np
 
 from .spheres import SphereOutcome
 
-GAP = 0.1  # between two spheres, of the radius of the second
+GAP = 0.1  # between two spheres, over the radius of the second
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,7 +30,7 @@ class SphereCopy:
 
 
 def sphere_copy(outcome: SphereOutcome) -> SphereCopy:
-    """The mapped islands of a surface, each as large as it is: the sphere's area is the island's."""
+    """The mapped islands of a surface. Each sphere has the area of its island."""
     surface, at, count = outcome.task.surface, 0.0, 0
     points, vertices = [], []
     for one in outcome.mapped:

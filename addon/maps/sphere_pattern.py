@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether UVs are the layout of a sphere, read off the UVs themselves, and checkers that run over their cuts."""
+"""Detects UVs that are a sphere's layout, from the UVs themselves, and finds checkers that fit their cuts."""
 
 import numpy as np
 
@@ -8,11 +8,11 @@ from .tile_pattern import REPEAT, CutSides, Pattern, cut_sides
 
 
 def sphere_pattern(surface: Surface, uv: np.ndarray, size: float) -> Pattern | None:
-    """The checker nearest to one of so many squares across the UV square that runs over the cuts of a sphere's layout;
-    None where UVs (C, 2) have a cut that is none of such a layout.
+    """The checker nearest to one with so many squares across the UV square that continues over the cuts of a sphere's
+    layout; None if UVs (C, 2) have a cut that no such layout has.
 
-    Longitudes and latitudes: u has the period 1, and the squares are half as many along v, where the sphere is half as
-    long. The octahedron folded out: half turns round the middles of the square's sides leave the checker as it is.
+    Longitudes and latitudes: u has the period 1, and there are half as many squares along v, where the sphere is half
+    as long. Octahedron folded out: half turns round the middles of the square's sides do not change the checker.
     """
     sides = cut_sides(surface, uv)
     if not len(sides.piece):
@@ -24,8 +24,8 @@ def sphere_pattern(surface: Surface, uv: np.ndarray, size: float) -> Pattern | N
 
 
 def _are_longitudes(sides: CutSides, surface: Surface, uv: np.ndarray) -> bool:
-    """Whether both ends of each cut lie apart by whole turns, poles aside, and it is no cylinder: its cuts end at a
-    pole, which is a vertex or in a torn face, or both poles are in holes and so out of reach."""
+    """Whether both ends of each cut lie apart by whole turns, except at poles, and the UVs are not a cylinder: the cuts
+    end at a pole, which is a vertex or in a torn face, or both poles are in holes."""
     here, there = sides.ends[:, :, 0], sides.ends[:, :, 1]  # (n, 2, 2): cut, end, u and v
     apart = here - there
     at_pole = (here[..., 1] == 0.0) | (here[..., 1] == 1.0)
@@ -40,13 +40,13 @@ def _are_longitudes(sides: CutSides, surface: Surface, uv: np.ndarray) -> bool:
 
 
 def _are_folded_out(sides: CutSides) -> bool:
-    """Whether both ends of each cut are images of each other under the layout's half turns and their products."""
+    """Whether the layout's half turns and their products take the ends of each cut to each other."""
     here, there = sides.ends[:, :, 0], sides.ends[:, :, 1]
     half_turn = _are_whole(here + there, 1)
     return bool(half_turn.any() and (half_turn | _are_whole(here - there, 0)).all())
 
 
 def _are_whole(shift: np.ndarray, parity: int) -> np.ndarray:
-    """Whether shifts (..., 2) are whole, their sum even or odd."""
+    """Whether shifts (..., 2) are whole, and their sum is even or odd."""
     whole = np.rint(shift)
     return (whole == shift).all(axis=-1) & (whole.sum(axis=-1) % 2 == parity)

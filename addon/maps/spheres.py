@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces without handles as spheres: from a surface to UV coordinates of its corners."""
+"""Maps surfaces without handles to spheres, with UV coordinates per corner."""
 
 import dataclasses
 import functools
@@ -20,16 +20,16 @@ WHERE_TORN = {"equirectangular": "round a pole", "octahedral": "round the middle
 
 @dataclasses.dataclass
 class SphereIsland(DomainIsland):
-    """What became of one island: a result of `koebe.sphere_map`, or an error.
+    """The outcome of one island: a result of `koebe.sphere_map`, or an error.
 
-    torn     triangles (k,) that fit to no UVs of the layout
+    torn     triangles (k,) that no UVs of the layout fit
     """
 
     torn: np.ndarray = LATER
 
     @functools.cached_property
     def density_ratio(self) -> float:
-        """On the sphere: length per length on the surface, at 95 % of the area over that at 5 %."""
+        """On the sphere: length per length on the surface, at 95 % of the area over the value at 5 %."""
         return density_ratio(self.island.areas, areas(self.result.points, self.island.triangles))
 
     @property
@@ -38,18 +38,18 @@ class SphereIsland(DomainIsland):
         return np.unique(self.island.triangle_face[self.torn])
 
     def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
-        """As of `DomainIsland`."""
+        """As in `DomainIsland`."""
         super().map(koebe, task, choice, loops, **run)
         self.torn = np.asarray(self.result.layout["torn"], dtype=np.int64)
 
 
 class SphereOutcome(DomainOutcome):
-    """What became of one surface: each island has the layout for itself."""
+    """The outcome of one surface: each island has the layout to itself."""
 
     kind = SphereIsland
 
     def notes(self) -> list[tuple[SphereIsland, str]]:
-        """Faces that fit nowhere."""
+        """Notes on torn faces."""
         where = f"{WHERE_TORN[self.choice.layout]} torn in the UVs: none fit there"
         found = [(one, len(one.torn_faces)) for one in self.mapped]
         return [(one, f"{counted(count, 'face')} {where}") for one, count in found if count]
@@ -60,7 +60,7 @@ class SphereOutcome(DomainOutcome):
         return [self.choice.layout, counted(caps, "cap"), f"{torn} torn"]
 
     def _adapt(self, one: SphereIsland, result: dict[str, Any]) -> None:
-        """All else is of the sphere; `layout` is of the UVs."""
+        """`layout` is about the UVs, all else about the sphere."""
         for key in ("crossing", "torn", "flipped", "below_resolution"):
             result["layout"][key] = one.faces(result["layout"][key])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender's UVs, which have 32 bits, hold of a map: how true their angles are, and what of the surface is lost."""
+"""Judges a map as Blender's 32-bit UVs store it: how true its angles are, and how much area is lost."""
 
 import dataclasses
 from types import ModuleType
@@ -28,12 +28,12 @@ class Stored:
         return float(self.report["angle_error_stored_deg"]["mean"])
 
     def figures(self) -> dict[str, Any]:
-        """By the names of `koebe.MapReport`."""
+        """The figures under the names of `koebe.MapReport`."""
         return {name: self.report[name] for name in ("lost_area", "angle_error_stored_deg")}
 
 
 class LostAreaError(MapError):
-    """A map of which too much is lost. `elements` are the triangles of it; `offer` are the operators that serve."""
+    """A map that loses too much area. `elements` are the lost triangles; `offer` names operators for such surfaces."""
 
     kind = "lost_area"
 
@@ -46,7 +46,7 @@ SERVES = {"parts": "Unwrap to Parts", "uniformize": "Koebe Uniformize"}
 
 
 def lost_text(share: float) -> str:
-    """What to say of a share of the area that is lost."""
+    """The sentence about a lost share of the area."""
     told = f"{100.0 * share:.0f}" if share >= 0.1 else f"{100.0 * share:.2g}"
     return f"{told} % of its area is lost: faces there have no area in the UVs"
 
@@ -67,12 +67,12 @@ def judge(
 def judge_corners(
     koebe: ModuleType, vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray, turned: np.ndarray
 ) -> Stored:
-    """The same of UVs (t, 3, 2) of the triangles' corners."""
+    """The verdict on UVs (t, 3, 2) of the triangles' corners."""
     return judge(koebe, vertices[triangles].reshape(-1, 3), _apart(len(uv)), uv.reshape(-1, 2), turned)
 
 
 def flipped_corners(uv: np.ndarray, turned: np.ndarray) -> np.ndarray:
-    """Triangles (k,) without a positive area in such UVs."""
+    """Triangles (k,) without positive area in these UVs."""
     area = signed_areas(uv.reshape(-1, 2), _apart(len(uv)))
     area[turned] *= -1.0
     return np.flatnonzero(area <= 0.0)

@@ -40,10 +40,10 @@ class Surface:
 
 @dataclasses.dataclass(frozen=True)
 class Island:
-    """A piece of a surface that no seam divides: n vertices, t triangles, c corners.
+    """A connected piece of a surface without seams inside: n vertices, t triangles, c corners.
 
-    A vertex that the cut passes through is here once for every side of the cut. Vertices keep the
-    order of the surface, so that an uncut surface is its own island, array for array.
+    A vertex on a cut has a copy for every side of the cut. Vertices keep the order of the surface, so that an uncut
+    surface is its own island, array for array.
 
     vertices      (n, 3) positions
     triangles     (t, 3) int32, indices into `vertices`
@@ -75,7 +75,7 @@ class Island:
 
 
 def next_corners(surface: Surface) -> np.ndarray:
-    """The corner (C,) that follows on each one in its face."""
+    """The corner (C,) that follows each corner in its face."""
     following = np.arange(1, len(surface.corner_vertex) + 1, dtype=np.int32)
     following[surface.face_start + surface.face_size - 1] = surface.face_start
     return following

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mapped islands made exactly symmetric in the same run."""
+"""Makes mapped islands exactly symmetric in the same run."""
 
 from types import ModuleType
 
@@ -9,11 +9,11 @@ from .circle_domain import DomainError, domain_in
 from .disk_outcomes import IslandOutcome
 from .mirror import symmetric
 
-WORSE, NOISE = 1.05, 0.05  # times the angle error, and degrees beside: what symmetry may cost
+WORSE, NOISE = 1.05, 0.05  # factor on the angle error, plus degrees: the allowed cost of symmetry
 
 
 def make_symmetric(koebe: ModuleType, one: IslandOutcome) -> None:
-    """Make a mapped and placed island exactly symmetric, or note why it stays as it is."""
+    """Make a mapped and placed island exactly symmetric, or note why it does not change."""
     if one.unrolled:
         one.remark = "not made symmetric: it is unrolled"
         return

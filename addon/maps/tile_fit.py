@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tiles brought to periods that a repeated image has, so that 32-bit UVs still differ by them to the last bit."""
+"""Fits tiles to the periods of a repeated image, so that 32-bit UVs still differ by them to the last bit."""
 
 import dataclasses
 
@@ -8,16 +8,16 @@ import numpy as np
 from .errors import MapError
 
 BITS = 24  # of a 32-bit float's significand
-LONGEST = 1 << 12  # of a tile, in periods: beyond, 32-bit UVs leave too little of each period
+LONGEST = 1 << 12  # of a tile, in periods: a longer one leaves too few bits for each period
 
 
 @dataclasses.dataclass(frozen=True)
 class FittedTile:
-    """A tile as 32-bit UVs hold it: all coordinates are whole multiples of `grid`.
+    """A tile as 32-bit UVs store it: all coordinates are whole multiples of `grid`.
 
     uv       (t, 3, 2) of the triangles' corners
     periods  (k, 2), 64 bits
-    move     the map from the tile before: x -> move[0] @ x + move[1]
+    move     the map from the former tile: x -> move[0] @ x + move[1]
     """
 
     uv: np.ndarray
@@ -34,7 +34,7 @@ def fitted(uv: np.ndarray, triangles: np.ndarray, periods: np.ndarray, fit: str)
     if fit == "inside":
         return FittedTile(uv.astype(np.float32), periods, 2.0**-BITS, (np.eye(2), np.zeros(2)))
     matrix, exact = _matrix(uv, periods, fit)
-    # One place of each vertex, and how many of each period its corners are away from there: so they stay together.
+    # Take one place of each vertex, and the number of periods between it and its corners, so that they stay together.
     corner_vertex, corner_uv = triangles.ravel(), uv.reshape(-1, 2)
     vertices, first, number = np.unique(corner_vertex, return_index=True, return_inverse=True)
     number = number.reshape(-1)
@@ -53,7 +53,7 @@ def fitted(uv: np.ndarray, triangles: np.ndarray, periods: np.ndarray, fit: str)
 
 
 def _matrix(uv: np.ndarray, periods: np.ndarray, fit: str) -> tuple[np.ndarray, np.ndarray]:
-    """The linear map, and the periods (k, 2) that it makes: the first one is along u."""
+    """The linear map, and the resulting periods (k, 2), the first along u."""
     length = float(periods[0, 0])
     if not length > 1.0 / LONGEST:
         raise MapError("its tile is too long for UVs of 32 bits: take Fit: Inside")
@@ -67,7 +67,7 @@ def _matrix(uv: np.ndarray, periods: np.ndarray, fit: str) -> tuple[np.ndarray, 
 
 
 def _in_periods(difference: np.ndarray, periods: np.ndarray) -> np.ndarray:
-    """How many (n, k) of each period differences (n, 2) are."""
+    """The number (n, k) of each period in differences (n, 2)."""
     if len(periods) == 2:
         return difference @ np.linalg.inv(periods)
     return difference[:, :1] / periods[0, 0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The periods of UVs that are a tile, read off the UVs themselves, and checkers that fit them."""
+"""Finds the periods of UVs that are a tile, from the UVs themselves, and checkers that fit them."""
 
 import dataclasses
 import math
@@ -11,13 +11,13 @@ from .surface import Surface, next_corners
 
 GRID = 2.0**24  # steps of UVs between 0 and 1: periods of a tile are whole numbers of them
 FARTHEST = 2.0**12  # UV units between the sides of a cut
-MOST_SHIFTS = 256  # distinct ones across the cuts of a tile: it has few
-SHORTEST = 1e-3  # UV units: a lattice with a shorter period is none that a pattern could have
-REPEAT = 8  # squares along u after which the checker is the same: two of its coarse ones, of 4 squares each
+MOST_SHIFTS = 256  # distinct shifts across the cuts of a tile, which has few
+SHORTEST = 1e-3  # UV units: a lattice with a shorter period cannot be a pattern's
+REPEAT = 8  # squares along u until the checker repeats: two coarse ones, of 4 squares each
 HALF = REPEAT // 2
-SEEN = 0.02  # of a square: a step of less is not seen
-FREEDOM = 1.5  # factor by which squares may be larger or smaller than asked for, so that they fit
-SIZE_WEIGHT = 0.15  # of the logarithm of that factor, over that of the squares' stretch
+SEEN = 0.02  # of a square: a smaller step is invisible
+FREEDOM = 1.5  # factor by which squares may differ from the requested size in order to fit
+SIZE_WEIGHT = 0.15  # weight of that factor's logarithm against the logarithm of the squares' stretch
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,8 +29,8 @@ class Pattern:
 
 
 def lattices_of(surface: Surface, uv: np.ndarray) -> list[np.ndarray]:
-    """The shortest periods (1 or 2, 2) by which the sides of cuts in UVs (C, 2) differ, of each tile; the one with the
-    most faces first.
+    """The shortest periods (1 or 2, 2) by which the sides of cuts in UVs (C, 2) differ, for each tile; the tile with
+    the most faces first.
 
     A tile is a piece of the UVs whose cuts are shifts, to the last bit.
     """
@@ -47,9 +47,9 @@ def lattices_of(surface: Surface, uv: np.ndarray) -> list[np.ndarray]:
 
 @dataclasses.dataclass(frozen=True)
 class CutSides:
-    """The cuts of UVs with the same piece of these on both sides.
+    """The cuts of UVs whose two sides are in the same piece.
 
-    ends     (n, 2, 2, 2) UVs, 64 bits: of each cut its two ends, of each end both sides
+    ends     (n, 2, 2, 2) UVs, 64 bits: the two ends of each cut, both sides of each end
     piece    (n,) the cut's piece, by the number of its first face
     of_face  (P,) the piece of each face
     """
@@ -79,14 +79,14 @@ def cut_sides(surface: Surface, uv: np.ndarray) -> CutSides:
 
 
 def _shifts(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of the cuts within each piece of the UVs, if all of them are shifts: these (n, 2), in steps of the grid, and
-    their pieces (n,); and the faces (P,) of each piece, by the number of its first face."""
+    """The shifts (n, 2) across the cuts within each piece of the UVs, if all its cuts are shifts, in grid steps; the
+    pieces (n,) of these; and the piece (P,) of each face, by the number of its first face."""
     sides = cut_sides(surface, uv)
     with np.errstate(invalid="ignore"):
         at_start, at_end = (sides.ends[:, end, 0] - sides.ends[:, end, 1] for end in (0, 1))
     steps = at_start * GRID
     whole = (at_start == at_end).all(axis=1) & (steps == np.rint(steps)).all(axis=1)
-    whole &= (np.abs(steps) < FARTHEST * GRID).all(axis=1)  # nor what is not finite
+    whole &= (np.abs(steps) < FARTHEST * GRID).all(axis=1)  # must also be finite
     of_piece, piece = sides.piece, sides.of_face
     is_tile = np.ones(len(surface.face_size), dtype=bool)
     is_tile[of_piece[~whole]] = False
@@ -95,7 +95,7 @@ def _shifts(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
 
 
 def _basis(shifts: np.ndarray) -> tuple[tuple[int, int], ...] | None:
-    """A reduced basis of the lattice that shifts (n, 2) generate, of one period or two, or None."""
+    """A reduced basis, of one or two periods, of the lattice that shifts (n, 2) generate, or None."""
     if len(shifts) > MOST_SHIFTS:
         return None
     (a, b), c = (0, 0), 0  # (a, b) and (0, c)
@@ -124,20 +124,20 @@ def _basis(shifts: np.ndarray) -> tuple[tuple[int, int], ...] | None:
 
 
 def _positive(vector: tuple[int, int]) -> tuple[int, int]:
-    """The vector or its opposite: to the right, or up."""
+    """The vector or its opposite, whichever points right, or up."""
     return vector if vector > (0, 0) else (-vector[0], -vector[1])
 
 
 def fitting_pattern(periods: np.ndarray, size: float) -> Pattern:
-    """The checker nearest to one of so many squares across the UV square that is the same after each of the periods
-    (1 or 2, 2), coarse squares and all."""
+    """The checker nearest to one with so many squares across the UV square that repeats after each of the periods (1 or
+    2, 2), coarse squares included."""
     first = complex(*periods[0])
     if len(periods) == 1:
         scale = REPEAT * max(1, round(abs(first) * size / REPEAT)) / abs(first)
         turn = 1.0 if 0.0 in (first.real, first.imag) else first.conjugate() / abs(first)
         return _plain_if_so(size, np.array([scale * turn, 1j * scale * turn]))
     second = complex(*periods[1])
-    inverse = np.linalg.inv(periods)  # rows: how many periods the UV axes are
+    inverse = np.linalg.inv(periods)  # rows: the UV axes in periods
     best, least = None, math.inf
     ideal = abs(first) * size
     for n in {max(1, round(ideal * factor / REPEAT)) for factor in np.geomspace(1.0 / FREEDOM, FREEDOM, 33)}:
@@ -152,7 +152,7 @@ def fitting_pattern(periods: np.ndarray, size: float) -> Pattern:
 
 
 def fits(pattern: Pattern, periods: np.ndarray) -> bool:
-    """Whether a checker is the same after each of the periods (k, 2), to the eye."""
+    """Whether a checker visibly repeats after each of the periods (k, 2)."""
     matrix = np.diag([pattern.size] * 2) if pattern.matrix is None else np.reshape(pattern.matrix, (2, 2))
     coarse = periods @ matrix.T / HALF
     whole = np.rint(coarse)
@@ -160,7 +160,7 @@ def fits(pattern: Pattern, periods: np.ndarray) -> bool:
 
 
 def _whole_near(wanted: complex) -> list[complex]:
-    """Shifts near this one, upwards, after which the checker is the same."""
+    """Shifts near this one, upwards, after which the checker repeats."""
     u, v = round(wanted.real / HALF), max(1, round(wanted.imag / HALF))
     near = [(u + i, v + j) for i in (-1, 0, 1) for j in (-1, 0, 1) if v + j > 0]
     return [complex(HALF * a, HALF * b) for a, b in near if (a + b) % 2 == 0]
@@ -173,7 +173,7 @@ def _stretch(images: np.ndarray) -> float:
 
 
 def _plain_if_so(size: float, images: np.ndarray) -> Pattern:
-    """The pattern by the images of the UV axes: a plain one where they are only scaled."""
+    """The pattern with these images of the UV axes: a plain one if they are only scaled."""
     one, two = complex(images[0]), complex(images[1])
     if abs(two - 1j * one) < 1e-9 * abs(one) and abs(one.imag) < 1e-9 * abs(one):
         return Pattern(one.real)

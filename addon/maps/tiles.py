@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces as tiles of flat tori and cylinders: from a surface to UV coordinates of its corners."""
+"""Maps surfaces to tiles of flat tori and cylinders, with UV coordinates per corner."""
 
 import dataclasses
 from types import ModuleType
@@ -19,14 +19,14 @@ from .wording import counted, own_warning
 if TYPE_CHECKING:
     from koebe import TileMap
 
-UP = (2, 1)  # axes that may be up: of a ring's two rims the lower one is where v is 0
+UP = (2, 1)  # axes that may be up: v is 0 at the lower of a ring's two rims
 
 
 @dataclasses.dataclass
 class TileIsland(DomainIsland):
-    """What became of one island: a result of `koebe.torus_map` or `koebe.ring_map` and its tile, or an error.
+    """The outcome of one island: a result of `koebe.torus_map` or `koebe.ring_map` and its tile, or an error.
 
-    tile  fitted as it was asked for
+    tile  with the requested fit
     """
 
     tile: FittedTile = LATER
@@ -44,7 +44,7 @@ class TileIsland(DomainIsland):
         return (float(x), float(y)), float(loop["radius"] * matrix[0, 0])
 
     def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
-        """As of `DomainIsland`."""
+        """As in `DomainIsland`."""
         arguments: dict[str, Any] = {}
         if choice.domain.name == "ring":
             outer, inner = rims_of(self.island, loops, choice.rims, task.picked)
@@ -56,7 +56,7 @@ class TileIsland(DomainIsland):
 
 
 class TileOutcome(DomainOutcome):
-    """What became of one surface: each island fills the UV square for itself."""
+    """The outcome of one surface: each island fills the UV square by itself."""
 
     kind = TileIsland
 
@@ -75,7 +75,7 @@ class TileOutcome(DomainOutcome):
         return entry if one.result is None else {**entry, "fit": self.choice.fit}
 
     def _adapt(self, one: TileIsland, result: dict[str, Any]) -> None:
-        """Loops, periods and angles are those of the tile as it is fitted."""
+        """Loops, periods and angles are those of the fitted tile."""
         is_square, (matrix, offset) = self.choice.fit == "square", one.tile.move
         for loop in result["loops"]:
             if "slit" in loop:
@@ -102,7 +102,7 @@ class TileOutcome(DomainOutcome):
 
 
 def modulus_text(result: "TileMap") -> str:
-    """Of a torus the ratio of its periods, of a cylinder i times its height over its period."""
+    """For a torus the ratio of its periods, for a cylinder i times its height over its period."""
     real = f"{round(result.modulus.real, 3) + 0.0:.3f} + " if len(result.periods) > 1 else ""  # never -0
     return f"{real}{result.modulus.imag:.3f} i"
 
@@ -113,9 +113,9 @@ def periods_text(tile: FittedTile) -> str:
 
 
 def rims_of(island: Island, loops: list[np.ndarray], rims: str, picked: np.ndarray | None) -> tuple[int, int]:
-    """A vertex of each of the two rims of a ring: the lower one in space first, or else the longer one.
+    """A vertex of each of the two rims of a ring: of the lower rim in space first, or else of the longer one.
 
-    Raises MapError where they are to be the selected ones, and these are not two.
+    Raises MapError if the rims must be the selected loops, and these are not two.
     """
     touched = [] if picked is None else [loop for loop in loops if picked[island.source_vertex[loop]].any()]
     if rims == "selected" and len(touched) != 2:

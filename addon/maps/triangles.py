@@ -5,12 +5,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-# Triangles at a time: what is computed on the way then stays in the processor's cache, and needs no new memory.
+# Triangles per block: intermediate values then stay in the processor's cache, and need no new memory.
 BLOCK = 1 << 13
 
 
 def blocks(count: int) -> Iterator[slice]:
-    """Slices of at most BLOCK items that cover `count` ones."""
+    """Slices of at most BLOCK items that cover `count` items."""
     return (slice(first, first + BLOCK) for first in range(0, count, BLOCK))
 
 
@@ -30,7 +30,7 @@ def spanned_areas(one: np.ndarray, two: np.ndarray) -> np.ndarray:
 
 
 def signed_areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Area (t,) of triangles in the plane, positive if counter-clockwise; in 64 bits, whatever the points have."""
+    """Area (t,) of triangles in the plane, positive if counter-clockwise, in 64 bits for any points."""
     result, z = np.empty(len(triangles)), as_complex(points)
     for part in blocks(len(triangles)):
         a, b, c = (z.take(corner) for corner in triangles[part].T)
@@ -39,7 +39,7 @@ def signed_areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def density_ratio(in_space: np.ndarray, in_plane: np.ndarray) -> float:
-    """Texel density (a length over a length) at 95 % of the area over that at 5 %, by the areas (t,) of triangles."""
+    """Texel density (a length over a length) at 95 % of the area over that at 5 %, from areas (t,) of triangles."""
     known = (in_space > 0.0) & (in_plane > 0.0)
     if not known.any():
         return 1.0
@@ -66,5 +66,5 @@ def as_points(z: np.ndarray) -> np.ndarray:
 
 
 def flipped_triangles(triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    """Which triangles (m, 3) have a signed area, in 32-bit UVs (n, 2) of the vertices, that is not positive."""
+    """Which triangles (m, 3) have no positive signed area in 32-bit UVs (n, 2) of the vertices."""
     return np.flatnonzero(signed_areas(uv, triangles) <= 0.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Unrolls annuli to conformal rectangles, with a wrap seam in the UVs only."""
+"""Unrolls annuli to conformal rectangles, with a seam in the UVs only."""
 
 import dataclasses
 import heapq
@@ -13,18 +13,18 @@ from .islands import cut_into_islands
 from .surface import Island, Surface, next_corners
 from .triangles import as_complex, as_points
 
-# An island, its UVs, its outer and inner loop, and whether it is a piece of one that was cut elsewhere than at seams.
+# An island, its UVs, its outer and inner loop, and whether it is a piece of an island that was cut beyond its seams.
 Tube = tuple[Island, np.ndarray, Sequence[np.ndarray], bool]
 
 
 def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.ndarray] | None]:
-    """Each of some islands with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
+    """Each island with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
 
     A tube is (island, uv, loops, is_piece): `uv` maps the island to the unit disk with a round hole; `loops` are its
-    outer and inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: around
-    is along u, from loop to loop is along v. Both are conformal, so angles stay. The cut runs along a short path of
-    edges from loop to loop, which ends at the back, where y is largest; a vertex on it comes out once for either side.
-    The rectangle is centred at 0 and lies in the unit disk.
+    outer and inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: u runs
+    around, v from loop to loop. Both maps are conformal, so angles stay. The cut runs along a short path of edges from
+    loop to loop, which ends at the back, where y is largest. A vertex on the cut gets a copy for each side. The
+    rectangle is centred at 0 and lies in the unit disk.
     """
     if not tubes:
         return []
@@ -38,7 +38,7 @@ def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[t
         edges, first, uses = np.unique(surface.corner_edge[island.corners], return_index=True, return_counts=True)
         if is_piece:
             seam[_piece_cuts(surface, island, vertex, following)] = True
-        inside = (uses == 2) & ~seam[edges]  # to cut along a boundary cuts nothing
+        inside = (uses == 2) & ~seam[edges]  # a cut along a boundary has no effect
         edges, corners = edges[inside], island.corners[first[inside]]
         ends = np.stack([vertex[corners], vertex[following[corners]]], axis=1)
         length = _wrapped_distance(log[ends[:, 0]], log[ends[:, 1]])
@@ -50,7 +50,7 @@ def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[t
     result = []
     for (island, _, _, is_piece), (log, cut) in zip(tubes, opened, strict=True):
         sheet = with_first_face[int(island.faces[0])]
-        whole = cut and len(sheet.triangles) == len(island.triangles)  # else the path has cut off a piece
+        whole = cut and len(sheet.triangles) == len(island.triangles)  # otherwise the path has cut off a piece
         if whole and is_piece:
             sheet = _turned_like(sheet, island)
         result.append((sheet, _rectangle(sheet, island, log)) if whole else None)
@@ -59,7 +59,7 @@ def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[t
 
 def _rectangle(sheet: Island, island: Island, log: np.ndarray) -> np.ndarray:
     """Points (n, 2) of the sheet in the plane of i log z, in the unit disk."""
-    whole = np.empty(len(sheet.source_vertex), dtype=np.int64)  # vertex of the island for each one of the sheet
+    whole = np.empty(len(sheet.source_vertex), dtype=np.int64)  # the island's vertex for each vertex of the sheet
     whole[sheet.corner_vertex] = island.corner_vertex
     log = log[whole]
     flat = 1j * (log + 2j * np.pi * _branches(log, sheet.triangles))
@@ -69,7 +69,7 @@ def _rectangle(sheet: Island, island: Island, log: np.ndarray) -> np.ndarray:
 
 
 def _piece_cuts(surface: Surface, island: Island, vertex: np.ndarray, following: np.ndarray) -> np.ndarray:
-    """Edges round which the faces of a piece hang together in none or in other vertices: its boundary."""
+    """The boundary of a piece: edges whose faces in the piece are not joined at the same vertices."""
     corners = island.corners
     ends = np.sort(np.stack([vertex[corners], vertex[following[corners]]], axis=1), axis=1)
     edge = surface.corner_edge[corners]
@@ -81,7 +81,7 @@ def _piece_cuts(surface: Surface, island: Island, vertex: np.ndarray, following:
 
 
 def _turned_like(sheet: Island, island: Island) -> Island:
-    """The sheet of a piece, its triangles turned as those of the piece are."""
+    """The sheet of a piece, with its triangles turned as in the piece."""
     whole = np.empty(len(sheet.source_vertex), dtype=np.int64)
     whole[sheet.corner_vertex] = island.corner_vertex
     other = whole[sheet.triangles[:, 1]] != island.triangles[:, 1]
@@ -103,16 +103,16 @@ def concentric(koebe: ModuleType, z: np.ndarray, inner: np.ndarray) -> np.ndarra
 
 
 def _wrapped_distance(one: np.ndarray, two: np.ndarray) -> np.ndarray:
-    """Distance on the cylinder whose points are logarithms."""
+    """Distance on the cylinder of logarithms."""
     step = one - two
     return np.hypot(step.real, np.remainder(step.imag + np.pi, 2.0 * np.pi) - np.pi)
 
 
 def _cut(ends: np.ndarray, length: np.ndarray, loops: Sequence[np.ndarray], back: np.ndarray) -> list[int]:
-    """Indices of the edges (m, 2) of the shortest path from the inner loop to the rearmost vertex of the outer one.
+    """Indices of the edges (m, 2) of the shortest path from the inner loop to the rearmost vertex of the outer loop.
 
-    It touches the loops with its ends alone: along the rim, or over a chord of it, it would cut off a piece. So it ends
-    at the rearmost vertex that can be reached like that; there is one wherever the surface hangs together.
+    Only its ends touch the loops: along the rim, or over a chord of it, it would cut off a piece. So it ends at the
+    rearmost vertex that can be reached like that, which exists on every connected surface.
     """
     outer = loops[0][np.argsort(-back[loops[0]], kind="stable")].tolist()
     came = _shortest_paths(ends, length, loops[1].tolist(), outer, len(back))
@@ -128,7 +128,7 @@ def _shortest_paths(
 ) -> dict[int, tuple[int, int]]:
     """Vertex and edge before each vertex on its shortest path from the nearest start [Dijkstra 1959].
 
-    No path goes on from one of the dead ends; with the first of them the search is over.
+    Paths end at dead ends; the search ends at the first of them.
     """
     both = np.concatenate([ends[:, 0], ends[:, 1]])
     order = np.argsort(both, kind="stable")

@@ -8,18 +8,18 @@ from .triangles import as_complex, blocks, spanned_areas
 
 # Axes that may be up, in this order, Z and Y: the second is for surfaces that lie flat.
 UP = [2, 1]
-# Share of the surface's area that has to agree on where up is (dimensionless); below it the next direction is tried.
+# Share of the surface's area that must agree on up (dimensionless); below it the next direction is tried.
 AGREEMENT = 0.1
-# Below this no direction is better than another (a bowl from above): rounding errors shall not decide.
+# Below this no direction is better than another (a bowl from above): rounding errors must not decide.
 NO_AGREEMENT = 1e-9
 
 
 def upright_turn(island: Island, uv: np.ndarray) -> complex:
     """The complex number of modulus 1 that turns the disk so that up points along +v as well as possible.
 
-    On each triangle of the island the height has a gradient in the disk, given by the map `uv` (n, 2): divided by the
-    map's local scale it is as long as the up direction's part in the triangle's plane. The turn brings the sum of
-    these vectors, weighted with the area on the surface, to +v: that is the least squares solution.
+    On each triangle of the island the height has a gradient in the disk, given by the map `uv` (n, 2). Divided by the
+    map's local scale it is as long as the part of the up direction in the triangle's plane. The turn brings the sum of
+    these vectors, weighted with the area on the surface, to +v: the least squares solution.
     """
     z = as_complex(uv)
     sums, total = np.zeros(len(UP), dtype=complex), 0.0
@@ -30,8 +30,8 @@ def upright_turn(island: Island, uv: np.ndarray) -> complex:
         a, b, c = (island.vertices.take(corner, axis=0) for corner in corners)
         in_space, in_disk = spanned_areas(b - a, c - a), -0.5 * (np.conj(one) * two).imag
         ratio = np.sqrt(np.divide(in_space, in_disk, out=np.zeros_like(in_disk), where=in_disk > 0.0))
-        # Gradients, in the disk, of the heights over each triangle, times the triangle's area in the disk. (No product
-        # of matrices: NumPy would hand it to threads, which wait for one another if others keep the processor busy.)
+        # Gradients, in the disk, of the heights over each triangle, times the triangle's area in the disk. (Without
+        # matrix products: NumPy would hand them to threads, which wait for each other on a busy processor.)
         first, second = (b - a)[:, UP].T, (c - a)[:, UP].T
         sums += 0.5j * (ratio * (two * first + one * second)).sum(axis=1)
         total += in_space.sum()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The islands of a UV layer: where the UVs are continuous, whatever is marked as a seam."""
+"""The islands of a UV layer: the regions where the UVs are continuous, with or without seams."""
 
 import dataclasses
 
@@ -8,7 +8,7 @@ import numpy as np
 from .islands import cut_into_islands
 from .surface import Island, Surface, next_corners
 
-# UV units: what the UVs of one vertex may differ by in two faces that are not cut apart there.
+# UV units: largest difference of one vertex's UVs in two faces that are not cut apart there.
 SAME = 1e-5
 
 
@@ -18,7 +18,7 @@ def uv_islands(surface: Surface, uv: np.ndarray) -> list[Island]:
 
 
 def uv_cuts(surface: Surface, uv: np.ndarray) -> np.ndarray:
-    """Which edges (E,) have other UVs (C, 2) on one side than on the other; those with more than two faces are cut."""
+    """Which edges (E,) have different UVs (C, 2) on their two sides. Edges with more than two faces count as cut."""
     edge, following, count = surface.corner_edge, next_corners(surface), len(surface.seam)
     corners = np.arange(len(edge), dtype=np.int32)
     first, last = np.full((2, count), -1, dtype=np.int32)
@@ -38,10 +38,10 @@ def uv_cuts(surface: Surface, uv: np.ndarray) -> np.ndarray:
 
 
 def _differ(uv: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Which pairs of corners have other UVs; those that are no numbers differ from all."""
+    """Which pairs of corners have different UVs. NaN differs from all."""
     return ~(np.abs(uv[one] - uv[other]).max(axis=1, initial=0.0) <= SAME)
 
 
 def vertex_uv(island: Island, uv: np.ndarray) -> np.ndarray:
-    """UVs (n, 2), as they are stored, of an island's vertices, from those (C, 2) of the surface's corners."""
+    """UVs (n, 2), as stored, of an island's vertices, from UVs (C, 2) of the surface's corners."""
     return uv[island.some_corner()]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The outlines of a UV layout: where its islands end."""
+"""The outlines of a UV layout, at the ends of its islands."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ import numpy as np
 def outline(
     corner_vertex: np.ndarray, corner_edge: np.ndarray, following: np.ndarray, uv: np.ndarray
 ) -> np.ndarray:
-    """Corners (k, 2) at the ends of the edges that have no face in the same place of the UVs on their other side.
+    """Corners (k, 2) at the ends of the edges that have no face at the same UVs on their other side.
 
     corner_vertex, corner_edge  (C,) vertex of each corner, and edge from it to the next one
     following                   (C,) the next corner of its face

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The text of every result, reason and warning: what the report, the status line and the command line say."""
+"""The texts of all results, reasons and warnings for the report, the status line and the command line."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from .opening import Opening
 
-# What is wrong, and what an artist can do about it, by the kind of `koebe.TopologyError`.
+# For each kind of `koebe.TopologyError`: what is wrong, and what an artist can do about it.
 REASONS = {
     "closed": "the surface is closed: mark a seam or delete a face, so that it has a boundary",
     "genus": "the surface has a handle ({detail}): mark a seam along it, so that it opens",
@@ -26,13 +26,13 @@ PINNED = "its pins are not kept: a map to a circle domain leaves nothing that a 
 MIRRORED = "the object's scale is negative: textures show mirrored until it is applied"
 UNEVEN_TEXELS = "texels very uneven: Unwrap to Parts makes them even"
 UNEVEN = "its texels are very uneven: Unwrap to Parts makes them even"
-MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %: more than that cannot be painted on
-MOST_TOLD = 1000.0  # of such a ratio: a larger one tells no more
-FEW = 6  # reasons in one message, which has to fit on the screen
+MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %; above it the UVs cannot be painted on
+MOST_TOLD = 1000.0  # of such a ratio; larger values say no more
+FEW = 6  # reasons in one message, which must fit on the screen
 
 
 class Mapped(Protocol):
-    """An island with a map, and how even its texels are."""
+    """A mapped island, and how even its texels are."""
 
     @property
     def result(self) -> Any: ...
@@ -48,7 +48,7 @@ class Failed(Protocol):
 
 
 class Failures(Protocol):
-    """What became of a surface, as far as it could not be mapped, or not be written."""
+    """The outcome of a surface, as far as it could not be mapped or written."""
 
     @property
     def name(self) -> str: ...
@@ -66,7 +66,7 @@ def cut_edges(opening: "Opening") -> int:
 
 
 def cut_line(opening: "Opening") -> str:
-    """What was cut, turned and left out, and why, in one sentence."""
+    """The cuts, turned faces and faces left out, and why, in one sentence."""
     edges = {kind: 0 for kind, _ in opening.cuts}
     for kind, vertices in opening.cuts:
         edges[kind] += len(vertices) - (kind != "bow_tie")
@@ -93,17 +93,17 @@ def cut_line(opening: "Opening") -> str:
 
 
 def density_text(ratio: float) -> str:
-    """A ratio of texel densities, as a number that can be read."""
+    """A ratio of texel densities as a readable number."""
     return f"{ratio:.1f}" if ratio <= MOST_TOLD else f"more than {MOST_TOLD:,.0f}"
 
 
 def too_uneven(one: Mapped) -> bool:
-    """Whether nobody can paint on a mapped island: texels too uneven, or faces too small for them."""
+    """Whether a mapped island cannot be painted on: texels too uneven, or faces too small."""
     return bool(one.result.below_resolution) or one.density_ratio > MOST_UNEVEN
 
 
 def failure_line(outcome: Failures) -> str:
-    """One line on the islands of a surface that could not be mapped, or written: how many and why."""
+    """One line on a surface's islands that could not be mapped or written: how many and why."""
     if outcome.not_written:
         return outcome.not_written
     failed = outcome.failed
@@ -119,7 +119,7 @@ def failure_line(outcome: Failures) -> str:
 
 
 def run_error(outcomes: Sequence[Failures]) -> dict[str, Any]:
-    """The error of a run of which no map can be kept: the name and kind of the first one, and all reasons."""
+    """The error of a run without any usable map: name and kind of the first error, and all reasons."""
     failed = [outcome for outcome in outcomes if outcome.failed]
     error = failed[0].failed[0].error
     kind = kind_of(error)
@@ -140,12 +140,12 @@ def explain(error: Exception | None) -> str:
 
 
 def own_warning(kind: str, text: str, elements: Iterable[int] = ()) -> dict[str, Any]:
-    """A warning that is not the solver's, or not in its words."""
+    """A warning that the solver does not give, or not in these words."""
     return {"kind": kind, "elements": [int(element) for element in elements], "text": text}
 
 
 class Numbers(Protocol):
-    """What the solver's triangles and vertices are in the mesh, as of an `Island`."""
+    """The solver's triangles and vertices in the mesh's numbers, as in `Island`."""
 
     @property
     def triangle_face(self) -> np.ndarray: ...
@@ -153,7 +153,7 @@ class Numbers(Protocol):
     def source_vertex(self) -> np.ndarray: ...
 
 
-# Where a warning's sentence counts faces or vertices, or names a vertex; a loop keeps its number.
+# Places in a warning's sentence that count faces or vertices, or name a vertex; a loop keeps its number.
 _COUNTS = re.compile(r"\b(\d+) (face|vertex)(?:s|\b)|\b(\d+) vertices\b|\b(\d+)(?= of them too small\b)")
 _NAMES = re.compile(
     r"(?<=\bvertex )\d+|(?<=\bedge )\d+(?=-)|(?<=\d-)\d+|(?<=the circle, the first )\d+|"
@@ -163,8 +163,8 @@ _FIRST = re.compile(r"(?<=the first face is )\d+|(?<=the first vertex is )\d+")
 
 
 def in_mesh(numbers: Numbers, warning: "koebe.Warning") -> dict[str, Any]:
-    """A warning of the solver in the mesh's numbers: its elements, each once and rising, and what its text counts and
-    names. The solver counts triangles: its elements become polygons, whatever else it counts are called triangles."""
+    """A warning of the solver in the mesh's numbers: its elements, each once and ascending, and the counts and names in
+    its text. The solver counts triangles: elements become polygons, other counts are called triangles."""
     number = {"vertices": numbers.source_vertex, "faces": numbers.triangle_face}.get(warning.of)
     old = warning["elements"]
     elements = old if number is None or not old else np.unique(number[old]).tolist()
@@ -186,16 +186,16 @@ def in_mesh(numbers: Numbers, warning: "koebe.Warning") -> dict[str, Any]:
 
 
 def counted(count: int, noun: str, plural: str | None = None) -> str:
-    """A number and what it counts, in the plural where that is right."""
+    """A number and its noun, in the plural if needed."""
     return f"{count} {noun if count == 1 else plural or noun + 's'}"
 
 
 def few(reasons: Sequence[str], between: str = ". ") -> str:
-    """The first of the reasons as one text, and how many more there are."""
+    """The first reasons as one text, and the number of the others."""
     more = [f"And {len(reasons) - FEW} more"] if len(reasons) > FEW else []
     return between.join([*reasons[:FEW], *more])
 
 
 def lines(start: str, reasons: Sequence[str]) -> str:
-    """An error for Blender's popup, which has a line for each reason where there are several."""
+    """An error for Blender's popup, with a line for each reason if there are several."""
     return f"{start}\n{few(reasons, chr(10))}" if len(reasons) > 1 else " ".join([start, *reasons])

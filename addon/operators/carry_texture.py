@@ -71,7 +71,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
 
 
 def _line(one: Carried) -> str:
-    """What was carried to one object, and how well it fits."""
+    """The result for one object, and how well the texture fits."""
     fit = "fitted holes, " if one.fitted else ""
     text = (
         f"{one.name}: holes apart by {100 * one.residual:.2g} % of the texture ({fit}worst {100 * one.largest:.2g} %), "

@@ -49,7 +49,7 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                     checker.check(obj)
                     if wearing:
                         checker.take_off(run, obj)
-                    elif material and not checker.is_on(obj):  # it may be by now, as another object has the same mesh
+                    elif material and not checker.is_on(obj):  # another object of the same mesh may have got it
                         checker.put_on(run, obj, material)
             if len(problems) == len(wearing or objects):
                 run.put_back()  # the new material
@@ -61,19 +61,19 @@ class UV_OT_koebe_checker(bpy.types.Operator):
             return {"FINISHED"}
 
     def _read(self, obj: MeshObject) -> tuple[Surface, np.ndarray] | None:
-        """The surface and its UVs (C, 2), or None where there are none, or where they cannot be read."""
+        """The surface and its UVs (C, 2), or None if they do not exist or cannot be read."""
         if self.layer not in obj.data.uv_layers or (obj.data.is_editmode and obj.mode != "EDIT"):
             return None
         surface = read_surface(obj, selected_only=False)
         return surface, read_layer(obj, self.layer)
 
     def _density(self, obj: MeshObject) -> float:
-        """Lengths in the UVs over lengths in space; 0 where they are not known."""
+        """Lengths in the UVs over lengths in space; 0 if unknown."""
         found = self._read(obj)
         return texel_density(*found) if found else 0.0
 
     def _pattern(self, obj: MeshObject, size: float) -> Pattern:
-        """The checker of that size, or the nearest one that runs over the cuts of a tile."""
+        """The checker of that size, or the nearest one that continues over the cuts of a tile."""
         found = self._read(obj)
         return checker.pattern_for(*found, size)[0] if found else Pattern(size)
 

@@ -20,7 +20,7 @@ KINDS = [
     (distortion.ANGLE, "Angle", "Colour the faces by how far the angles of the UVs are from those of the surface"),
     (distortion.AREA, "Area", "Colour the faces by how many texels they get, compared with the mean"),
 ]
-SHADING_KEY = "koebe_shading"  # on the screen: what its 3D Views coloured surfaces by before
+SHADING_KEY = "koebe_shading"  # on the screen: the former surface colours of its 3D Views
 
 
 class UV_OT_koebe_distortion(bpy.types.Operator):
@@ -35,7 +35,7 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """The tooltip of each button is its own."""
+        """Each button has its own tooltip."""
         return next(text for kind, _, text in KINDS if kind == properties.kind)
 
     @classmethod
@@ -72,7 +72,7 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
 
 
 def _show_colors(run: Transaction, context: bpy.types.Context, on: bool) -> None:
-    """Let the 3D Views of all windows show colour attributes in Solid shading, or again what they showed before."""
+    """Make the 3D Views of all windows show colour attributes in Solid shading, or their former colours again."""
     for screen in dict.fromkeys(window.screen for window in context.window_manager.windows):
         views = [area.spaces.active for area in screen.areas if area.type == "VIEW_3D"]
         run.before_write(_restore_shading, views, [view.shading.color_type for view in views])

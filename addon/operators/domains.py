@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that map to domains that are no disk: tiles of a flat torus or a cylinder, layouts of a sphere,
+"""The operators that map to other domains than the disk: tiles of a flat torus or a cylinder, layouts of a sphere,
 surfaces with handles cut open."""
 
 import bpy
@@ -14,12 +14,12 @@ from .run_operator import MapOperator
 
 
 def shown(domain: str) -> tuple[str, ...]:
-    """The options of a domain, those last that most runs leave alone."""
+    """A domain's options, with those that most runs do not change at the end."""
     return tuple(sorted(option_names(domain), key=lambda name: name in ACCURACY_NAMES))
 
 
 class DomainOperator(MapOperator):
-    """Mixed into these operators. `domain` is a row of maps/domains.py."""
+    """Mixin of these operators. `domain` is a row of maps/domains.py."""
 
     domain: Domain
 

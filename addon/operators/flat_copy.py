@@ -23,14 +23,14 @@ LAYER = "UV layer whose layout it is; without a name the active one"
 
 
 class FlatOperator(OperatorBase):
-    """What both have in common."""
+    """The common part of both operators."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
 
     def _read(self, context: bpy.types.Context, layer: str) -> tuple[list[Flat], list[str]]:
-        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
         return read_flat(target_objects(context), layer)
 
     def _say(self, done: list[Flat], problems: list[str], where: str) -> set[str]:
@@ -74,7 +74,7 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
 
 
 def _select_only(run: Transaction, context: bpy.types.Context, made: list[bpy.types.Object]) -> None:
-    """Select the new objects, as Blender does with what it adds."""
+    """Select the new objects, as Blender does."""
     layer = context.view_layer
     chosen = [obj.name for obj in layer.objects if obj.select_get(view_layer=layer)]
     active = layer.objects.active and layer.objects.active.name
@@ -129,7 +129,7 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
 
 
 def _write_whole(path: Path, text: str) -> None:
-    """Write a file so that it is there as a whole or not at all."""
+    """Write a file completely or not at all."""
     part = path.with_name(f".{path.name}.part")
     try:
         part.write_text(text, encoding="utf-8")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How an operator computes without a frozen window: on a thread, with progress, Esc and polling."""
+"""Runs an operator's computation without a frozen window: on a thread, with progress, Esc and polling."""
 
 import time
 from collections.abc import Generator
@@ -10,7 +10,7 @@ import bpy
 from ..maps.errors import KnownError
 from ..solver.worker import Worker
 
-# What the status line calls the stages of a computation.
+# The status line's names for the stages of a computation.
 STAGES = {
     "topology": "reading the surface",
     "metric": "measuring the surface",
@@ -22,46 +22,46 @@ STAGES = {
     "split": "cutting into parts",
     "pack": "packing the parts",
 }
-POLL_SECONDS = 0.05  # how often a running computation is looked at: Esc acts within this and one checkpoint
-READ_SECONDS = 0.1  # how long Blender's data is read between two looks at the keys, if one step takes no longer
-SHOW_SECONDS = 0.25  # how often its progress is shown: each time Blender puts the whole window together again
-# While a computation runs the view may be moved; everything else could change what is being mapped.
+POLL_SECONDS = 0.05  # interval between looks at a running computation: Esc acts within this time and one checkpoint
+READ_SECONDS = 0.1  # time to read Blender's data between two looks at the keys, if one step takes no longer
+SHOW_SECONDS = 0.25  # interval of progress reports: each makes Blender redraw the whole window
+# During a computation the view may move; everything else could change the mapped data.
 NAVIGATION = {
     "MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE",
     "WHEELINMOUSE", "WHEELOUTMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE", "NDOF_MOTION",
 }  # fmt: skip
 
-if TYPE_CHECKING:  # what is mixed into operators is one for the type checker alone
+if TYPE_CHECKING:  # mixins have this base for the type checker only
     OperatorBase = bpy.types.Operator
 else:
     OperatorBase = object
 
 
 def redraw(context: bpy.types.Context) -> None:
-    """Let all editors of the window show what has changed."""
+    """Make all editors of the window show the changes."""
     for area in context.screen.areas if context.screen else ():
         area.tag_redraw()
 
 
 class ModalRun(OperatorBase):
-    """Mixed into operators that gather, compute and write. In the background, and where a script calls, all at once.
+    """Mixin of operators that gather, compute and write. In the background, and called by a script, they run at once.
 
     A job has `compute(progress)`, which touches no Blender data, and a `cancel_token`.
     """
 
     def _job(self, context: bpy.types.Context) -> Any:
-        """The job, or None where there is nothing to do and the user was told why."""
+        """The job, or None if there is nothing to do and the user was told why."""
         raise NotImplementedError
 
     def _reading(self, context: bpy.types.Context, job: Any) -> Generator[float, None, None] | None:
-        """What has to be read step by step, before the job computes: the share that is read, after each. Or None.
+        """Reads data step by step before the job computes, and yields the share that is read. Or None.
 
-        When it ends, or is closed, everything is as it was. Raises KnownError.
+        When it ends, or is closed, Blender is in its former state. Raises KnownError.
         """
         return None
 
     def _finish(self, context: bpy.types.Context, job: Any) -> set[str]:
-        """Write what the job has computed."""
+        """Write the job's results."""
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -98,7 +98,7 @@ class ModalRun(OperatorBase):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type == "ESC" and event.value == "PRESS":
-            # The thread has arrays of its own and ends at its next checkpoint: nobody has to wait for it.
+            # The thread has its own arrays and ends at its next checkpoint, so nothing waits for it.
             self.cancel(context)
             self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
             return {"CANCELLED"}
@@ -114,14 +114,14 @@ class ModalRun(OperatorBase):
         return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Give up: by Esc, or when Blender ends the operator, as when it quits."""
+        """Cancel: after Esc, or when Blender ends the operator, for example at exit."""
         self._running.cancel_token.cancel()
         if self._to_read is not None:
             self._to_read.close()
         self._stop_polling(context)
 
     def _read_some(self) -> None:
-        """Read for as long as nobody minds, and compute once all is read."""
+        """Read for a short time, and start to compute once everything is read."""
         until = time.monotonic() + READ_SECONDS
         while self._to_read is not None and time.monotonic() < until:
             self._read = next(self._to_read, None)

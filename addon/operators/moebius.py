@@ -27,7 +27,7 @@ from .modal_run import redraw
 from .polls import has_targets
 from .tooltip import tooltip
 
-NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to take hold of a hole, to be no drag, to come to rest in the middle
+NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to hold a hole, longest click, to snap to the middle
 HINTS = {
     TURN: "Turn: {0:.1f}°      Ctrl: Steps of 5°",
     HOLE: "Hole {1}: drag it to the middle, where it stays",
@@ -39,8 +39,8 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
     """Move the circles of a map: drag the disk or a hole, click a hole to make it the rim, drag outside the disk to
     turn it. Angles are kept and circles stay circles; nothing is computed anew"""
 
-    shown: ClassVar[np.ndarray | None] = None  # edges (e, 2) of what is dragged, complex, in the UVs
-    held: ClassVar[tuple[str, np.ndarray] | None] = None  # its object's name and its corners (c,)
+    shown: ClassVar[np.ndarray | None] = None  # edges (e, 2) of the dragged domain, complex, in the UVs
+    held: ClassVar[tuple[str, np.ndarray] | None] = None  # the dragged object's name and its corners (c,)
 
     bl_idname = "uv.koebe_moebius"
     bl_label = "Koebe Move Circles"
@@ -93,7 +93,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
     # ---------------------------------------------------------------- by properties
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
         try:
             job = self._chosen_job(context)
             if not self.island < len(job.domains):
@@ -108,14 +108,14 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
             return {"CANCELLED"}
 
     def _chosen_job(self, context: bpy.types.Context) -> MoebiusJob:
-        """The object by its name, or the first one whose UVs are circles."""
+        """The object by its name, or the first object whose UVs are circles."""
         jobs, problems = _jobs(context, self.object_name, self.layer, lambda job: True)
         if not jobs:
             raise TransferError(lines("", problems).strip() or f"no object {self.object_name!r} is selected")
         return jobs[0]
 
     def _write(self, run: Transaction, context: bpy.types.Context, job: MoebiusJob) -> CircleImage:
-        """Write the image that the properties say, and bring the report up to date."""
+        """Write the image given by the properties, and update the report."""
         domain = numbered(context, job, job.domains[self.island])
         image = domain.image(domain.moved(self.rim, complex(*self.center), self.rotation, self.hole))
         job.write(run, image)
@@ -165,7 +165,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self._back: Callable[[], None] | None = None
 
     def _place(self, x: float, y: float) -> tuple[float, float]:
-        """The place of the UVs under a pixel of the region."""
+        """The place of the UVs at a pixel of the region."""
         u, v = self._region.view2d.region_to_view(x, y)
         return u, v
 
@@ -189,7 +189,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Put everything back: after Esc, an error, or when Blender ends the operator."""
+        """Restore everything: after Esc, after an error, or when Blender ends the operator."""
         self._run.put_back()
         self._tidy(context)
 
@@ -199,7 +199,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         redraw(context)
 
     def _drag(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
-        """Show the map of a drag to where the pointer is."""
+        """Show the map of a drag to the pointer."""
         if not self._dragging:
             if math.dist(self._pressed, (event.mouse_x, event.mouse_y)) <= CLICK:
                 return
@@ -211,7 +211,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self._show(context, self._grip.domain.moved(0, complex(*self.center), self.rotation))
 
     def _start(self, context: bpy.types.Context) -> None:
-        """The pointer has moved: from now on UVs are written, in Object Mode, where that is fast."""
+        """The pointer has moved. From now on UVs are written in Object Mode, where that is fast."""
         self._dragging, domain = True, self._grip.domain
         note_group(self._run, report_of(context))
         self._entry = moved_circles.entry_of(context, self._job.name, self._job.layer, domain)
@@ -220,7 +220,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         self._edges = self._job.edges(domain)
         UV_OT_koebe_moebius.held = self._job.name, domain.island.corners
         self._back = edit_mode.leave(self._run, context)
-        self._live = context.mode == "OBJECT"  # else only the circles move until the end
+        self._live = context.mode == "OBJECT"  # otherwise only the circles move until the end
         if self._live:
             self._run.before_write(self._job.put_back)
 
@@ -236,7 +236,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         redraw(context)
 
     def _end(self, context: bpy.types.Context) -> set[str]:
-        """The button was let go: write for good. A click on a hole makes it the rim; elsewhere it does nothing."""
+        """The button was released: write permanently. A click on a hole makes it the rim; other clicks do nothing."""
         if not self._dragging:
             if not self._grip.hole:
                 self._tidy(context)
@@ -255,7 +255,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
 def _jobs(
     context: bpy.types.Context, name: str, layer: str, wanted: Callable[[MoebiusJob], bool]
 ) -> tuple[list[MoebiusJob], list[str]]:
-    """The first of the objects that has what is wanted, as a list; and what is wrong with those before."""
+    """The first suitable object, as a list, and the problems of the objects before it."""
     koebe, problems = native_package.load(), []
     for obj in target_objects(context):
         if name and obj.name != name:
@@ -271,7 +271,7 @@ def _jobs(
 
 
 def numbered(context: bpy.types.Context, job: MoebiusJob, domain: CircleDomain) -> CircleDomain:
-    """The domain with its holes numbered as in the report, if that has it."""
+    """The domain with its holes numbered as in the report, if it is there."""
     entry = moved_circles.entry_of(context, job.name, job.layer, domain)
     return domain if entry is None else domain.numbered(moved_circles.loop_keys(entry))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that keep the panel's options as a preset, and that set them back to the defaults."""
+"""The operators that save the panel's options as a preset, and that reset them to the defaults."""
 
 import contextlib
 import os
@@ -12,7 +12,7 @@ from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
 from ..state.option_properties import SETTING_NAMES, settings_of
 
-FOLDER = "koebe_uv"  # of the presets, within the user's
+FOLDER = "koebe_uv"  # of the presets, within the user's presets
 
 
 class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
@@ -31,7 +31,7 @@ class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
             return {"CANCELLED"}
 
     def add(self, context: bpy.types.Context, path: str) -> None:
-        """Write the file, which may replace another, as a whole or not at all. `AddPresetBase` calls this."""
+        """Write the file, completely or not at all. It may replace another. `AddPresetBase` calls this."""
         settings = settings_of(context)
         lines = [f"bpy.context.scene.koebe_uv.{name} = {getattr(settings, name)!r}\n" for name in SETTING_NAMES]
         temporary = f"{path}.part"

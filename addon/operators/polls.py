@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators ask before they run: objects, a mode, the native package."""
+"""Tests of operators before they run: objects, a mode, the native package."""
 
 from collections.abc import Container
 from types import ModuleType
@@ -16,7 +16,7 @@ BOTH = ("OBJECT", "EDIT_MESH")
 def has_targets(
     cls: type[bpy.types.Operator], context: bpy.types.Context, hint: str, modes: Container[str] = BOTH
 ) -> bool:
-    """Whether there is an object to work on, in one of the modes; else it says what to do."""
+    """Whether there is an object to work on, in one of the modes. If not, tells the user what to do."""
     if context.mode in modes and target_objects(context):
         return True
     cls.poll_message_set(hint)
@@ -24,7 +24,7 @@ def has_targets(
 
 
 def native_or_told(operator: bpy.types.Operator) -> ModuleType | None:
-    """The native package, or None where there is none and the user was told why."""
+    """The native package, or None if it is missing and the user was told why."""
     try:
         return native_package.load()
     except NativeError as error:

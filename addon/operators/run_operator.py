@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the operators have in common that map objects: what they work on, their options, what they say."""
+"""The common part of operators that map objects: their objects, their options, their messages."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ from ..state import run_report
 from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders
 
-NEEDS = {  # options that matter with others alone
+NEEDS = {  # options that matter only with certain values of others
     "margin": lambda options: options.placement != "keep",
     "importance": lambda options: options.balance == "area",
     "evenness": lambda options: options.seams == "add",
@@ -31,12 +31,12 @@ NEEDS = {  # options that matter with others alone
 
 
 def is_used(options: Any, name: str) -> bool:
-    """Whether an option matters, as others are chosen."""
+    """Whether an option matters with the present choices."""
     return name not in NEEDS or NEEDS[name](options)
 
 
 def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bpy.types.Context) -> None:
-    """A row for an option, grey where it does not matter."""
+    """Draw a row for an option, grey if it does not matter."""
     row = layout.row()
     row.active = is_used(options, name)
     obj = context.active_object
@@ -47,7 +47,7 @@ def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bp
 
 
 def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether there is a mesh to work on, in a mode in which that can be done; else it says what to do."""
+    """Whether there is a mesh to work on, in a possible mode. If not, tells the user what to do."""
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
         cls.poll_message_set("Works in Object Mode and in Edit Mode")
         return False
@@ -58,7 +58,7 @@ def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 class MapOperator(ModalRun):
-    """Mixed into operators that map the selected objects. A kind of map says what its job is.
+    """Mixin of operators that map the selected objects. Each kind of map makes its own job.
 
     options_shown  the names of the properties in the redo panel
     """
@@ -82,7 +82,7 @@ class MapOperator(ModalRun):
         raise NotImplementedError
 
     def _job(self, context: bpy.types.Context) -> Job | None:
-        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
         try:
             return self._new_job(context, selected_only=context.mode == "EDIT_MESH")
         except (NativeError, OptionError, TransferError) as error:
@@ -90,7 +90,7 @@ class MapOperator(ModalRun):
             return None
 
     def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
-        """Write what was computed, each object wholly or not at all, and say what became of it."""
+        """Write the results, each object completely or not at all, and report on them."""
         with transaction() as run:
             self._write(run, context, job)
             run_report.record(run, context, job.rows())
@@ -98,7 +98,7 @@ class MapOperator(ModalRun):
             redraw(context)
             edit_mode.undo_all(context)
             answer = self._tell(job)
-            if selected and answer == {"CANCELLED"}:  # after which Blender makes no undo step
+            if selected and answer == {"CANCELLED"}:  # after this Blender makes no undo step
                 bpy.ops.ed.undo_push(message="Select What Is Wrong")
             return answer
 
@@ -107,8 +107,8 @@ class MapOperator(ModalRun):
             job.write(run)
 
     def _tell(self, job: Job) -> set[str]:
-        """Say what became of the objects: of each that was mapped its line, what was done beside, what to watch out
-        for; then why islands or objects have no new UVs."""
+        """Report on the objects: for each mapped one its line, notes and warnings; then why islands or objects have no
+        new UVs."""
         failures = [failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         failures += [text for _, text in job.refused]
         if not job.mapped_any:

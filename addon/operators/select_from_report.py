@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators that select what the report speaks of: offending elements, flipped faces, a boundary loop."""
+"""Operators that select elements named in the report: offending elements, flipped faces, a boundary loop."""
 
 import json
 
@@ -18,14 +18,14 @@ from .tooltip import tooltip
 
 
 def active_object(context: bpy.types.Context) -> MeshObject | None:
-    """The mesh object of the island whose details are shown, or None if there is none of that name any more."""
+    """The mesh object of the island whose details are shown, or None if it no longer exists."""
     entry = active_entry(context)
     obj = context.view_layer.objects.get(entry.object_name) if entry is not None else None
     return obj if obj is not None and obj.type == "MESH" else None
 
 
 class ReportOperator(OperatorBase):
-    """Mixed into the operators that select in Edit Mode what the report's island tells."""
+    """Mixin of operators that select elements of the report's island in Edit Mode."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -42,7 +42,7 @@ class ReportOperator(OperatorBase):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         entry, obj = active_entry(context), active_object(context)
-        assert entry is not None and obj is not None  # as `poll` has seen
+        assert entry is not None and obj is not None  # `poll` has checked this
         try:
             edit_mode.check(context, obj)
             with transaction() as run:
@@ -75,7 +75,7 @@ class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
 
 
 class FacesOperator(ReportOperator):
-    """Selects faces that the report names in a text of JSON."""
+    """Selects faces that the report lists as JSON."""
 
     faces: str
 
@@ -155,7 +155,7 @@ class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
 
 
 def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> bool:
-    """Select what is wrong with the islands that failed, in the objects in Edit Mode; whether there is any."""
+    """Select the offending elements of failed islands, in the objects in Edit Mode. Returns whether there are any."""
     chosen = []
     for target, outcome in zip(job.targets, job.outcomes, strict=True):
         obj = target.obj

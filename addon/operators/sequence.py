@@ -51,7 +51,7 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
         return job.read_shapes(context)
 
     def _write(self, run: Transaction, context: bpy.types.Context, job: SequenceJob) -> None:
-        """Attributes are written in Object Mode."""
+        """Write in Object Mode, as attributes require."""
         back = edit_mode.leave(run, context) if job.choice.target == "ATTRIBUTE" else None
         super()._write(run, context, job)
         if back is not None:

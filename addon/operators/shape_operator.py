@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the operators on shapes have in common."""
+"""The common part of the operators on shapes."""
 
 import bpy
 
@@ -13,7 +13,7 @@ from .modal_run import ModalRun
 
 
 class ShapeOperator(ModalRun):
-    """What the operators on shapes have in common."""
+    """The common part of the operators on shapes."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -21,7 +21,7 @@ class ShapeOperator(ModalRun):
         raise NotImplementedError
 
     def _job(self, context: bpy.types.Context) -> CarryJob | MeasureJob | None:
-        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
         try:
             return self._new_job(target_objects(context))
         except (NativeError, TransferError) as error:
@@ -46,7 +46,7 @@ class ShapeOperator(ModalRun):
 
 
 def in_object_mode(cls: type[bpy.types.Operator], context: bpy.types.Context, least: int) -> bool:
-    """Whether so many objects at least are selected, the active one among them; else it says what to do."""
+    """Whether so many objects are selected, the active one among them. If not, tells the user what to do."""
     if context.mode != "OBJECT":
         cls.poll_message_set("Works in Object Mode, on whole objects")
         return False

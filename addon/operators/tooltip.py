@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A docstring as the tooltip of an operator."""
+"""Makes an operator's tooltip from a docstring."""
 
 
 def tooltip(docstring: str | None) -> str:
-    """The docstring in one line: Blender shows line breaks as they are. It cuts off what is longer than 239 letters."""
+    """The docstring in one line, as Blender shows line breaks. Blender cuts off text after 239 letters."""
     return " ".join((docstring or "").split())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that maps: it gathers, runs and writes; what is computed is in `jobs` and below."""
+"""The operator that maps: it gathers, runs and writes. The computation is in `jobs` and below."""
 
 import bpy
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds, checks, loads and runs the native package. Never bpy; no other room."""
+"""Finds, checks, loads and runs the native package. Imports no bpy and no other room."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The error of a native package that is not there or does not load; apart, so that naming it loads nothing."""
+"""The error of a missing or broken native package. It has its own file, so that importing it loads nothing."""
 
 
 class NativeError(ImportError):

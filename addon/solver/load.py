@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the native package `koebe` when it is first needed.
 
-As an extension Blender has installed the wheel already. As a legacy add-on the wheel that fits this interpreter is
-unpacked into the add-on's own folder, so that it goes with the add-on; where that cannot be written, into the user's
-folder, or else into a private one that is removed at exit. In a checkout the build folder is used. A package `koebe`
-from elsewhere is not looked at. Which folders are the user's, the caller says.
+Blender has already installed an extension's wheel. For a legacy add-on the wheel that fits this interpreter is unpacked
+into the add-on's own folder, so that it is removed with the add-on; if that is not writable, into the user's folder, or
+else into a private folder that is removed at exit. A checkout uses its build folder. Packages `koebe` from elsewhere
+are ignored. The caller names the user's folders.
 """
 
 import atexit
@@ -28,11 +28,11 @@ OWN_PLACE = ADDON / "unpacked"
 
 @dataclasses.dataclass(frozen=True)
 class UserFolders:
-    """Folders of the user's.
+    """Folders of the user.
 
     extensions  where this Blender installs extensions, or None
     datafiles   where add-ons up to 0.1 unpacked the wheel, or None
-    make_own    makes the folder for the add-on's own files and names it; None where it cannot be made
+    make_own    makes the folder for the add-on's own files and returns it; None if it cannot be made
     """
 
     extensions: Path | None
@@ -43,7 +43,7 @@ class UserFolders:
 def load(user: UserFolders) -> ModuleType:
     """The package `koebe`; `user` are the `UserFolders`.
 
-    Raises NativeError, which names this interpreter and the wheels that the add-on brings, or the file at fault.
+    Raises NativeError, which names this interpreter and the add-on's wheels, or the bad file.
     """
     try:
         if "koebe" in sys.modules:
@@ -60,7 +60,7 @@ def _interpreter() -> str:
 
 
 def _of_this_version(module: ModuleType) -> ModuleType:
-    """The module that is loaded already, as after an update of the add-on in the same session."""
+    """The loaded module, for example after an update of the add-on in the same session."""
     version = getattr(module, "__version__", "unknown")
     if _checkout() is None and version != _fitting_wheel().version:
         raise WheelError(module.__file__, f"is loaded, of version {version} and not this add-on's", "restart Blender")
@@ -68,7 +68,7 @@ def _of_this_version(module: ModuleType) -> ModuleType:
 
 
 def _imported(folder: Path) -> ModuleType:
-    """The package in that folder, whatever else there is of that name."""
+    """The package in that folder, whatever other package has that name."""
     sys.path.insert(0, str(folder))
     try:
         return importlib.import_module("koebe")
@@ -81,13 +81,13 @@ def _imported(folder: Path) -> ModuleType:
 
 
 def _checkout() -> Path | None:
-    """The build folder, if this is a checkout that was built."""
+    """The build folder, if this is a built checkout."""
     built = ADDON.parent / "build" / "python"
     return built if (ADDON.parent / "CMakeLists.txt").is_file() and (built / "koebe").is_dir() else None
 
 
 def _folder(user: UserFolders) -> Path:
-    """The folder to import the package from, with every file in it checked."""
+    """The folder to import the package from, after every file in it was checked."""
     checkout = _checkout()
     if checkout is not None:
         return checkout
@@ -110,27 +110,27 @@ def _fitting_wheel() -> Wheel:
         if wheel_fits(path.name):
             wheel = Wheel(path)
             members = wheel.members()
-            if members is None or module_loads(module_suffixes(members)):  # what is damaged is told of later
+            if members is None or module_loads(module_suffixes(members)):  # damaged wheels are reported later
                 return wheel
     have = ", ".join(_brought(path) for path in wheels) or "none"
     raise NativeError(f"no native module for {_interpreter()}; this add-on brings: {have}")
 
 
 def _brought(path: Path) -> str:
-    """What a wheel is for: its tags, and of one for several Pythons its modules too."""
+    """A wheel's targets: its tags and, if it serves several Pythons, its modules."""
     tags = "-".join(path.stem.split("-")[-3:])
     modules = module_suffixes(Wheel(path).members() or []) if "-py3-none-" in path.name else []
     return f"{tags} ({', '.join(modules)})" if modules else tags
 
 
 def _folders(wheel: Wheel, user: UserFolders) -> Iterator[tuple[Path, Path]]:
-    """Where the wheel's files are or can be, the best first, each with the file that remembers what was checked."""
+    """Places of the wheel's files, existing or possible, best first, each with the file that remembers checks."""
     if user.extensions is not None:
         python = f"python{sys.version_info.major}.{sys.version_info.minor}"
         installed = user.extensions / ".local" / "lib" / python / "site-packages"  # where Blender unpacks wheels
         if (installed / wheel.record_name).is_file():
             yield installed, OWN_PLACE / KNOWN
-    if sys.platform != "win32":  # which lets nobody remove an add-on whose libraries are loaded
+    if sys.platform != "win32":  # Windows does not remove an add-on whose libraries are loaded
         yield _in_place(OWN_PLACE, wheel)
     own = user.make_own()
     if own is not None:
@@ -145,7 +145,7 @@ def _in_place(place: Path, wheel: Wheel) -> tuple[Path, Path]:
 
 
 def _remove_leftovers(folder: Path, wheel: Wheel, user: UserFolders) -> None:
-    """Remove what other versions have unpacked: beside this one, and where versions up to 0.1 did it."""
+    """Remove files unpacked by other versions: beside this one, and where versions up to 0.1 put them."""
     remove_leftovers(folder.parent, wheel, keep=folder)
     if user.datafiles is not None:
         remove_leftovers(user.datafiles / "koebe_uv", wheel, keep=folder)

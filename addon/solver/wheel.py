@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wheel that the add-on brings: unpacked, checked against its RECORD, and mended file by file.
+"""The add-on's wheel: unpacked, checked against its RECORD, and repaired file by file.
 
-A damaged library ends the whole program when it is loaded. So every file is compared with the wheel's RECORD first:
-its size always, its hash where size and time are not those of the last time that the hash was right.
+A damaged library ends the whole program when it is loaded. So every file is first compared with the wheel's RECORD: its
+size always, its hash if size and time differ from the last correct check.
 """
 
 import base64
@@ -19,9 +19,9 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
-SCRATCH = ".unpacking-"  # folders and files that are not whole yet
-ABANDONED_SECONDS = 3600.0  # age at which one is of a program that was killed
-KNOWN = "checked.json"  # beside unpacked wheels: size and time of the files whose hash was right
+SCRATCH = ".unpacking-"  # unfinished folders and files
+ABANDONED_SECONDS = 3600.0  # older ones belong to killed programs
+KNOWN = "checked.json"  # beside unpacked wheels: size and time of the files with a correct hash
 INSTALL_AGAIN = "remove the add-on and install it again"
 EMPTY = "its RECORD is empty"
 
@@ -29,7 +29,7 @@ Record = dict[str, tuple[str, int]]  # hash and size of each file
 
 
 class WheelError(Exception):
-    """A file of the native module that cannot be used."""
+    """A file of the native module is unusable."""
 
     def __init__(self, path: Path | str | None, reason: str, cure: str) -> None:
         super().__init__(path, reason, cure)
@@ -40,24 +40,24 @@ class WheelError(Exception):
 
 
 class Wheel:
-    """A wheel file. Raises WheelError if it has to be read and is damaged, OSError if a folder cannot be written."""
+    """A wheel file. Raises WheelError if it must be read and is damaged, OSError if a folder cannot be written."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
     @property
     def version(self) -> str:
-        """The version of the package in it."""
+        """The version of its package."""
         return self.path.name.split("-")[1]
 
     @property
     def record_name(self) -> str:
-        """Where the list of its files lies in it."""
+        """The path of its list of files."""
         return f"{'-'.join(self.path.name.split('-')[:2])}.dist-info/RECORD"
 
     @property
     def folder_name(self) -> str:
-        """The name for a folder with its files, another one for every build."""
+        """The name for a folder with its files, different for every build."""
         return f"{self.path.stem}-{self.path.stat().st_size}"
 
     def members(self) -> list[str] | None:
@@ -69,7 +69,7 @@ class Wheel:
             return None
 
     def ready_in(self, folder: Path, known_file: Path) -> bool:
-        """Make the folder hold the wheel's files, whole, whatever it held before; whether it had to be made."""
+        """Make the folder hold the wheel's files, whatever it held before. Returns whether it had to be made."""
         new = not folder.is_dir()
         if new:
             self._unpack(folder)
@@ -85,7 +85,7 @@ class Wheel:
         return new
 
     def _unpack(self, folder: Path) -> None:
-        """Unpack beside and rename, so that the folder is whole or absent, whoever else unpacks it too."""
+        """Unpack beside and rename, so that the folder is complete or absent, even if other programs unpack it, too."""
         scratch = folder.with_name(f"{SCRATCH}{uuid.uuid4().hex}")
         scratch.mkdir(parents=True)
         try:
@@ -96,13 +96,13 @@ class Wheel:
             try:
                 os.rename(scratch, folder)
             except OSError:
-                if not folder.is_dir():  # else another Blender was faster
+                if not folder.is_dir():  # otherwise another Blender was faster
                     raise
         finally:
             shutil.rmtree(scratch, ignore_errors=True)
 
     def _put(self, archive: zipfile.ZipFile, record: Record, name: str, folder: Path) -> list[int]:
-        """Write one file of the wheel, all of it or nothing; return its stamp."""
+        """Write one file of the wheel, completely or not at all. Returns its stamp."""
         with self._reading():
             content = archive.read(name)
         if name in record and (_digest(content), len(content)) != record[name]:
@@ -119,7 +119,7 @@ class Wheel:
         return stamp
 
     def _record(self, folder: Path | None = None) -> Record:
-        """The wheel's files: name -> (hash, size). If the wheel is damaged, by what was unpacked from it in time."""
+        """The wheel's files: name -> (hash, size). If the wheel is damaged, from the unpacked RECORD."""
         try:
             with self._opened() as archive, self._reading():
                 return _parse(archive.read(self.record_name))
@@ -140,19 +140,19 @@ class Wheel:
     def _reading(self) -> Iterator[None]:
         try:
             yield
-        except Exception as error:  # what zipfile raises on damaged bytes has many names
+        except Exception as error:  # zipfile raises many kinds of errors on damaged bytes
             raise WheelError(self.path, f"is damaged ({error})", INSTALL_AGAIN) from error
 
 
 def remove_leftovers(place: Path, wheel: Wheel, keep: Path) -> None:
-    """Remove from a place for unpacked wheels what else was made for the same interpreter, and unfinished work."""
+    """Remove from a place for unpacked wheels all others made for the same interpreter, and unfinished work."""
     tags = wheel.path.stem.split("-")[2:5]
     with contextlib.suppress(OSError):
         for other in place.iterdir():
             outdated = other.name.startswith("koebe-") and other.name.split("-")[2:5] == tags
             if other != keep and (outdated or _is_abandoned(other)):
                 shutil.rmtree(other, ignore_errors=True)
-        place.rmdir()  # if nothing else is in it
+        place.rmdir()  # only if it is empty
 
 
 def _is_abandoned(path: Path) -> bool:
@@ -168,7 +168,7 @@ def _parse(record: bytes) -> Record:
 
 
 def _check(folder: Path, record: Record, known: dict[str, list[int]]) -> tuple[dict[str, list[int]], list[str]]:
-    """Stamps of the files that are as the record says, and the names of the others."""
+    """Stamps of the files that agree with the record, and the names of the others."""
     stamps, damaged = {}, []
     for name, (digest, size) in record.items():
         path, stamp = folder / name, None
@@ -190,12 +190,12 @@ def _stamp(path: Path) -> list[int]:
 
 
 def _digest(content: bytes) -> str:
-    """The hash of bytes as a RECORD writes it."""
+    """The hash of bytes as in a RECORD."""
     return base64.urlsafe_b64encode(hashlib.sha256(content).digest()).decode("ascii").rstrip("=")
 
 
 def _read_known(file: Path) -> dict[str, dict[str, list[int]]]:
-    """Stamps by folder and file name; none if nothing can be read."""
+    """Stamps by folder and file name; empty if the file cannot be read."""
     with contextlib.suppress(OSError, ValueError):
         known = json.loads(file.read_text(encoding="utf-8"))
         if isinstance(known, dict) and all(isinstance(stamps, dict) for stamps in known.values()):
@@ -204,7 +204,7 @@ def _read_known(file: Path) -> dict[str, dict[str, list[int]]]:
 
 
 def _write_known(file: Path, folder: str, stamps: dict[str, list[int]]) -> None:
-    """Remember a folder's stamps; if they cannot be written, the hashes are computed again the next time."""
+    """Remember a folder's stamps. If that fails, the hashes are computed again the next time."""
     temporary = file.with_name(f"{SCRATCH}{uuid.uuid4().hex}")
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which wheel serves which interpreter: by the tags in its file name (PEP 425), and by the modules in it.
+"""Which wheel fits which interpreter: by the tags in its file name (PEP 425), and by its modules.
 
-A wheel of a release has the tags py3-none-PLATFORM and holds a compiled module for each Python that it knows; one that
-was built on the spot has the tags of its one Python.
+A release's wheel has the tags py3-none-PLATFORM and a compiled module for each supported Python. A locally built wheel
+has the tags of its one Python.
 """
 
 import importlib.machinery
@@ -19,7 +19,7 @@ MACHINE_SUFFIXES = {
     "arm64": ("aarch64", "arm64", "universal2"),
 }
 
-MODULE = "koebe/_koebe"  # where a wheel has its compiled modules, without their suffixes
+MODULE = "koebe/_koebe"  # path of a wheel's compiled modules, without their suffixes
 
 
 def interpreter_tag() -> str:
@@ -44,7 +44,7 @@ def module_suffixes(members: Iterable[str]) -> list[str]:
 
 
 def module_loads(suffixes: Iterable[str]) -> bool:
-    """Whether this interpreter imports a module with one of the suffixes."""
+    """Whether this interpreter can import a module with one of the suffixes."""
     return not set(suffixes).isdisjoint(importlib.machinery.EXTENSION_SUFFIXES)
 
 

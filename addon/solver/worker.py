@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A computation on a thread of its own, with its progress and its end to be polled."""
+"""A computation on its own thread, with progress and end to be polled."""
 
 import contextlib
 import os
@@ -7,13 +7,13 @@ import sys
 import threading
 from collections.abc import Callable
 
-NICENESS = 10  # steps by which the computation's threads stand back behind those that draw the window
+NICENESS = 10  # niceness of the computation's threads, so that the threads that draw the window go first
 
 
 class Worker:
     """Runs `compute(progress)` on a thread. Poll `running`; when it is false call `result`.
 
-    Python waits for the thread when it ends: to be cut off in native code could bring the program down.
+    At exit Python waits for the thread, as stopping it inside native code could crash the program.
     """
 
     def __init__(self, compute: Callable[[Callable[[float, str], None]], None]) -> None:
@@ -26,11 +26,11 @@ class Worker:
 
     @property
     def running(self) -> bool:
-        """Whether the computation has not ended yet."""
+        """Whether the computation is still running."""
         return self._thread.is_alive()
 
     def result(self) -> None:
-        """Wait for the end; raise what the computation raised."""
+        """Wait for the end; raise the computation's error."""
         self._thread.join()
         if self._error is not None:
             raise self._error
@@ -39,7 +39,7 @@ class Worker:
         _stand_back()
         try:
             self._compute(self._progress)
-        except BaseException as error:  # handed to the thread that polls
+        except BaseException as error:  # for the thread that polls
             self._error = error
 
     def _progress(self, fraction: float, stage: str) -> None:
@@ -47,7 +47,7 @@ class Worker:
 
 
 def _stand_back() -> None:
-    """Lower the priority of this thread, and of those it will start, where the system has one for each thread."""
+    """Lower the priority of this thread, and of the threads that it starts, if the system has priorities per thread."""
     if sys.platform == "linux":
         with contextlib.suppress(OSError):
             thread = threading.get_native_id()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keeps the report's circles true where a Möbius map has moved them, and where undo and redo take that back."""
+"""Updates the report's circles after a Möbius map, and after undo and redo of it."""
 
 import hashlib
 import json
@@ -15,7 +15,7 @@ from ..maps.wording import counted
 from .run_report import KoebeIslandReport, report_of
 
 MOVED, SYMMETRIC = "moved by hand", "made symmetric"
-KEPT = 50  # states of an island that are known again after undo
+KEPT = 50  # states of an island that are recognized after undo
 
 
 def entry_of(context: bpy.types.Context, name: str, layer: str, domain: CircleDomain) -> KoebeIslandReport | None:
@@ -28,26 +28,26 @@ def entry_of(context: bpy.types.Context, name: str, layer: str, domain: CircleDo
 
 
 def loop_keys(entry: KoebeIslandReport) -> list[int]:
-    """By what `CircleDomain.key` knows each of the loops."""
+    """The `CircleDomain.key` of each loop."""
     return [min(json.loads(loop.vertices)) for loop in entry.loops]
 
 
 def begin(entry: KoebeIslandReport, domain: CircleDomain) -> None:
-    """Note the entry as it is before its circles are moved for the first time."""
+    """Note the entry's first state, before its circles move for the first time."""
     if not entry.history:
         entry.corners = json.dumps(domain.island.some_corner()[_on_loops(domain)].tolist())
         _remember(entry, _hash(domain.old_uv, domain))
 
 
 def show(entry: KoebeIslandReport, domain: CircleDomain, moved: Moebius) -> None:
-    """Move the circles with a map that leaves the rim where it is; the domain's loops are numbered as the entry's."""
+    """Move the circles by a map that keeps the rim. The domain's loops are numbered as the entry's."""
     for place, loop in zip(entry.loops, domain.loops, strict=True):
         center, radius = moved.circle(loop.center, loop.radius)
         _place(place, domain, center, radius)
 
 
 def record(entry: KoebeIslandReport, image: CircleImage, angle_error: float, what: str = MOVED) -> None:
-    """Bring the entry up to date with an image that was written. Its loops become those of the image, in its order."""
+    """Update the entry with a written image. Its loops become the image's, in their order."""
     domain = image.domain
     begin(entry, domain)
     before = {key: (loop.vertices, loop.roundness) for key, loop in zip(loop_keys(entry), entry.loops, strict=True)}
@@ -62,7 +62,7 @@ def record(entry: KoebeIslandReport, image: CircleImage, angle_error: float, wha
 
 
 def describe(image: CircleImage, what: str = MOVED) -> str:
-    """What was done with the island, in words; what to watch out for comes after the colon."""
+    """The change of the island in words; warnings follow the colon."""
     troubles = []
     if len(image.flipped):
         troubles.append(f"{counted(len(image.flipped), 'triangle')} turned over")
@@ -77,7 +77,7 @@ def _place(place: Any, domain: CircleDomain, center: complex, radius: float) -> 
 
 
 def _hash(uv: np.ndarray, domain: CircleDomain) -> str:
-    """By what the state of an island is known again: the UVs of its loops, as they are stored."""
+    """Identifies a state of an island, by the stored UVs of its loops."""
     return _key(uv[_on_loops(domain)])
 
 
@@ -114,7 +114,7 @@ def _recall(entry: KoebeIslandReport, known: dict[str, Any]) -> None:
 
 
 def refresh(context: bpy.types.Context) -> None:
-    """Let the islands that were moved show the circles of the UVs that they have now."""
+    """Make the moved islands show the circles of their present UVs."""
     for entry in report_of(context).islands:
         obj = bpy.data.objects.get((entry.object_name, None)) if entry.history else None
         if obj is None or obj.type != "MESH" or entry.layer not in obj.data.uv_layers:
@@ -142,6 +142,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     for handlers in HANDLERS:
         handlers.remove(after_undo)

@@ -13,11 +13,11 @@ from ..maps.options import WRITTEN, Options, PartsChoice
 
 PROPERTIES = {"number": FloatProperty, "integer": IntProperty, "flag": BoolProperty, "text": StringProperty,
               "weights": StringProperty}  # fmt: skip
-OWN = ("precision", "subtype", "maxlen", "soft_max")  # of a property, as the table has them
+OWN = ("precision", "subtype", "maxlen", "soft_max")  # keys of a property in the table
 
 
 def option(name: str) -> Any:
-    """The property of an option, for whatever has it."""
+    """The Blender property of an option."""
     row = ROWS[name]
     own: dict[str, Any] = {key: row.blender[key] for key in OWN if key in row.blender}
     if "options" in row.blender:
@@ -36,7 +36,7 @@ def _sentence(text: str) -> str:
 
 
 def option_names(of: str) -> tuple[str, ...]:
-    """The options of the operator of a map."""
+    """The options of a map's operator."""
     return tuple(row.name for row in rows_of(of) if row.is_property)
 
 
@@ -45,8 +45,8 @@ def mixin(name: str, names: tuple[str, ...]) -> Any:
     return type(name, (), {"__annotations__": {name: option(name) for name in names}})
 
 
-ACCURACY_NAMES = ("method", "engine", "tolerance", "max_sweeps", "most_lost")  # which most runs leave alone
-RANGE_NAMES = ("frame_start", "frame_end", "frame_step")  # the scene's, where they are not set
+ACCURACY_NAMES = ("method", "engine", "tolerance", "max_sweeps", "most_lost")  # most runs do not change these
+RANGE_NAMES = ("frame_start", "frame_end", "frame_step")  # the scene's frames by default
 OPTION_NAMES = option_names("uniformize")
 PART_OPTION_NAMES = option_names("parts")
 SEQUENCE_OPTION_NAMES = option_names("sequence")
@@ -67,9 +67,9 @@ def settings_of(context: bpy.types.Context) -> KoebeSettings:
 
 
 def copy_options(source: Any, target: Any, of: str = "uniformize") -> None:
-    """Set the options of a map's operator from the settings, or the other way round.
+    """Copy the options of a map's operator from the settings, or back.
 
-    The frames of a sequence only where they are not to be the scene's.
+    A sequence's frames are copied only if they are not the scene's.
     """
     for name in option_names(of):
         if name not in RANGE_NAMES or not source.scene_range:
@@ -77,20 +77,20 @@ def copy_options(source: Any, target: Any, of: str = "uniformize") -> None:
 
 
 def sequence_options_of(properties: Any) -> Options:
-    """The `Options` of the operator that maps a sequence. Raises OptionError."""
+    """The `Options` of the sequence operator. Raises OptionError."""
     values = {name: getattr(properties, name) for name in SEQUENCE_OPTION_NAMES if name in OPTION_NAMES}
     return Options(**values, placement="pack", checker=False)
 
 
 def choice_of(of: str, properties: Any) -> Any:
-    """The `PartsChoice` of an operator, or the choice of its domain. Raises OptionError."""
+    """The `PartsChoice` of an operator, or its domain's choice. Raises OptionError."""
     kind: Any = PartsChoice if of == "parts" else DOMAINS[of].choice
     known = {field.name for field in dataclasses.fields(kind)}.intersection(option_names(of))
     return kind(**{name: getattr(properties, name) for name in known})
 
 
 def written_options_of(properties: Any) -> Options:
-    """The `Options` of what an operator writes: its layer and checker. Raises OptionError."""
+    """The `Options` for writing: layer and checker. Raises OptionError."""
     return Options(**{name: getattr(properties, name) for name in WRITTEN})
 
 
@@ -100,12 +100,12 @@ def options_of(properties: Any) -> Options:
 
 
 def register() -> None:
-    """Register the settings and hang them on the scene."""
+    """Register the settings and add them to the scene."""
     bpy.utils.register_class(KoebeSettings)
     bpy.types.Scene.koebe_uv = PointerProperty(type=KoebeSettings)
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     del bpy.types.Scene.koebe_uv
     bpy.utils.unregister_class(KoebeSettings)

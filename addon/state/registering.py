@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hangs what is kept on the window manager, which no undo changes."""
+"""Adds data to the window manager, which undo does not change."""
 
 from collections.abc import Callable
 
@@ -10,7 +10,7 @@ from bpy.props import PointerProperty
 def on_window_manager(
     name: str, *classes: type[bpy.types.PropertyGroup]
 ) -> tuple[Callable[[], None], Callable[[], None]]:
-    """Functions that register classes of properties, the last one hung there by this name, and that undo it."""
+    """Functions that register property classes, add the last one to the window manager by this name, and undo that."""
 
     def register() -> None:
         for cls in classes:

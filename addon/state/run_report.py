@@ -94,7 +94,7 @@ def report_of(context: bpy.types.Context) -> KoebeReport:
 
 
 def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str, Any]]) -> None:
-    """Replace the report: by rows as of `Outcome.rows`, with the names above. Lists are kept as JSON."""
+    """Replace the report by rows as in `Outcome.rows`, with the names above. Lists are kept as JSON."""
     report = report_of(context)
     note_group(run, report)
     report.islands.clear()
@@ -103,7 +103,7 @@ def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str
         for of_loop in row.pop("loops", ()):
             _fill(entry.loops.add(), of_loop)
         _fill(entry, row)
-    # What has to be looked at comes first.
+    # Show islands with problems first.
     report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
 
 
@@ -115,7 +115,7 @@ def _fill(group: bpy.types.PropertyGroup, row: dict[str, Any]) -> None:
 def record_moved(
     context: bpy.types.Context, koebe: ModuleType, name: str, layer: str, island: Island, placed: Carried
 ) -> None:
-    """Bring the entry of an object of one island up to date with new UVs of the same loops; note the report before.
+    """Update an object's entry, of one island, with new UVs of the same loops. Notes the report before.
 
     placed  has uv (n, 2) of the island's vertices, angle_error in degrees and flipped (k,) triangles
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report goes with the file: written into the scene when that is saved, read when it is opened."""
+"""Saves the report with the file: writes it into the scene before saving, reads it after loading."""
 
 import json
 import math
@@ -11,9 +11,9 @@ from bpy.props import StringProperty
 from .run_report import KoebeIslandReport, KoebeLoopReport, KoebeReport, report_of
 
 VERSION = 1
-# What only undo needs, which no file keeps.
+# Needed only for undo, and not saved.
 NOT_SAVED = ("rna_type", "loops", "corners", "history")
-# Texts that are lists of whole numbers, as JSON; of cuts lists of such lists.
+# Texts that hold lists of whole numbers as JSON; cuts hold lists of such lists.
 NUMBERS = ("flipped_faces", "torn_faces", "cut_edges", "vertices")
 CUTS = "cuts"
 ELEMENTS = ("vertices", "edges", "faces")
@@ -21,11 +21,11 @@ LARGEST = 2**31 - 1
 
 
 class DamagedError(ValueError):
-    """Content that is no report of this version."""
+    """Content that is not a report of this version."""
 
 
 def packed(report: KoebeReport) -> str:
-    """The report as text, empty where there is none."""
+    """The report as text; empty without a report."""
     if not report.islands:
         return ""
     islands = [{**_values(entry), "loops": [_values(loop) for loop in entry.loops]} for entry in report.islands]
@@ -33,7 +33,7 @@ def packed(report: KoebeReport) -> str:
 
 
 def unpack(text: str, report: KoebeReport) -> None:
-    """Fill the report from text. What is damaged, or of another version, leaves it empty."""
+    """Fill the report from text. Damaged text, or text of another version, leaves it empty."""
     report.islands.clear()
     try:
         content = json.loads(text) if text else {"version": VERSION, "active": 0, "islands": []}
@@ -46,7 +46,7 @@ def unpack(text: str, report: KoebeReport) -> None:
                 _require(len(entry.loops[-1].vertices) > len("[]"))
         _require(_is_whole(content.get("active")))
         report.active = content["active"]
-    except (ValueError, RecursionError):  # of JSON too
+    except (ValueError, RecursionError):  # JSON errors too
         report.islands.clear()
 
 
@@ -62,7 +62,7 @@ def _values(group: Any) -> dict[str, Any]:
 
 
 def _fill(group: KoebeIslandReport | KoebeLoopReport, values: Any) -> None:
-    """Set an entry's values. Raises DamagedError for one that could not have been there."""
+    """Set an entry's values. Raises DamagedError for an impossible value."""
     _require(isinstance(values, dict))
     for prop in group.bl_rna.properties:
         name = prop.identifier
@@ -136,14 +136,14 @@ HANDLERS = ((bpy.app.handlers.save_pre, before_save), (bpy.app.handlers.load_pos
 
 
 def register() -> None:
-    """Hang the text on the scene, and follow what is saved and opened."""
+    """Add the text to the scene, and watch saving and loading."""
     bpy.types.Scene.koebe_report = StringProperty(options={"HIDDEN"}, description="The last run's report, when saved")
     for handlers, function in HANDLERS:
         handlers.append(function)
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     for handlers, function in HANDLERS:
         handlers.remove(function)
     del bpy.types.Scene.koebe_report

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was found of shapes, kept with the window manager for the panel to show."""
+"""Results of comparing shapes, kept with the window manager for the panel."""
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
@@ -31,7 +31,7 @@ class KoebeShapes(bpy.types.PropertyGroup):
 
 
 def shapes_of(context: bpy.types.Context) -> KoebeShapes:
-    """What is shown of shapes."""
+    """The shown results."""
     return context.window_manager.koebe_shapes
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the artist sees: panels, menus, overlays, preferences. May import maps, blender, state, operators."""
+"""The visible part: panels, menus, overlays, preferences. May import maps, blender, state, operators."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The circles of the last run, drawn over the UVs in the UV Editor, with the numbers of the report."""
+"""Draws the circles of the last run over the UVs in the UV Editor, with the report's numbers."""
 
 import bisect
 from collections.abc import Iterator
@@ -14,15 +14,15 @@ from . import drawing
 
 RIM, HOLE = (1.0, 1.0, 1.0, 0.55), (1.0, 0.62, 0.12, 0.95)
 EDGES = (0.75, 0.75, 0.75, 0.3)
-SEGMENTS = (12, 24, 48, 96)  # of circles of up to so many pixels of radius, and of larger ones
+SEGMENTS = (12, 24, 48, 96)  # of circles up to a radius of so many pixels, and of larger ones
 PIXELS = (8.0, 30.0, 120.0)
 WIDTH = 2.0
-ROOM = 9.0  # pixels of radius that hold a number; smaller circles have theirs outside, above to the right
-SMALLEST_NUMBER = 3.0  # pixels of radius below which a circle has no number
+ROOM = 9.0  # pixels of radius that hold a number; smaller circles have it outside, above to the right
+SMALLEST_NUMBER = 3.0  # pixels of radius; smaller circles have no number
 
 
 def visible_islands(context: bpy.types.Context) -> Iterator[KoebeIslandReport]:
-    """Islands of the report whose circles lie where the UV Editor shows UVs now."""
+    """Islands of the report whose circles lie at the UVs that the UV Editor shows."""
     report = report_of(context)
     targets = {obj.name: obj for obj in target_objects(context)}
     for entry in report.islands:
@@ -40,7 +40,7 @@ def unit_circle(segments: int) -> np.ndarray:
 
 
 def draw_dragged(context: bpy.types.Context) -> None:
-    """The edges of what is dragged: Blender shows none in Object Mode, in which that is done."""
+    """Draw the edges of the dragged domain, as Blender shows none in Object Mode, where drags happen."""
     shown = UV_OT_koebe_moebius.shown
     if shown is None:
         return
@@ -52,7 +52,7 @@ def draw_dragged(context: bpy.types.Context) -> None:
 
 
 def draw() -> None:
-    """Draw them, if asked."""
+    """Draw the circles, if they are switched on."""
     context = bpy.context
     space, report = context.space_data, report_of(context)
     if space.mode != "UV" or context.mode not in {"OBJECT", "EDIT_MESH"}:
@@ -88,5 +88,5 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     drawing.remove("IMAGE_EDITOR", "circles")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tool "Koebe Circles" in the toolbar of the UV Editor: press the mouse to take hold of what lies there."""
+"""The tool "Koebe Circles" in the UV Editor's toolbar: a mouse press holds the circle or point there."""
 
 import bpy
 
@@ -30,12 +30,12 @@ class CirclesTool(bpy.types.WorkSpaceTool):
 
 
 def register() -> None:
-    """Put the tool after Blender's own that select and place the cursor. Without a window there may be no toolbar."""
+    """Add the tool after Blender's select and cursor tools. Without a window there may be no toolbar."""
     if bpy.context.window_manager.keyconfigs.addon is not None:
         bpy.utils.register_tool(CirclesTool, after={"builtin.cursor"}, separator=True)
 
 
 def unregister() -> None:
-    """Take it away, if it is there."""
+    """Remove it, if it is there."""
     if hasattr(CirclesTool, "_bl_tool"):
         bpy.utils.unregister_tool(CirclesTool)

@@ -17,7 +17,7 @@ def _upper_left(context: bpy.types.Context) -> bool:
 
 
 def draw_legend() -> None:
-    """The legend of the active object's colours, at the upper left of the 3D View."""
+    """Draw the legend of the active object's colours, at the upper left of the 3D View."""
     context = bpy.context
     obj: Any = context.active_object
     if obj is None or obj.type != "MESH" or not context.space_data.overlay.show_overlays:
@@ -34,5 +34,5 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     drawing.remove("VIEW_3D", "legend")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drawing over an editor: lines, a bar of colours, text. Coordinates are pixels of the region."""
+"""Draws over an editor: lines, a bar of colours, text. Coordinates are pixels of the region."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ import numpy as np
 SPACES = {"VIEW_3D": bpy.types.SpaceView3D, "IMAGE_EDITOR": bpy.types.SpaceImageEditor}
 TEXT = (0.92, 0.92, 0.92, 1.0)
 SHADE = (0.0, 0.0, 0.0, 0.55)
-BAR = (84, 160, 200, 12)  # left, from the top, width, height of the bar: below what Blender writes there
+BAR = (84, 160, 200, 12)  # left, from the top, width, height of the bar: below Blender's own text
 TEXT_SIZE = 11  # points at a resolution scale of 1
 
 Color = tuple[float, float, float, float]
@@ -18,23 +18,23 @@ _handles: dict[tuple[str, str], object] = {}
 
 
 def add(space: str, name: str, draw: Callable[[], None]) -> None:
-    """Call `draw` whenever the main region of such an editor has been drawn."""
+    """Call `draw` whenever an editor's main region has been drawn."""
     _handles[space, name] = SPACES[space].draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
 
 
 def remove(space: str, name: str) -> None:
-    """Undo `add`."""
+    """The reverse of `add`."""
     SPACES[space].draw_handler_remove(_handles.pop((space, name)), "WINDOW")
 
 
 def lines(strips: list[np.ndarray], color: Color, width: float) -> None:
-    """Draw each of the strips of points (x, y), as one batch."""
+    """Draw strips of points (x, y) as one batch."""
     if not strips:
         return
     points = np.concatenate(strips).astype(np.float32)
     first = np.arange(len(points), dtype=np.int32)
     ends = np.cumsum([len(strip) for strip in strips]) - 1
-    first = np.delete(first, ends)  # from the last point of a strip no line starts
+    first = np.delete(first, ends)  # no line starts at the last point of a strip
     segments(points, np.stack([first, first + 1], axis=1), color, width)
 
 
@@ -57,7 +57,7 @@ def segments(points: np.ndarray, pairs: np.ndarray | None, color: Color, width: 
 
 
 def text(content: str, x: float, y: float, color: Color = TEXT, centered: bool = True) -> None:
-    """Write a line of text, its baseline at y, on a shadow."""
+    """Write a line of text with its baseline at y, on a shadow."""
     import blf
 
     scale = bpy.context.preferences.system.ui_scale

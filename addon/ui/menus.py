@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The entries in Blender's menus: U, UV, Clean Up, Object, and Export."""
+"""The add-on's entries in Blender's menus: U, UV, Clean Up, Object, and Export."""
 
 import bpy
 
@@ -58,6 +58,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).remove(draw)

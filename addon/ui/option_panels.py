@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts of the panel that are closed until somebody wants them: options of the runs, and tools used less often."""
+"""The parts of the panel that are closed at first: options of the runs, and tools used less often."""
 
 from typing import Any
 
@@ -45,12 +45,12 @@ class DiskPanel(ClosedPanel):
 
 
 def draw_importance(column: bpy.types.UILayout, settings: KoebeSettings, context: bpy.types.Context) -> None:
-    """The vertex group, and under it the way to Weight Paint, where it is painted, and back."""
+    """Draw the vertex group, and under it the button to Weight Paint, or back."""
     obj: Any = context.active_object
     row = column.row()
     row.use_property_split = False
     row.active = is_used(settings, "importance")
-    split = row.split(factor=0.44)  # a little more than Blender gives to names: less does not hold this one
+    split = row.split(factor=0.44)  # a little more room than Blender gives to names, as this one needs it
     name = split.row()
     name.alignment = "RIGHT"
     name.label(text="Importance")

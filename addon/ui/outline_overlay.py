@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The outlines of the islands, drawn in the UV Editor in Object Mode, in which Blender shows no UVs."""
+"""Draws the outlines of the islands in the UV Editor in Object Mode, where Blender shows no UVs."""
 
 import bpy
 import numpy as np
@@ -15,14 +15,14 @@ from .circle_tool import CIRCLES_TOOL
 
 OUTLINE = (0.75, 0.75, 0.75, 0.8)
 
-# By the name of the mesh and of its layer: corners (k, 2) and their UVs (k, 2, 2).
+# By the names of mesh and layer: corners (k, 2) and their UVs (k, 2, 2).
 _known: dict[tuple[str, str], tuple[np.ndarray, np.ndarray]] = {}
-_stale = False  # whether a mesh has changed since they were read
+_stale = False  # whether a mesh has changed since the outlines were read
 
 
 @bpy.app.handlers.persistent
 def after_undo(*_: object) -> None:
-    """Called by Blender after undo and redo, and when a file was opened."""
+    """Called by Blender after undo and redo, and after a file was opened."""
     global _stale
     _stale = True
 
@@ -35,7 +35,7 @@ def after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None
 
 
 def forget() -> None:
-    """Read the outlines again if meshes have changed. Not while something is dragged, which is not among them."""
+    """Read the outlines again if meshes have changed. Drags are not among these changes."""
     global _stale
     if _stale and UV_OT_koebe_moebius.held is None:
         _known.clear()
@@ -43,7 +43,7 @@ def forget() -> None:
 
 
 def outlines_of(obj: MeshObject, layer: str) -> tuple[np.ndarray, np.ndarray]:
-    """Corners at the ends of the outlines in a UV layer, and their UVs."""
+    """Corners at the ends of a UV layer's outlines, and their UVs."""
     key = (obj.data.name_full, layer)
     if key not in _known:
         vertex, edge, following, uv = read_layout(obj, layer)
@@ -53,7 +53,7 @@ def outlines_of(obj: MeshObject, layer: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def draw() -> None:
-    """Draw those of the objects of the report; with the tool Koebe Circles of all that it can be used on."""
+    """Draw the outlines of the report's objects; with the tool Koebe Circles, of all objects that it works on."""
     context = bpy.context
     report = report_of(context)
     if context.space_data.mode != "UV" or context.mode != "OBJECT" or not report.show_circles:
@@ -74,7 +74,7 @@ def draw() -> None:
 
 
 def draw_segments(context: bpy.types.Context, uv: np.ndarray) -> None:
-    """Lines between pairs of places of the UVs (k, 2, 2)."""
+    """Draw lines between pairs of places of the UVs (k, 2, 2)."""
     to_region = context.region.view2d.view_to_region
     start, end = (np.array(to_region(x, x, clip=False)) for x in (0.0, 1.0))
     points = np.ascontiguousarray((start + (end - start) * uv).reshape(-1, 2), dtype=np.float32)
@@ -98,7 +98,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     for handlers, function in HANDLERS:
         handlers.remove(function)
     drawing.remove("IMAGE_EDITOR", "outlines")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panels have in common."""
+"""The common part of the panels."""
 
 import textwrap
 from typing import TYPE_CHECKING
@@ -11,10 +11,10 @@ from ..operators.domains import OPERATORS
 from ..operators.parts import UV_OT_koebe_parts
 from ..state.option_properties import KoebeSettings, copy_options
 
-CHARACTER = 7.8  # pixels of the sidebar's width for each character of a line of text, at a resolution scale of 1
+CHARACTER = 7.8  # pixels of the sidebar's width per character of text, at a resolution scale of 1
 
 
-if TYPE_CHECKING:  # what is mixed into panels is one for the type checker alone
+if TYPE_CHECKING:  # mixins have this base for the type checker only
 
     class PanelBase(bpy.types.Panel):
         """A panel that is drawn."""
@@ -31,14 +31,14 @@ class KoebePanel(PanelBase):
     bl_category = "Koebe"
 
     def aligned_layout(self) -> bpy.types.UILayout:
-        """The layout with names on the left and without keyframe dots."""
+        """A layout with names on the left and without keyframe dots."""
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         return self.layout
 
 
 def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial: bool = True) -> None:
-    """The button that cuts into parts, and over it how many there should be."""
+    """Draw the button that cuts into parts, and above it the dial for their number."""
     if dial:
         column.prop(settings, "evenness", slider=True)
     button = column.column(align=True)
@@ -48,13 +48,13 @@ def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial:
 
 
 def draw_domain_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:
-    """The button that maps to a domain that is no disk."""
+    """Draw the button that maps to another domain than the disk."""
     of = DOMAINS[domain]
     copy_options(settings, column.operator(OPERATORS[domain].bl_idname, text=of.button, icon=of.icon), domain)
 
 
 def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int:
-    """Lines of text, as long as the sidebar is wide; with `most` not more than so many. How many there are in all."""
+    """Draw text in lines as wide as the sidebar, with `most` at most so many. Returns the total number of lines."""
     context = bpy.context
     width = context.region.width / context.preferences.system.ui_scale / CHARACTER
     wrapped = textwrap.wrap(message[:1].upper() + message[1:], max(20, int(width)))

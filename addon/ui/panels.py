@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel "Koebe UV" in the sidebars of the 3D View and the UV Editor: its main part, and what is registered."""
+"""The panel "Koebe UV" in the sidebars of the 3D View and the UV Editor: its main part, and the registration."""
 
 import bpy
 
@@ -41,7 +41,7 @@ class MainPanel(KoebePanel):
 
 
 def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:
-    """The buttons by which a map is judged: checker, distortion, circles."""
+    """Draw the buttons to judge a map: checker, distortion, circles."""
     objects = target_objects(context)
     worn = any(checker.is_on(obj) for obj in objects)
     text = "Take Checker Off" if worn else "Put Checker On"
@@ -103,7 +103,7 @@ CHILDREN = {
 
 
 def children(parent: type, editor: type) -> list[type]:
-    """A class of each part for the panel of one editor."""
+    """Make a class of each part for one editor's panel."""
     name = parent.__name__
     return [
         type(f"{name}_{end}", (editor, part, bpy.types.Panel), {"bl_parent_id": name, "__doc__": part.__doc__})

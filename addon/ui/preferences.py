@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: a keyboard shortcut for those who want one."""
+"""The add-on's preferences: an optional keyboard shortcut."""
 
 from typing import Any
 
@@ -8,15 +8,15 @@ import bpy
 from .. import __name__ as addon_name
 
 OPERATOR = "uv.koebe_uniformize"
-# Where the shortcut Shift Alt U is valid: keymap, its space type.
+# Where the shortcut Shift Alt U works: keymap and its space type.
 KEYMAPS: tuple[tuple[str, Any], ...] = (("Mesh", "EMPTY"), ("Object Mode", "EMPTY"), ("UV Editor", "EMPTY"))
 
 
 def update_shortcut(preferences: "KoebePreferences", context: bpy.types.Context) -> None:
-    """Add or remove the shortcut, as the preference says."""
+    """Add or remove the shortcut, according to the preference."""
     remove_shortcut()
     keyconfig = context.window_manager.keyconfigs.addon
-    if not preferences.shortcut or keyconfig is None:  # there is none in background
+    if not preferences.shortcut or keyconfig is None:  # it does not exist in the background
         return
     for name, space in KEYMAPS:
         keymap = keyconfig.keymaps.new(name=name, space_type=space)
@@ -24,7 +24,7 @@ def update_shortcut(preferences: "KoebePreferences", context: bpy.types.Context)
 
 
 def remove_shortcut() -> None:
-    """Remove the shortcut wherever it is."""
+    """Remove the shortcut everywhere."""
     keyconfig = bpy.context.window_manager.keyconfigs.addon
     if keyconfig is None:
         return
@@ -52,7 +52,7 @@ class KoebePreferences(bpy.types.AddonPreferences):
 
 
 def register() -> None:
-    """Register the preferences and set the shortcut as they say."""
+    """Register the preferences and set their shortcut."""
     bpy.utils.register_class(KoebePreferences)
     addon = bpy.context.preferences.addons.get(addon_name)
     if addon is not None and addon.preferences is not None:
@@ -60,6 +60,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """The reverse of `register`."""
     remove_shortcut()
     bpy.utils.unregister_class(KoebePreferences)

@@ -21,8 +21,8 @@ from ..state.run_report import KoebeIslandReport, active_entry, entries_of_objec
 from .panel_parts import KoebePanel, draw_domain_button, draw_message, draw_parts_button
 
 MAX_LOOP_BUTTONS = 40
-MOST_LINES = 6  # of each message, until all is asked for
-# Radius of an annulus's hole, in units of its rim, below which texels differ by the inverse: better unrolled.
+MOST_LINES = 6  # of each message, until everything is requested
+# Radius of an annulus's hole, over its rim's. Below it texels differ by the inverse: it should be unrolled.
 LONG_TUBE = 0.2
 
 
@@ -39,7 +39,7 @@ class KOEBE_UL_islands(bpy.types.UIList):
         active_data: Any,
         active_property: str,
     ) -> None:
-        """The name has most of the room, as that tells the islands apart; the icon tells what was not mapped."""
+        """Give the name most of the room, as it tells the islands apart. The icon shows islands without a map."""
         split = layout.split(factor=0.66 if item.mapped else 1.0)
         name = item.object_name
         if item.shape:
@@ -51,7 +51,7 @@ class KOEBE_UL_islands(bpy.types.UIList):
 
 
 def island_icon(entry: KoebeIslandReport) -> Literal["CANCEL", "CHECKMARK", "ERROR"]:
-    """Good, to be looked at, or not mapped."""
+    """The icon for good, to be looked at, or not mapped."""
     if not entry.mapped:
         return "CANCEL"
     return "CHECKMARK" if entry.converged and not entry.flipped and not entry.message else "ERROR"
@@ -93,7 +93,7 @@ class ReportPanel(KoebePanel):
 
 
 def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
-    """Figures of a mapped island, and buttons that select its loops and its flipped faces."""
+    """Draw a mapped island's figures, and buttons that select its loops and its flipped faces."""
     table = column.column(align=True)
     sweeps = ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
     of_circles = [("Roundness", f"{entry.roundness:.1e}"), sweeps]
@@ -148,7 +148,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
 
 
 def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
-    """The buttons of what takes a surface that is no such domain."""
+    """Draw the buttons of operators that take a surface that does not fit this domain."""
     for offer in entry.offer.split():
         if offer in DOMAINS:
             draw_domain_button(column, settings_of(context), offer)
@@ -160,7 +160,7 @@ def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: Ko
 
 
 def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
-    """The offer to unroll a long tube."""
+    """Draw the offer to unroll a long tube."""
     if entry.domain or entry.shape or len(entry.loops) != 2:
         return
     if entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:

@@ -11,8 +11,8 @@ from ..state.option_properties import settings_of
 from ..state.shape_report import KoebeShapes, shapes_of
 from .panel_parts import KoebePanel, draw_message
 
-MAX_NUMBERS = 24  # of a module; a hole's x, y and radius a row
-MAX_ENTRIES = 12  # objects that were compared, or that a texture was carried to
+MAX_NUMBERS = 24  # of a module, one hole per row: x, y and radius
+MAX_ENTRIES = 12  # objects that were compared, or got a texture
 
 
 class ShapesPanel(KoebePanel):
@@ -39,7 +39,7 @@ class ShapesPanel(KoebePanel):
 
 
 def draw_module(column: bpy.types.UILayout, shapes: KoebeShapes) -> None:
-    """The module's numbers, three a row: a hole's x, y and radius."""
+    """Draw the module's numbers, one hole per row: x, y and radius."""
     column.label(text=f"Module of {shapes.source}", icon="MESH_CIRCLE")
     numbers = list(shapes.module)
     if not numbers:
@@ -59,7 +59,7 @@ def draw_module(column: bpy.types.UILayout, shapes: KoebeShapes) -> None:
 
 
 def draw_entries(column: bpy.types.UILayout, title: str, entries: Any, form: str) -> None:
-    """One line an object: its name and its number, or why there is none."""
+    """Draw one line per object: its name and its number, or why there is none."""
     column.label(text=title)
     for entry in entries[:MAX_ENTRIES]:
         split = column.split(factor=0.65)

@@ -13,7 +13,7 @@ namespace {
 constexpr int most_steps = 40;
 constexpr int most_halvings = 6;
 constexpr double longest_step = 0.8;        // keeps a damped step inside the disk
-constexpr double least_gain = 1e-7;         // of the distortion, in a step
+constexpr double least_gain = 1e-7;         // relative fall of the distortion in a step
 constexpr double weight_of_the_mean = 0.1;  // squared mean against variance
 
 struct Spread {

@@ -12,10 +12,10 @@
 namespace koebe {
 namespace {
 
-constexpr double margin = 1.1;             // of its radius: how far a circle that was moved stays from others
-constexpr double small_radius = 1e-3;      // unit disk: about what the meshes resolve
+constexpr double margin = 1.1;             // factor on the radius: distance of a moved circle from others
+constexpr double small_radius = 1e-3;      // unit disk: about the resolution of the meshes
 constexpr std::size_t most_small = 12;     // each costs three back-substitutions
-constexpr double noticeable = 0.5;         // offset over the radius: the fit is as good as the energy below that
+constexpr double noticeable = 0.5;         // offset over the radius: below that the fit is as good as the energy
 constexpr double noticeable_scale = 0.25;  // change of the complex radius over the radius
 constexpr int most_steps = 30;
 constexpr int most_halvings = 16;
@@ -41,8 +41,8 @@ public:
 
     const VectorXcd& points() const { return points_; }
 
-    /// Two loops: the inner one's centre where no flux runs, then a Moebius map that makes it concentric, until nothing
-    /// moves.
+    /// Two loops: puts the inner one's centre where no flux runs, then makes it concentric by a Moebius map, until both
+    /// stay.
     void center_annulus()
     {
         MatrixXd indicator = MatrixXd::Zero(points_.size(), 1);
@@ -64,7 +64,7 @@ public:
         }
     }
 
-    /// @return whether anything moved
+    /// @return whether any circle moved
     bool minimize_energy()
     {
         // Columns 3 i, 3 i + 1, 3 i + 2: the indicator of small loop i, and cosine and sine along it.
@@ -111,7 +111,7 @@ public:
                 points_ = rest + basis * solution;
                 return true;
             }
-            // In a corner too narrow for them circles are made smaller, and their centres found again.
+            // In a corner that is too narrow circles are made smaller, and their centres computed again.
             for (const std::size_t k : crowded)
                 solution[2 * (std::find(small_.begin(), small_.end(), k) - small_.begin()) + 1] *= 0.5;
             solution(centers) = -for_centers.solve(rest_load + coupling * VectorXcd(solution(radii)));
@@ -126,7 +126,7 @@ public:
             Eigen::RowVector2d flux(0.0, 0.0);
             for (const Index v : loops_[k])
                 for (SparseMatrix::InnerIterator it(laplacian_, v); it; ++it) flux += it.value() * uv.row(it.row());
-            // Flux over offset: that between concentric circles of radii r and 1.
+            // Ratio of flux to offset between concentric circles of radii r and 1.
             const double capacity = 2.0 * std::numbers::pi / std::log(1.0 / circles_[k].radius);
             return flux.norm() > noticeable * capacity * circles_[k].radius;
         });
@@ -154,7 +154,7 @@ private:
         return flux.cast<Complex>();
     }
 
-    /// Of each three columns 1, cos, sin the two 1 and cos + i sin.
+    /// Combines each three columns 1, cos, sin into the two 1 and cos + i sin.
     static Eigen::MatrixXcd combined(const Eigen::MatrixXcd& columns)
     {
         Eigen::MatrixXcd result(columns.rows(), 2 * columns.cols() / 3);

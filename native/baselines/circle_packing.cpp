@@ -7,7 +7,7 @@
 namespace koebe {
 namespace {
 
-constexpr double least_radius = 1e-9;  // of the mean edge: a vertex at which a face has collapsed
+constexpr double least_radius = 1e-9;  // of the mean edge: the radius at a vertex of a collapsed face
 
 }  // namespace
 

@@ -15,8 +15,8 @@ namespace koebe {
 namespace {
 
 using std::numbers::pi;
-constexpr double hole_damping = 2.0 / 3.0;  // the factors of all modes then lie within 1/3
-constexpr double newton_per_target = 1e-3;  // a target that still moves need not be met better than that
+constexpr double hole_damping = 2.0 / 3.0;  // then the factors of all modes lie within 1/3
+constexpr double newton_per_target = 1e-3;  // a moving target need not be met better than that
 
 /// The half-edges of a loop, in the order of its vertices.
 std::vector<Index> loop_halfedges(const Triangles& triangles, const std::vector<Index>& twin, const VertexLoop& loop)
@@ -31,13 +31,13 @@ std::vector<Index> loop_halfedges(const Triangles& triangles, const std::vector<
     return halfedges;
 }
 
-/// Half the angles at the centre of the circle in which a polygon with these edges is inscribed, of sum pi.
+/// Half the central angles of the circle in which a polygon with these edges is inscribed, sum pi.
 VectorXd chord_angles(const VectorXd& edges)
 {
     Eigen::Index longest = 0;
     const double length = edges.maxCoeff(&longest);
     if (!(2.0 * length < edges.sum())) return pi * edges / edges.sum();  // no polygon has such edges
-    // s = 1 / diameter. With the centre behind the longest edge that one's angle is the rest of the turn.
+    // s = 1 / diameter. With the centre beyond the longest edge, that edge's angle is the rest of the turn.
     const auto angles = [&](double s) -> VectorXd { return (s * edges).cwiseMin(1.0).array().asin(); };
     const bool behind = angles(1.0 / length).sum() < pi;
     const auto too_small = [&](double s) {
@@ -54,7 +54,7 @@ VectorXd chord_angles(const VectorXd& edges)
     return result * (pi / result.sum());
 }
 
-/// Along a tree where the lengths differ by so much that no least squares are left of them in double precision.
+/// Lays the metric out along a tree where lengths differ too much for least squares in double precision.
 VectorXcd laid_out(const Triangles& triangles, const EdgeLengths& lengths, const VectorXcd& edges, Index vertex_count)
 {
     try {
@@ -129,7 +129,7 @@ private:
         return boundary;
     }
 
-    /// Moves the target towards that of the present lengths; by how much, in radians, at most.
+    /// Moves the target towards the present lengths'. @return the largest change, radians
     double update_target()
     {
         energy_.set_target(VectorXd::Zero(u_.size()));

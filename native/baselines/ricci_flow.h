@@ -12,10 +12,10 @@
 
 namespace koebe {
 
-/// How a loop's curvature, 2 pi outside and -2 pi at a hole, is shared among its edges; a vertex gets half of its two.
+/// How edges share a loop's curvature, 2 pi outside and -2 pi at a hole. A vertex gets half of its two edges' shares.
 enum class BoundaryTarget {
-    inscribed,     ///< the angle of the edge as a chord of the circle through the loop: holes close up exactly
-    proportional,  ///< by length: off by O(h^2), so that holes stay ajar and circles drift on
+    inscribed,     ///< by the edge's angle as a chord of the circle through the loop: holes close exactly
+    proportional,  ///< by length: off by O(h^2), so holes do not close and circles drift on
 };
 
 struct RicciFlowOptions {
@@ -33,25 +33,25 @@ struct RicciFlowResult {
     double packing_change = 0.0;   ///< largest relative change of an edge by the packing
     double curvature_error = 0.0;  ///< largest |curvature - target|, radians
     double closing_gap = 0.0;      ///< largest gap of a hole's edges, over the hole's length
-    std::vector<Index> collapsed;  ///< faces whose lengths break the triangle inequality: there the map is no map
+    std::vector<Index> collapsed;  ///< faces whose lengths break the triangle inequality, where there is no map
     std::string reason;            ///< why it has not converged
 };
 
-/// Newton's method on the Ricci energy of a circle packing metric (Chow and Luo 2003; Jin, Kim, Luo, Gu 2008): its
+/// Newton's method on the Ricci energy of a circle packing metric (Chow and Luo 2003; Jin, Kim, Luo, Gu 2008). Its
 /// gradient in the logarithms of the radii is the curvature less the target, its Hessian a Laplacian with the power
-/// centres' weights. The target is 0 inside; that of the boundary depends on the lengths it leads to, and is updated
-/// until the circles stand still. Changes of the target are damped to 2/3 at holes: along a round hole the first
-/// mode of a change comes back with the factor -1, on the outer loop with +1 (a Moebius map), higher ones with
-/// -1/k and 1/k. The metric is unfolded, and positions fitted to the edges.
+/// centres' weights. The target is 0 inside. On the boundary it depends on the resulting lengths, and is updated until
+/// the circles stand still. Changes of the target are damped to 2/3 at holes: along a round hole the first mode of a
+/// change returns with the factor -1, on the outer loop with +1 (a Moebius map), higher modes with -1/k and 1/k. The
+/// metric is unfolded, and positions are fitted to the edges.
 ///
-/// @param metric a surface of genus 0 with strict triangle inequalities. The flow flips no edge: needles collapse, of
-///        which an intrinsic Delaunay triangulation has fewer
+/// @param metric a surface of genus 0 with strict triangle inequalities. The flow flips no edge, so needles collapse;
+/// an intrinsic Delaunay triangulation has fewer
 /// @param loops the outer one first, surface on the left
-/// @throws Cancelled; no convergence is reported
+/// @throws Cancelled; non-convergence is reported
 RicciFlowResult ricci_flow(const IntrinsicMetric& metric, Index vertex_count, const std::vector<VertexLoop>& loops,
                            const RicciFlowOptions& options, ExecutionContext& context);
 
-/// The energy itself.
+/// The Ricci energy.
 class RicciEnergy : public ConvexEnergy {
 public:
     RicciEnergy(const Triangles& triangles, CirclePacking packing, std::vector<char> boundary);
@@ -69,8 +69,9 @@ private:
     EdgeLengths lengths_;
 };
 
-/// (m) turning angle at each vertex of a polygon with the given edges (edge b from vertex b to the next), of sum 2 pi.
-/// Inscribed: half the central angles of its two edges. An edge longer than all others together: shared by length.
+/// (m) turning angle at each vertex of a polygon with the given edges (edge b from vertex b to the next), sum 2 pi.
+/// Inscribed: half the central angles of the vertex's two edges. If an edge is longer than all others together: by
+/// length.
 VectorXd turning_angles(const VectorXd& edges, BoundaryTarget target);
 
 }  // namespace koebe

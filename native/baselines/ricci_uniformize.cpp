@@ -26,7 +26,7 @@
 namespace koebe {
 namespace {
 
-constexpr double flat = 1e-5;             // radians of curvature left at a vertex
+constexpr double flat = 1e-5;             // radians of curvature that remains at a vertex
 constexpr double worth_a_warning = 1e-3;  // relative change of a length
 
 using Clock = std::chrono::steady_clock;
@@ -40,14 +40,14 @@ std::string with_number(const char* format, double number)
     return text;
 }
 
-/// Vertices of the outer loop that the layout has left outside the unit disk go onto its circle.
+/// Puts vertices of the outer loop that lie outside the unit disk onto its circle.
 void draw_in(const VertexLoop& outer, PlanarPoints& points)
 {
     for (const Index v : outer)
         if (const double radius = points.row(v).norm(); radius > 1.0) points.row(v) /= radius;
 }
 
-/// The flow's layout with the circles fitted to its loops, two loops concentric.
+/// The flow's layout with circles fitted to its loops, and two loops concentric.
 CircleMap in_normal_position(const RicciFlowResult& flow, const MapInput& input)
 {
     CircleMap map;
@@ -117,7 +117,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     const std::size_t own_flips = flipped_faces(input.surface.triangles, map.uv).size();
     map = hang_back(whole, cut, std::move(map), context);
     put_in_place(whole, map);
-    // What is not flat has no layout: flips everywhere, and nothing that untangling them could lead to.
+    // A surface that is not flat has no layout: flips are everywhere, and untangling them would be useless.
     const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
     report_map(vertices, triangles, whole, map, result);
 

@@ -24,17 +24,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t beat_ms = 10000;     // a claim is renewed so often
-constexpr std::uint64_t look_ms = 500;       // and looked at, where another run has it
+constexpr std::uint64_t beat_ms = 10000;     // a claim is renewed at this interval
+constexpr std::uint64_t look_ms = 500;       // another run's claim is looked at in this interval
 constexpr std::uint64_t patience_ms = 5000;  // for a process that was asked to end
-constexpr std::uint64_t grace_ms = 300;      // in which what ended a process may be seen to end this one too
-constexpr std::uint64_t turn_ns = 50000000;  // for files that need no process, until signals are looked at again
+constexpr std::uint64_t grace_ms = 300;      // time in which the signal that ended a process may reach this one
+constexpr std::uint64_t turn_ns = 50000000;  // time for files without a process, before signals are looked at again
 
 /// Whether the caller has a signal ignored, as nohup does.
 bool is_ignored(int signal)
 {
 #ifdef _WIN32
-    if (signal == SIGHUP) return false;  // which the C library does not know there
+    if (signal == SIGHUP) return false;  // the C library does not know it there
 #endif
     const auto before = std::signal(signal, SIG_IGN);
     if (before != SIG_ERR) std::signal(signal, before);
@@ -81,7 +81,7 @@ private:
     struct Waiting {
         const BatchFile* file;
         std::string hash;  ///< of its bytes, once they were read
-        bool elsewhere;    ///< another run has it
+        bool elsewhere;    ///< whether another run has it
     };
 
     struct Task : ClaimedFile {
@@ -96,7 +96,7 @@ private:
         return *static_cast<Run*>(handle->data);
     }
 
-    /// Calls a part of the run from C, through which no exception may pass.
+    /// Calls a part of the run from C, which no exception may pass through.
     template <typename Part>
     void guarded(Part&& part) noexcept
     {
@@ -133,7 +133,7 @@ private:
         for (const Task& task : tasks_) task.claim.beat();
     }
 
-    /// Ends the processes; at a second signal, or when they do not end in time, at once.
+    /// Asks the processes to end; kills them at a second signal, or if they do not end in time.
     void interrupt() noexcept
     {
         count_.interrupted = true;
@@ -163,7 +163,7 @@ private:
     {
         stop();
         kill_all(SIGKILL);
-        uv_run(&loop_, UV_RUN_DEFAULT);  // the processes' ends
+        uv_run(&loop_, UV_RUN_DEFAULT);  // waits for the processes to end
         for (Task& task : killed_) remove_scratch(task);
         for (uv_timer_t* timer : timers_)
             if (timer->data != nullptr) uv_close(reinterpret_cast<uv_handle_t*>(timer), nullptr);
@@ -177,7 +177,7 @@ private:
 
     const Recipe& recipe(const BatchFile& file) const { return file.is_blend ? options_.blend : options_.mesh; }
 
-    /// Settles what is done, and starts processes where places are free; what another run has goes back to the end.
+    /// Settles finished files, and starts processes in free places. Files of other runs go to the end of the queue.
     void start_some()
     {
         const std::uint64_t begin = uv_hrtime();
@@ -215,7 +215,7 @@ private:
             next.elsewhere = true;
             return false;
         }
-        if (settle_known(next)) {  // done since we looked
+        if (settle_known(next)) {  // done since the last look
             claim->release();
             return true;
         }
@@ -259,7 +259,7 @@ private:
         tasks_.erase(ended);
         task.process.reset();
         task.end = end;
-        if (is_killed(end) && !stopping_) {  // perhaps by what is about to reach this process: Ctrl-C goes to all
+        if (is_killed(end) && !stopping_) {  // perhaps this process gets the same signal soon: Ctrl-C goes to all
             killed_.push_back(std::move(task));
             uv_timer_start(
                 &grace_, [](uv_timer_t* grace) { of(grace).guarded([grace] { of(grace).settle_killed(); }); }, grace_ms,
@@ -280,7 +280,7 @@ private:
     {
         const Recipe& of_file = recipe(*task.file);
         try {
-            // While this run ends, a file counts only if it was done all the same.
+            // While this run ends, a file counts only if it was finished.
             if (!task.claim.is_held()) {
                 if (!stopping_) waiting_.push_back({task.file, task.hash, true});
             } else if (is_mapped(task.end)) {
@@ -299,7 +299,7 @@ private:
 
     void settle(const Json& report) { settle(report, report.contains("error") ? "failed" : "done"); }
 
-    /// Counts a file and tells of it.
+    /// Counts a file and reports it.
     void settle(const Json& report, const std::string& how)
     {
         const Json error = report.contains("error") ? report["error"] : Json();
@@ -324,7 +324,7 @@ private:
     BatchCount count_;
     std::deque<Waiting> waiting_;
     std::list<Task> tasks_;
-    std::deque<Task> killed_;  ///< by somebody else
+    std::deque<Task> killed_;  ///< from outside
     std::exception_ptr failure_;
     bool stopping_ = false;
     uv_loop_t loop_{};

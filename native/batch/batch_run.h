@@ -1,4 +1,4 @@
-// A batch: every file of a list mapped by a process of its own, some at a time.
+// A batch: maps every file of a list by a process of its own, several at a time.
 #pragma once
 
 #include "batch/file_list.h"
@@ -17,27 +17,27 @@ namespace koebe::batch {
 struct BatchOptions {
     std::filesystem::path output;  ///< the folder
     unsigned workers = 1;
-    double stale = 120.0;  ///< seconds (Claims)
+    double stale = 120.0;  ///< seconds after which another host's claim is dead (Claims)
     bool writes_summary = true;
     Recipe mesh, blend;
-    /// The words of the process that maps a file, the program first.
+    /// The command line of the process that maps a file, program first.
     std::function<std::vector<std::string>(const BatchFile&, const Scratch&)> command;
-    /// Is given one line for every file that is settled.
+    /// Called with one line for every file that is settled.
     std::function<void(const std::string&)> tell;
 };
 
 struct BatchCount {
-    std::size_t done = 0, not_converged = 0, failed = 0;  ///< of all files, whoever mapped them
-    std::size_t lost = 0;       ///< of those that failed, what came of the machine: the next run tries them again
-    std::size_t unchanged = 0;  ///< among them, those that were so before
+    std::size_t done = 0, not_converged = 0, failed = 0;  ///< of all files, including other runs' files
+    std::size_t lost = 0;       ///< failures caused by the machine: the next run tries these files again
+    std::size_t unchanged = 0;  ///< files that a former run had already settled
     bool interrupted = false;
 };
 
-/// Maps every file that is not done yet (is_current), one claim and one process each. Of a file that another run has
-/// claimed the result is awaited, or the claim taken over when it is dead. A file's result and then its report get
-/// their names when its process has ended, so that a report says that its file is done; SIGINT, SIGTERM and SIGHUP end
-/// the processes and leave what is done. Writes the summary in the end, in any case.
-/// @throws FileError the output folder cannot be written, or the summary
+/// Maps every file that is not done yet (is_current), with one claim and one process each. If another run has claimed a
+/// file, waits for its result, or takes over a dead claim. A file's result and then its report get their names when its
+/// process has ended, so the report proves that the file is done. SIGINT, SIGTERM and SIGHUP end the processes and keep
+/// finished files. Always writes the summary at the end.
+/// @throws FileError the output folder or the summary cannot be written
 BatchCount run_batch(const std::vector<BatchFile>& files, const BatchOptions& options);
 
 }  // namespace koebe::batch

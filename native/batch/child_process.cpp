@@ -51,7 +51,7 @@ void ChildProcess::spawn(uv_loop_t& loop, const std::vector<std::string>& words,
     process_.data = this;
     begin_ = uv_hrtime();
     const int status = uv_spawn(&loop, &process_, &options);
-    ++open_handles_;  // also where it failed
+    ++open_handles_;  // even if it failed
     if (file >= 0) {
         uv_fs_close(nullptr, &request, file, nullptr);
         uv_fs_req_cleanup(&request);
@@ -81,7 +81,7 @@ void ChildProcess::end(std::int64_t exit_status, int signal)
     close(reinterpret_cast<uv_handle_t*>(&process_));
     close(reinterpret_cast<uv_handle_t*>(&input_));
     if (timer_.data != nullptr) close(reinterpret_cast<uv_handle_t*>(&timer_));
-    // A process may have ended by itself in the moment of the limit.
+    // A process may have ended by itself just at the limit.
     const bool timed_out = timed_out_ && (signal != 0 || exit_status != 0);
     std::exchange(ended_, nullptr)({exit_status, signal, timed_out, seconds});
 }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr std::size_t key_digits = 32;
-constexpr double unwritten_seconds = 10.0;  // a claim is written at once after it was created
+constexpr double unwritten_seconds = 10.0;  // a claim is written right after its creation
 constexpr unsigned look_ms = 50;
 constexpr const char* work_ending = ".work";
 
@@ -40,7 +40,7 @@ std::string host_name()
     std::array<char, UV_MAXHOSTNAMESIZE> buffer{};
     std::size_t size = buffer.size();
     const std::string name = uv_os_gethostname(buffer.data(), &size) == 0 ? buffer.data() : "";
-    return name.starts_with("localhost") ? "" : name;  // which many machines are called
+    return name.starts_with("localhost") ? "" : name;  // the name of many machines
 }
 
 /// @return 0, or an error of libuv
@@ -56,7 +56,7 @@ int create(const fs::path& path, const std::string& text)
     return written < 0 ? written : 0;
 }
 
-/// The time of a file's last change, asked through an open file: a network's file systems answer from memory otherwise.
+/// The time of a file's last change, asked through an open file, as network file systems answer from a cache otherwise.
 std::string time_of_change(const fs::path& path)
 {
     Request open, status, close;
@@ -109,7 +109,7 @@ bool Claims::is_dead(const std::string& key, long generation)
     const Json owner = Json::parse(file, nullptr, false);
     if (owner.is_object() && !host_.empty() && owner.value("host", "") == host_) {
         const int process = owner.value("process", 0);
-        // This process does not ask for what it holds: an own number is that of one before it.
+        // This process does not check its own claims: its number on another claim is that of an earlier process.
         if (process == uv_os_getpid() || uv_kill(process, 0) == UV_ESRCH) return true;
     }
     const auto now = std::chrono::steady_clock::now();
@@ -178,7 +178,7 @@ void Claims::clean_up() noexcept
     std::error_code error;
     for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
         std::error_code ignored;
-        const fs::path path = entry->path();  // what a process wrote after the run that had started it was gone
+        const fs::path path = entry->path();  // written by a process after the run that started it had ended
         if (path.extension() == work_ending && !fs::exists(fs::path(path).replace_extension(), ignored))
             fs::remove_all(path, ignored);
     }

@@ -1,4 +1,4 @@
-// Which of several runs on one output folder has a file in hand.
+// Claims on files, so that several runs share one output folder.
 #pragma once
 
 #include <chrono>
@@ -9,26 +9,26 @@
 
 namespace koebe::batch {
 
-/// Claims are files FOLDER/KEY.GENERATION, made by a create that fails where the file is, which file systems keep
-/// atomic over a network too. The highest generation holds. To take over a dead one is to create the next, so that of
-/// several that try one succeeds, and nobody removes a claim that is alive.
+/// A claim is a file FOLDER/KEY.GENERATION. Its creation fails if the file exists; file systems keep this atomic even
+/// over a network. The highest generation counts. To take over a dead claim, a run creates the next generation. So only
+/// one of several runs succeeds, and no run removes a live claim.
 ///
-/// A claim names its host and process. It is dead if the process is gone from this host, or if its time of change has
-/// stood still for so long that its owner, who renews it every few seconds (beat), is gone from another one. That is
-/// measured by the clock of who looks on, as the clocks of hosts differ.
+/// A claim names its host and process. It is dead if its process has left this host. On another host it is dead if its
+/// time of change has stood still too long, as its owner renews it every few seconds (beat). The observer's clock
+/// measures that, as the clocks of hosts differ.
 class Claims {
 public:
-    /// @param stale seconds without a beat after which a claim of another host is dead
+    /// @param stale seconds without a beat after which another host's claim is dead
     Claims(std::filesystem::path folder, double stale);
 
     class Claim {
     public:
-        /// A folder of the claim's own for what is not whole yet. It is removed with the claim.
+        /// The claim's folder for unfinished files. It is removed with the claim.
         const std::filesystem::path& work() const { return work_; }
         const std::string& key() const { return key_; }
         const std::string& word() const { return word_; }  ///< KEY.GENERATION
         void beat() const noexcept;
-        /// False once another run has taken over, as after this process had stood still.
+        /// False once another run has taken over, for example because this process had been stopped.
         bool is_held() const;
         void release() noexcept;
 
@@ -40,26 +40,26 @@ public:
         bool is_released_ = false;
     };
 
-    /// The claim on a name, unless another run holds it. Whether the file is done has to be asked after this, not only
-    /// before: it may have been in between.
+    /// Takes the claim on a name, unless another run holds it. Check after this, not only before, whether the file is
+    /// done: it may have been done in between.
     /// @throws FileError the folder cannot be written
     std::optional<Claim> take(const std::string& name);
 
-    /// The same, once the other run has released it or is dead.
+    /// Takes the claim once the other run has released it or is dead.
     Claim wait(const std::string& name);
 
-    /// Removes what dead runs have left, and the folder if no run has a claim in it.
+    /// Removes the files of dead runs, and the folder if no run has a claim in it.
     void clean_up() noexcept;
 
 private:
     struct Watch {
         long generation;
-        std::string state;  ///< the time of its last change
+        std::string state;  ///< time of its last change
         std::chrono::steady_clock::time_point since;
     };
 
     std::optional<Claim> take_key(const std::string& key, const std::string& name);
-    /// Takes over, and releases, the claims of dead runs: those of files that were done, but for that.
+    /// Takes over and releases claims of dead runs on files that are done.
     void release_dead();
     long highest(const std::string& key) const;
     bool is_dead(const std::string& key, long generation);

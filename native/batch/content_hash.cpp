@@ -13,7 +13,7 @@
 namespace koebe::batch {
 namespace {
 
-constexpr std::size_t piece = std::size_t{1} << 20;  // bytes read at a time
+constexpr std::size_t piece = std::size_t{1} << 20;  // bytes per read
 
 class Sha256 {
 public:

@@ -1,4 +1,4 @@
-// What a file holds, as one word.
+// Hashes the contents of files.
 #pragma once
 
 #include <filesystem>

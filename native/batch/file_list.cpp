@@ -59,7 +59,7 @@ private:
             throw UsageError(utf8(input) + " is a file of Blender's: name the program with --blender");
         if (!is_mesh(input) && !is_blend(input))
             throw UsageError(utf8(input) + " is no mesh file: they end in .obj, .off, .ply or .stl");
-        // The name is that of the link, if it is one: what it leads to may be called anything.
+        // A link gives its own name, as its target may be called anything.
         const fs::path source = fs::canonical(fs::absolute(input).parent_path()) / input.filename();
         add_file(source, source.parent_path());
     }

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What runs that were killed have left in the folder of a .blend.
+/// Removes what killed runs have left in the folder of a .blend.
 void remove_left_blends(const BatchFile& file, const Claims::Claim& claim)
 {
     std::error_code error;
@@ -35,7 +35,7 @@ Scratch make_scratch(const BatchFile& file, const Claims::Claim& claim)
     const fs::path folder = file.output.parent_path();
     std::error_code error;
     fs::create_directories(folder, error);
-    // A .blend names other files from where it lies itself, so it is written in the folder that it will be in.
+    // A .blend names other files relative to itself, so it is written in its final folder.
     if (file.is_blend) remove_left_blends(file, claim);
     return {file.is_blend ? folder / (".koebe-" + claim.word() + ".blend")
                           : work / ("result" + utf8(file.output.extension())),
@@ -46,7 +46,7 @@ void remove_scratch(ClaimedFile& claimed) noexcept
 {
     std::error_code error;
     fs::remove(claimed.scratch.output, error);
-    if (claimed.file->is_blend) remove_left_blends(*claimed.file, claimed.claim);  // what Blender wrote beside it
+    if (claimed.file->is_blend) remove_left_blends(*claimed.file, claimed.claim);  // files that Blender wrote beside it
     claimed.claim.release();
 }
 
@@ -60,7 +60,7 @@ Json keep_result(const ClaimedFile& claimed, const Recipe& recipe, const fs::pat
         return keep_failure(claimed, recipe, {{"name", "Crash"}, {"reason", "its process wrote no result"}});
     Json report = report_head(file, claimed.hash, recipe);
     for (const char* name : {"name", "input", "options"}) own.erase(name);
-    report.update(own);  // with a hash of its own, of the bytes that it read
+    report.update(own);  // with its own hash, of the bytes that it read
     if (!own.contains("seconds")) report["seconds"] = {{"total", claimed.end.seconds}};
     report["exit_code"] = claimed.end.exit_status;
     report["output"] = generic_utf8(file.output.lexically_relative(folder));

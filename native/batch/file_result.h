@@ -1,4 +1,4 @@
-// What the process of a file writes: where, and how it gets to its place with a report, or is cleared away.
+// The files that a mapping process writes; they are moved to their places with a report, or removed.
 #pragma once
 
 #include "batch/child_process.h"
@@ -12,35 +12,35 @@
 
 namespace koebe::batch {
 
-/// Where a process is to write. All of it is moved to its place once it is whole.
+/// Paths that a process writes to. Its files are moved to their places once they are complete.
 struct Scratch {
     std::filesystem::path output, report;
-    std::filesystem::path log;  ///< what it prints
+    std::filesystem::path log;  ///< the process's output
 };
 
-/// A file that this run has in hand.
+/// A file that this run is working on.
 struct ClaimedFile {
     const BatchFile* file;
-    std::string hash;  ///< of its bytes
+    std::string hash;  ///< of the file's bytes
     Claims::Claim claim;
     Scratch scratch;
     ProcessEnd end;
 };
 
-/// Makes the folder of the result, and clears away what runs that were killed have left there.
+/// Makes the folder of the result, and removes what killed runs have left there.
 Scratch make_scratch(const BatchFile& file, const Claims::Claim& claim);
 
-/// Removes what is not in its place, and releases the claim.
+/// Removes unfinished files, and releases the claim.
 void remove_scratch(ClaimedFile& claimed) noexcept;
 
-/// The result and its report moved to their places. Without a result its failure is kept.
+/// Moves the result and its report to their places. Without a result, keeps the failure.
 /// @param folder of the batch
 /// @returns the report
 /// @throws FileError
 nlohmann::ordered_json keep_result(const ClaimedFile& claimed, const Recipe& recipe,
                                    const std::filesystem::path& folder);
 
-/// The report of a mesh that could not be mapped, in place of a result that was made of other bytes.
+/// Writes the report of a mesh that could not be mapped, and removes a result made of other bytes.
 /// @returns the report
 /// @throws FileError
 nlohmann::ordered_json keep_failure(const ClaimedFile& claimed, const Recipe& recipe,

@@ -1,4 +1,4 @@
-// Paths as the text that libuv and reports have, and the errors of libuv.
+// Paths as text for libuv and reports, and libuv's errors.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace koebe::batch {
 
-/// UTF-8 on Windows, the bytes of the name elsewhere.
+/// The path in UTF-8 on Windows, in its own bytes elsewhere.
 std::string utf8(const std::filesystem::path& path);
-/// The same with "/" between folders on every system.
+/// utf8 with "/" between folders on every system.
 std::string generic_utf8(const std::filesystem::path& path);
 std::filesystem::path path_of(const std::string& text);
 

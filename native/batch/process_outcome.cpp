@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::streamoff shown_log = 65536;  // bytes, the last ones that a process has printed
+constexpr std::streamoff shown_log = 65536;  // bytes at the end of a log
 enum : int { mapped = 0, interrupted = 130 };
 
 std::string end_of_text(const fs::path& path)
@@ -45,7 +45,7 @@ Json end_error(const ProcessEnd& end, const fs::path& log, double time_limit)
     if (end.signal != 0) return by("Crash", "its process ended by signal " + std::to_string(end.signal));
     if (end.exit_status < 0 || end.exit_status > interrupted)
         return by("Crash", "its process ended with status " + std::to_string(end.exit_status));
-    // These codes are the script's own: it has said why it refuses the file.
+    // These codes are the script's own: the log says why it refuses the file.
     return error_of_lines(end_of_text(log), end.exit_status <= not_converged_code ? "Refused" : "Crash");
 }
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 std::string own_program()
 {
-    std::vector<char> buffer(32768);  // bytes, the longest path of Windows
+    std::vector<char> buffer(32768);  // bytes; the longest path of Windows
     std::size_t size = buffer.size();
     if (const int status = uv_exepath(buffer.data(), &size); status != 0)
         fail("cannot find the command itself", status);

@@ -5,15 +5,15 @@
 
 namespace koebe::batch {
 
-/// The file of this command itself.
-/// @throws FileError the system does not tell
+/// The path of this command itself.
+/// @throws FileError the system does not tell it
 std::string own_program();
 
-/// How many processes can run at once.
+/// The number of processes that can run at once.
 unsigned core_count();
 
-/// The add-on's batch.py: the one given, or that of the checkout which this command was built in.
-/// @throws FileError there is none
+/// The path of the add-on's batch.py: the given one, or the one of the checkout in which this command was built.
+/// @throws FileError it does not exist
 std::string blender_script(const std::string& given);
 
 }  // namespace koebe::batch

@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* claimed_name = "//summary";  // which no file is called
+constexpr const char* claimed_name = "//summary";  // no file has this name
 
-/// What the parts of a result add up to.
+/// Sums over the parts of a result.
 struct Figures {
     double faces = 0.0, flipped = 0.0, below_resolution = 0.0, lost_area = 0.0, angle_error = 0.0, angle_faces = 0.0;
     std::size_t warnings = 0;
@@ -68,7 +68,7 @@ std::string csv_field(const Json& value)
     return quoted + "\"";
 }
 
-/// RFC 4180, with the names of the columns.
+/// The rows in RFC 4180, with the names of the columns first.
 std::string csv_text(const Json& rows)
 {
     const auto line = [](const auto& fields) {

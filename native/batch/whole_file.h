@@ -1,4 +1,4 @@
-// A file that is whole or absent, and of which a process that is killed leaves nothing beside it.
+// Writes a file completely or not at all; a killed process leaves no other file beside it.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace koebe::batch {
 
-/// Writes in a folder of a claim, which the next run removes, and renames. AtomicFile alone writes beside the target,
-/// where nobody would remove what is left.
+/// Writes in a claim's folder, which the next run removes, and renames. AtomicFile writes beside the target, where no
+/// run would remove its temporary file.
 /// @param work on the target's file system
 /// @throws FileError
 void write_whole(const std::filesystem::path& work, const std::filesystem::path& target, std::string_view text);

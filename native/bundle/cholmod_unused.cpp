@@ -1,10 +1,10 @@
-// What CHOLMOD's analysis names and this library does not need, in place of what Debian's archive has. So the archive
-// can be inside a shared library, which its messages to stdout keep it from, and wants no METIS.
+// Replaces functions of Debian's archive that CHOLMOD's analysis names and this library does not need. So a shared
+// library can contain the archive, whose messages to stdout prevent that otherwise, and METIS is not needed.
 #include <cholmod.h>
 
 extern "C" {
 
-/// Says nothing: who calls CHOLMOD reads the status.
+/// Prints nothing: callers of CHOLMOD read the status.
 int cholmod_error(int status, const char*, int, const char*, cholmod_common* common)
 {
     common->status = status;

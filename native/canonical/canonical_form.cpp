@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    /// Breadth first over the faces, each from the corner it is entered by.
+    /// Numbers faces in the order of the walk, each from the corner where it is entered.
     void number(FaceWalk walk)
     {
         const Index face_count = static_cast<Index>(surface_.triangles.rows());

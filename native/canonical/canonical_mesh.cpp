@@ -28,8 +28,8 @@ bool names_twice(const Triangles& triangles, Index f)
            triangles(f, 2) == triangles(f, 0);
 }
 
-/// Of faces with the same vertices all but the one that agrees with most of its neighbours are marked, or, of several,
-/// all but the first. @param left_out (F) changed
+/// Marks duplicate faces: all faces with the same vertices except the one that agrees with most of its neighbours, or
+/// the first of several such. @param left_out (F) changed
 void leave_out_duplicates(const Triangles& triangles, std::vector<char>& left_out)
 {
     std::vector<std::pair<std::array<Index, 3>, Index>> faces;
@@ -39,7 +39,7 @@ void leave_out_duplicates(const Triangles& triangles, std::vector<char>& left_ou
         if (!left_out[f]) faces.emplace_back(corners, f);
     }
     std::ranges::sort(faces);
-    std::vector<std::pair<Index, Index>> steps;  // along edges of all faces that are no duplicates
+    std::vector<std::pair<Index, Index>> steps;  // along edges of all faces without duplicates
     std::vector<std::vector<Index>> groups;
     for (std::size_t i = 0; i < faces.size();) {
         std::vector<Index> group;
@@ -62,7 +62,7 @@ void leave_out_duplicates(const Triangles& triangles, std::vector<char>& left_ou
     for (const auto& group : groups) left_out[*std::ranges::max_element(group, {}, agreeing)] = 0;
 }
 
-/// (3F) across edges of two faces in one orientation.
+/// (3F) twins over edges of two faces in one orientation.
 std::vector<Index> twins_of(const Triangles& triangles, Index vertex_count, const std::vector<char>& left_out)
 {
     std::vector<Index> twin(static_cast<std::size_t>(triangles.size()), no_twin), own;
@@ -98,7 +98,7 @@ void number_patches(JoinedFaces& faces, const std::vector<char>& left_out)
     }
 }
 
-/// Half-edges of the faces of no patch, in an order that the numbers of the others give.
+/// A half-edge of each face in no patch, in an order that follows from the other numbers.
 std::vector<Index> entries_of_others(const Triangles& triangles, const std::vector<Index>& patch,
                                      const std::vector<Index>& rank)
 {
@@ -130,7 +130,7 @@ CanonicalMesh as_it_is(const Vertices& vertices, const Triangles& triangles)
     return mesh;
 }
 
-/// Numbers the vertices that have none yet.
+/// Numbers the vertices that have no number yet.
 void append_unmet(const std::vector<Index>& wanted, std::vector<Index>& rank, std::vector<Index>& vertices)
 {
     for (const Index v : wanted) {
@@ -205,7 +205,7 @@ CanonicalMesh canonical_mesh(const Vertices& vertices, const Triangles& triangle
     const std::vector<Index> twin = twins_of(triangles, vertex_count, left_out);
     JoinedFaces faces{triangles, twin, vertex_count};
     number_patches(faces, left_out);
-    Surface box;  // whose corners alone are read
+    Surface box;  // only its corners are read
     box.triangles = triangles;
     const Vertices positions = scaled_position(box, vertices);
     FaceWalk walk;

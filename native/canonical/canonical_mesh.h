@@ -1,4 +1,4 @@
-// Any mesh in numbers and coordinates that follow from its shape alone, and the way back to its own.
+// Numbers and coordinates of any mesh that follow from its shape alone, and the way back to the input's numbers.
 #pragma once
 
 #include "core/errors.h"
@@ -11,16 +11,16 @@
 namespace koebe {
 
 struct CanonicalMesh {
-    Vertices vertices;                     ///< (V, 3) within the unit ball, on a grid; those of no face at 0
+    Vertices vertices;                     ///< (V, 3) within the unit ball, rounded to a grid; unused vertices at 0
     Triangles triangles;                   ///< (F, 3) each with its corners in the input's cyclic order
-    std::vector<Index> original_vertices;  ///< of the input, for each vertex; those of no face come last
-    std::vector<Index> original_faces;     ///< of the input, for each face
-    std::vector<char> first_corners;       ///< of each face: the corner that was the first of the input's
-    Eigen::Matrix3d turn;                  ///< as CanonicalPosition has it
+    std::vector<Index> original_vertices;  ///< the input's vertex for each vertex; unused vertices come last
+    std::vector<Index> original_faces;     ///< the input's face for each face
+    std::vector<char> first_corners;       ///< of each face: the corner that came first in the input
+    Eigen::Matrix3d turn;                  ///< as in CanonicalPosition
 
-    /// A number of the input's vertex here; a negative one, and one that is too large, as it is.
+    /// The number here of an input's vertex. Numbers that are negative or too large stay as they are.
     Index vertex(Index original) const;
-    /// What the input has for each vertex or for each face; nothing if it has nothing.
+    /// The input's values in the order of the vertices or faces here; empty if there are none.
     template <class Value>
     std::vector<Value> of_vertices(const std::vector<Value>& values) const
     {
@@ -32,16 +32,16 @@ struct CanonicalMesh {
         return taken(values, original_faces);
     }
 
-    // The way back, in place.
+    // Back to the input's numbers, in place.
     void name_vertex(Index& v) const { name(v, original_vertices); }
     void name_face(Index& f) const { name(f, original_faces); }
-    void name_path(std::vector<Index>& vertices) const;      ///< which keeps its order
-    void name_loop(VertexLoop& loop) const;                  ///< its lowest vertex first
-    void name_vertices(std::vector<Index>& vertices) const;  ///< rising
-    void name_faces(std::vector<Index>& faces) const;        ///< rising
+    void name_path(std::vector<Index>& vertices) const;      ///< keeps its order
+    void name_loop(VertexLoop& loop) const;                  ///< then its lowest vertex comes first
+    void name_vertices(std::vector<Index>& vertices) const;  ///< then ascending
+    void name_faces(std::vector<Index>& faces) const;        ///< then ascending
     void name_elements(ElementKind kind, std::vector<Index>& elements) const;
     void name_report(MapReport& report) const;
-    /// (3F, n) of the corners of all faces.
+    /// (3F, n) rows of the corners of all faces.
     template <class Rows>
     void name_corners(Rows& rows) const
     {
@@ -52,7 +52,7 @@ struct CanonicalMesh {
                     rows.row(3 * static_cast<Eigen::Index>(f) + (first_corners[f] + k) % 3);
         rows = std::move(named);
     }
-    /// (F) of each face.
+    /// (F) values of the faces.
     template <class Value>
     void name_values(std::vector<Value>& of_face) const
     {
@@ -69,7 +69,7 @@ private:
         if (values.size() == names.size())
             for (const Index name : names) result.push_back(values[name]);
         else
-            result = values;  // who reads them says what is wrong
+            result = values;  // the reader reports the wrong size
         return result;
     }
     static void name(Index& number, const std::vector<Index>& names)
@@ -78,18 +78,18 @@ private:
     }
 };
 
-/// Faces that edges join in one orientation are a patch; each is numbered from an edge of its own (canonical_walk.h),
-/// those of more faces first; faces that name a vertex twice, or have
-/// the vertices of another one, come last. The position is that of canonical_form.h.
-/// @return the input as it is where its arrays are no mesh (empty, not finite, out of range, on one point): who reads
-/// them says so
+/// A patch is a set of faces joined over edges in one orientation. Each is numbered from an edge of its own
+/// (canonical_walk.h), larger patches first. Faces that name a vertex twice, or duplicate another face, come last.
+/// Positions are as in canonical_form.h.
+/// @return the unchanged input if its arrays are not a mesh (empty, not finite, out of range, at one point): the reader
+/// reports it
 CanonicalMesh canonical_mesh(const Vertices& vertices, const Triangles& triangles);
 
-/// The error with the input's numbers. @throws it
+/// Throws the error with the input's numbers. @throws error
 [[noreturn]] void throw_named(const CanonicalMesh& mesh, const KoebeError& error);
 
-/// What some work gives on the canonical mesh, by the input's numbers: so it follows from the shape alone.
-/// @param work (const CanonicalMesh&) -> Result @param name (const CanonicalMesh&, Result&): its numbers to the input's
+/// Does work on the canonical mesh. Returns the result in the input's numbers, so it follows from the shape alone.
+/// @param work (const CanonicalMesh&) -> Result @param name (const CanonicalMesh&, Result&): to the input's numbers
 template <class Work, class Name>
 auto in_canonical_form(const Vertices& vertices, const Triangles& triangles, const Work& work, const Name& name)
 {

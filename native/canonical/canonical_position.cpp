@@ -14,13 +14,13 @@
 namespace koebe {
 namespace {
 
-constexpr double coarsest = 0x1p-34;  // of the grid, over the extent
+constexpr double coarsest = 0x1p-34;  // grid step over the extent
 constexpr double finest = 0x1p-50;
-constexpr double of_shortest = 0x1p-22;  // of the grid, over the shortest edge
+constexpr double of_shortest = 0x1p-22;  // grid step over the shortest edge
 
 [[noreturn]] void throw_one_point() { throw InputError("all vertices lie on one point"); }
 
-/// One value of each piece of so many rows.
+/// One value for each block of rows.
 template <class Value>
 std::vector<Value> of_pieces(Eigen::Index rows,
                              const std::function<Value(Eigen::Index first, Eigen::Index count)>& value)
@@ -32,8 +32,8 @@ std::vector<Value> of_pieces(Eigen::Index rows,
     return values;
 }
 
-/// The row that is farthest by a measure; of several about as far the first. A piece whose largest is no better is
-/// passed over.
+/// The row that is farthest by a measure, the first of about equal ones. A block whose largest value is no better is
+/// skipped.
 template <class Measure>
 Eigen::Index farthest(Eigen::Index rows, const Measure& measure)
 {
@@ -57,7 +57,7 @@ Eigen::Index farthest(Eigen::Index rows, const Measure& measure)
     return best;
 }
 
-/// The shortest edge of some faces and the least height, infinite where there is none.
+/// The shortest edge and the least height of some faces; infinite without faces.
 std::pair<double, double> least_sizes(const Triangles& triangles, const Vertices& points, Eigen::Index begin,
                                       Eigen::Index end)
 {
@@ -147,7 +147,7 @@ CanonicalPosition turned_position(const Triangles& triangles, Vertices points)
         return p - p.dot(first) * first;
     };
     const Eigen::Vector3d sideways = aside(farthest(points.rows(), [&](Eigen::Index v) { return aside(v).norm(); }));
-    // All on a line: any second axis will do.
+    // All vertices on a line: any second axis will do.
     const Eigen::Vector3d second =
         sideways.norm() > same_size * extent ? Eigen::Vector3d(sideways / sideways.norm()) : first.unitOrthogonal();
     Eigen::Matrix3d frame;

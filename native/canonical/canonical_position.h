@@ -9,24 +9,24 @@ namespace koebe {
 
 /// A position in space that follows from the shape alone.
 struct CanonicalPosition {
-    Vertices vertices;  ///< (V, 3) within the unit ball, on a grid
+    Vertices vertices;  ///< (V, 3) within the unit ball, rounded to a grid
     double thinnest = 0.0;
-    Eigen::Matrix3d turn;  ///< its columns are the axes: a direction d of the input, as a row, is d * turn here
+    Eigen::Matrix3d turn;  ///< its columns are the axes: a direction d of the input, a row, is d * turn here
 };
 
-/// That of a surface whose numbers are canonical already. @throws InputError all vertices lie on one point
+/// The position of a surface with canonical numbers. @throws InputError all vertices lie at one point
 CanonicalPosition canonical_position(const Surface& surface, const Vertices& vertices);
 
-/// About 0 and of about unit size, so that no length overflows. @throws as above
+/// Moves the surface to 0 and scales it to about unit size, so that no length overflows. @throws as above
 Vertices scaled_position(const Surface& surface, const Vertices& vertices);
 
-/// The rest of the way from there: moved, turned and put on the grid. @throws as above
+/// Moves, turns and rounds the result of scaled_position. @throws as above
 CanonicalPosition turned_position(const Triangles& triangles, Vertices points);
 
-inline constexpr double same_size = 1e-4;  // relative difference of lengths that count as one: more than 32-bit noise
+inline constexpr double same_size = 1e-4;  // lengths count as equal within this relative difference, above 32-bit noise
 inline constexpr std::size_t rows_at_a_time = 32768;
 
-/// Calls work(first, count) for the rows of a matrix, piece by piece.
+/// Calls work(first, count) for the rows of a matrix in blocks.
 template <class Work>
 void each_rows(Eigen::Index rows, const Work& work)
 {

@@ -16,8 +16,8 @@
 namespace koebe {
 namespace {
 
-constexpr double hash_unit = 1e-3;  // of lengths in a hash, over the longest edge that a walk may begin with
-constexpr int hash_rounds = 24;     // edges that a neighbourhood reaches
+constexpr double hash_unit = 1e-3;  // unit of lengths in a hash, over the longest edge where a walk may start
+constexpr int hash_rounds = 24;     // size of a hashed neighbourhood in edges
 
 std::uint64_t mixed(std::uint64_t x)
 {
@@ -90,12 +90,12 @@ private:
         return among;
     }
 
-    /// The half-edges of all faces that a walk of so many edges from the ends of others comes to.
+    /// The half-edges of all faces within so many edges from the ends of others.
     std::vector<Index> halfedges_around(const std::vector<Index>& starts, int edges) const
     {
         const std::vector<Index>& twin = faces_.twin;
         std::vector<bool> is_near(twin.size(), false), is_passed(twin.size(), false), is_found(twin.size() / 3, false);
-        std::vector<Index> ring, next, result;  // a ring: of each of its fans half-edges from there
+        std::vector<Index> ring, next, result;  // a ring holds one half-edge from each of its fans
         const auto add = [&](Index h) {
             if (!is_near[h]) next.push_back(h);
             is_near[h] = true;
@@ -126,14 +126,14 @@ private:
                     pass(h);
                     if (twin[previous_halfedge(h)] == first) break;
                 }
-                if (h != no_twin) continue;  // all round
+                if (h != no_twin) continue;  // the walk went all round
                 for (h = twin[first]; h != no_twin; h = twin[next_halfedge(h)]) pass(next_halfedge(h));
             }
         }
         return result;
     }
 
-    /// (V) of those that have half-edges here: 1, or of several patches how far each is from the middle.
+    /// (V) start values of vertices that have half-edges here: 1, or with several patches a distance from the middle.
     std::vector<std::uint64_t> first_hash(const std::vector<Index>& number, Index count) const
     {
         std::vector<std::uint64_t> hash(static_cast<std::size_t>(count), 1);
@@ -156,13 +156,13 @@ private:
         return hash;
     }
 
-    /// Numbers that tell the neighbourhoods of candidates from others, until all are told apart.
+    /// Numbers that distinguish the neighbourhoods of candidates, until all differ.
     std::vector<Key> keys_of(const std::vector<Index>& candidates) const
     {
         const Triangles& triangles = faces_.triangles;
         const std::vector<Index> around = halfedges_around(candidates, hash_rounds);
         struct Edge {
-            Index from, to;  // numbers of the vertices here
+            Index from, to;  // local numbers of the vertices
             bool on_rim;
             std::uint64_t length;
         };
@@ -194,7 +194,7 @@ private:
         return keys_by(hash, number, candidates);
     }
 
-    /// Of the two ends of each, and of the third corner of its face: one edge may be two candidates.
+    /// Keys from the two ends and the third corner of each candidate; two candidates may be one edge.
     std::vector<Key> keys_by(const std::vector<std::uint64_t>& hash, const std::vector<Index>& number,
                              const std::vector<Index>& candidates) const
     {
@@ -207,7 +207,7 @@ private:
 
     const JoinedFaces& faces_;
     const Vertices& positions_;
-    std::vector<double> longest_;  // of each patch: the edges that its walk may begin with
+    std::vector<double> longest_;  // of each patch: longest edge where its walk may start
 };
 
 }  // namespace

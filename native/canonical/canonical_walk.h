@@ -1,4 +1,4 @@
-// The order in which faces and vertices are numbered: where it begins, and how it goes on.
+// The order in which faces and vertices are numbered: its start and its steps.
 #pragma once
 
 #include "core/types.h"
@@ -7,27 +7,27 @@
 
 namespace koebe {
 
-/// Faces and the half-edges across their edges; those of one patch are joined by these.
+/// Faces and the half-edges across their edges, which join the faces of a patch.
 struct JoinedFaces {
     const Triangles& triangles;
     const std::vector<Index>& twin;  ///< (3F) or no_twin
     Index vertex_count = 0;
-    std::vector<Index> patch = {};  ///< (F) from 0, -1: of none; empty: all faces are one patch
+    std::vector<Index> patch = {};  ///< (F) from 0; -1: no patch; empty: all faces are one patch
     Index patches = 1;
 };
 
-/// The half-edge of each patch that a walk over its faces is to begin with; patches of more faces come first.
+/// The half-edge of each patch at which a walk over its faces starts. Larger patches come first.
 ///
-/// It is the longest boundary edge, or the longest edge of a patch without boundary. Among edges as long it is one
-/// whose neighbourhood is like few others, and of these the first by a hash of edge lengths (Weisfeiler and Lehman
-/// 1968); of several patches the distances from the middle of all are in the hash too.
+/// It is the longest boundary edge, or the longest edge of a patch without boundary. Among edges of equal length those
+/// with a rare neighbourhood are preferred, then the first by a hash of edge lengths (Weisfeiler and Lehman 1968). With
+/// several patches the hash includes distances from the middle of all.
 /// @param positions (V, 3) about 0 and of about unit size
 std::vector<Index> first_halfedges(const JoinedFaces& faces, const Vertices& positions);
 
-/// A walk over the faces, breadth first, each entered by a half-edge of its own.
+/// A walk over the faces, breadth first. Each face is entered by a half-edge of its own.
 struct FaceWalk {
     std::vector<Index> entered;   ///< half-edges
-    std::vector<Index> vertices;  ///< as they are met
+    std::vector<Index> vertices;  ///< in the order of the walk
 };
 
 FaceWalk walk_from(const JoinedFaces& faces, const std::vector<Index>& starts);

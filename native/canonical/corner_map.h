@@ -1,4 +1,4 @@
-// How a map with UVs of its own for each corner is made: on a thread that can be left, in canonical form.
+// Makes a map with UVs per corner on a detachable thread, in canonical form.
 #pragma once
 
 #include "canonical/canonical_mesh.h"
@@ -7,9 +7,9 @@
 
 namespace koebe {
 
-/// The map of a surface by the input's numbers, so that it follows from the shape alone.
-/// @param compute (const CanonicalMesh&, ExecutionContext&) -> Result; holds what it needs, as it may outlive the call
-/// @param name (const CanonicalMesh&, Result&): what the result has beyond a CornerMapReport, to the input's numbers
+/// Maps a surface in canonical form and returns the result in the input's numbers, so it follows from the shape alone.
+/// @param compute (const CanonicalMesh&, ExecutionContext&) -> Result; holds copies, as it may outlive the call
+/// @param name (const CanonicalMesh&, Result&): renames the members that a CornerMapReport does not have
 template <class Result, class Compute, class Name>
 Result corner_map(const Vertices& vertices, const Triangles& triangles, ExecutionContext& context,
                   const Compute& compute, const Name& name)
@@ -26,7 +26,7 @@ Result corner_map(const Vertices& vertices, const Triangles& triangles, Executio
     });
 }
 
-/// The same with options, whose polygons are made those of the canonical mesh.
+/// Maps with options, whose polygons are changed to those of the canonical mesh.
 /// @param compute (const CanonicalMesh&, Options&, ExecutionContext&) -> Result
 template <class Result, class Options, class Compute, class Name>
 Result corner_map(const Vertices& vertices, const Triangles& triangles, const Options& options,

@@ -13,9 +13,9 @@ using std::numbers::pi;
 
 constexpr double shortest_step = 1e-5;  // of the mean step, dimensionless
 constexpr int newton_steps = 200;
-constexpr double longest_newton_step = 0.7;  // keeps the damped step inside the disk
+constexpr double longest_newton_step = 0.7;  // keeps a damped step inside the disk
 
-/// Angles made increasing, each in [previous, previous + 2 pi), starting from the principal value of the first.
+/// Makes angles increasing, each in [previous, previous + 2 pi). Starts from the principal value of the first.
 VectorXd unrolled(const VectorXcd& points)
 {
     VectorXd angles(points.size());
@@ -24,11 +24,11 @@ VectorXd unrolled(const VectorXcd& points)
     return angles;
 }
 
-/// The mean along the edge from node b: of the cubic through four nodes where they are about even, on ragged loops of
-/// the straight line through two, and a mixture in between.
+/// The mean density along the edge from node b. On even loops it is the mean of the cubic through four nodes, on ragged
+/// loops of the straight line through two, and in between a mixture.
 double mean_density(const VectorXd& density, const VectorXd& edges, Eigen::Index b)
 {
-    constexpr double even = 2.0, ragged = 3.0;  // largest over least
+    constexpr double even = 2.0, ragged = 3.0;  // largest over least edge or density
     const Eigen::Index m = density.size(), before = (b + m - 1) % m, next = (b + 1) % m, after = (b + 2) % m;
     const auto [least, most] = std::minmax({density[before], density[b], density[next], density[after]});
     const auto [shortest, longest] = std::minmax({edges[before], edges[b], edges[next]});

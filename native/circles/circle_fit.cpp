@@ -7,8 +7,8 @@
 namespace koebe {
 namespace {
 
-constexpr int gauss_newton_steps = 20;       // converges quadratically near a circle: four or five are used
-constexpr double least_cosine = 0.92387953;  // of a sixteenth of a turn, to either side of the mean
+constexpr int gauss_newton_steps = 20;       // upper bound: near a circle four or five are enough
+constexpr double least_cosine = 0.92387953;  // cosine of a sixteenth of a turn, to either side of the mean
 constexpr double gauss_newton_stop = 1e-15;  // relative to the radius
 
 /// Least squares on |v|^2 - 2 v.c + (|c|^2 - r^2) = 0, centred and scaled first.
@@ -34,7 +34,7 @@ bool fit_circle_algebraic(const VectorXcd& points, Circle& circle)
     return true;
 }
 
-/// Whether all points lie within an eighth of a turn of the circle: no loop goes round it.
+/// Whether all points lie within an eighth of a turn of the circle: then no loop goes round it.
 bool spans_an_arc_only(const VectorXcd& points, const Circle& circle)
 {
     const Complex direction = points.mean() - circle.center;

@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double least_of_mean = 1e-3;  // distance between neighbours over the mean one, dimensionless
+constexpr double least_of_mean = 1e-3;  // least distance of neighbours over the mean one, dimensionless
 
 /// The nondecreasing sequence nearest to the given one.
 VectorXd isotonic(const VectorXd& values)
@@ -64,7 +64,7 @@ VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int
                                : VectorXd::Constant(n, least_of_mean * 2.0 * pi / static_cast<double>(n));
     if ((steps - least).minCoeff() >= 0.0) return circle.center + (circle.radius * arms).array();
 
-    // Cut at the widest step, where order cannot be in doubt.
+    // Cut at the widest step, where the order is certain.
     Eigen::Index widest = 0;
     (steps - least).maxCoeff(&widest);
     const Eigen::Index first = (widest + 1) % n;
@@ -76,7 +76,7 @@ VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int
         angle += steps[(first + i) % n];
     }
     angles = isotonic(angles) + room;
-    // Should the ends have met, what is above the least steps is drawn together.
+    // If the ends would meet, shrink the excess over the least steps.
     const double span = angles[n - 1] - angles[0], most = 2.0 * pi - least[widest];
     const double scale = span > most ? (most - room[n - 1]) / (span - room[n - 1]) : 1.0;
     angles = (angles.array() - angles[0] - room.array()) * scale + angles[0] + room.array();

@@ -5,18 +5,18 @@
 
 namespace koebe {
 
-/// Radially onto the circle, and then along it as little as makes the points run round once in their order: angles
-/// that come too early for those before them are pooled with these (isotonic regression, Ayer et al. 1955) at a least
-/// distance. Where hardly any flux runs the image turns back on itself; no interior could follow that.
+/// Moves points radially onto the circle, then along it as little as possible until they run round once in order. An
+/// angle that comes before an earlier point's is pooled with it (isotonic regression, Ayer et al. 1955) at a least
+/// distance. With hardly any flux an image turns back on itself, and no interior could follow that.
 /// @param points (n) image of a loop in order, n >= 3 @param turn +1 counter-clockwise (the outer loop), -1 clockwise
-/// @param least (n) radians from each point to the next, of sum below 2 pi; 1e-3 of the mean if it is empty
+/// @param least (n) radians from each point to the next, sum below 2 pi; empty: 1e-3 of the mean
 VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int turn, const VectorXd& least = {});
 
-/// Whether points run once round a place, in their order. @param arms (n) from that place, none 0
+/// Whether points run once round a place in their order. @param arms (n) from that place to the points, none of them 0
 /// @param turn +1 counter-clockwise, -1 clockwise
 bool run_once_round(const VectorXcd& arms, int turn);
 
-/// Whether a point of the unit disk is farther from a circle than circle_tolerance, or nowhere.
+/// Whether a point of the unit disk is farther from a circle than circle_tolerance, or is not finite.
 bool is_off_circle(const Circle& circle, Complex point);
 
 }  // namespace koebe

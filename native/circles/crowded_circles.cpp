@@ -23,7 +23,7 @@ bool circles_apart(const std::vector<Circle>& circles)
 
 std::vector<Index> shrink_crowded(std::vector<Circle>& circles)
 {
-    constexpr double share = 0.9;  // of the room between two centres
+    constexpr double share = 0.9;  // of the room of a circle
     const std::vector<Circle> before = circles;
     std::vector<Index> changed;
     for (std::size_t k = 1; k < circles.size(); ++k) {

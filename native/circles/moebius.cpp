@@ -21,7 +21,7 @@ Circle Moebius::operator()(const Circle& circle) const
 
 Moebius Moebius::operator*(const Moebius& first) const
 {
-    // The product sends first^-1(a) to 0; its turn is read off where it sends 1.
+    // The product sends first^-1(a) to 0; its turn follows from its image of 1.
     const Moebius product{first.inverse()(a), Complex(1.0, 0.0)};
     const Complex one(1.0, 0.0), twist = (*this)(first(one)) / product(one);
     return {product.a, twist / std::abs(twist)};

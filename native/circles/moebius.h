@@ -1,4 +1,4 @@
-// Automorphisms of the unit disk, and the choices they leave.
+// Automorphisms of the unit disk.
 #pragma once
 
 #include "circles/circle.h"
@@ -16,14 +16,14 @@ struct Moebius {
 
     Complex operator()(Complex z) const { return turn * (z - a) / (1.0 - std::conj(a) * z); }
     KOEBE_API VectorXcd operator()(const VectorXcd& z) const;
-    /// Image of a circle inside the disk; circles go to circles.
+    /// Image of a circle inside the disk, which is a circle.
     Circle operator()(const Circle& circle) const;
-    /// This map after another.
+    /// This map after `first`.
     Moebius operator*(const Moebius& first) const;
     Moebius inverse() const { return {-a * turn, std::conj(turn)}; }
 };
 
-/// The automorphism that makes a circle inside the disk concentric with it.
+/// The automorphism that moves a circle inside the disk to the centre 0.
 Moebius center_circle(const Circle& circle);
 
 }  // namespace koebe

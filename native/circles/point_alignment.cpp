@@ -12,7 +12,7 @@ double squares(const VectorXcd& points, const VectorXcd& targets, const VectorXd
     return (weights.array() * (points - targets).array().abs2()).sum();
 }
 
-/// The best turn alone, which no start misses.
+/// The best rotation, which needs no start value.
 Moebius nearest_turn(const VectorXcd& points, const VectorXcd& targets, const VectorXd& weights)
 {
     const Complex overlap = (weights.array() * targets.array() * points.array().conjugate()).sum();

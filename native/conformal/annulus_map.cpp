@@ -17,7 +17,7 @@
 namespace koebe {
 namespace {
 
-/// Half-edges by origin, in one array.
+/// Half-edges sorted by origin, in one array.
 struct OutgoingHalfedges {
     OutgoingHalfedges(const Triangles& triangles, Index vertex_count)
         : begin(vertex_count + 1, 0), halfedges(triangles.size())
@@ -30,7 +30,7 @@ struct OutgoingHalfedges {
     std::vector<Index> begin, halfedges;
 };
 
-/// Dijkstra (1959) from all of the outer loop to the nearest vertex of the inner one.
+/// Dijkstra's shortest path (1959) from the outer loop to the nearest vertex of the inner loop.
 std::vector<Index> shortest_cut(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                                 const VertexLoop& outer, const VertexLoop& inner)
 {
@@ -70,19 +70,19 @@ std::vector<Index> shortest_cut(const Triangles& triangles, const EdgeLengths& l
                         inner);
 }
 
-/// g0: 1 at the corners of the path's vertices to the right of the path.
+/// g0: 1 at the corners of the path's vertices on the right of the path, else 0.
 VectorXd jump_across(const Triangles& triangles, const std::vector<Index>& twin, const std::vector<Index>& cut)
 {
     VectorXd g0 = VectorXd::Zero(triangles.size());
     for (std::size_t i = 0; i < cut.size(); ++i) {
-        // Clockwise round the path's vertex, from the edge that leaves it to the one it came by, or to the boundary.
+        // Go clockwise round the path's vertex, from its outgoing edge to its incoming edge or to the boundary.
         const Index stop = i > 0 ? twin[cut[i - 1]] : no_twin;
         for (Index h = cut[i]; h != stop && twin[h] != no_twin;) {
             h = next_halfedge(twin[h]);
             g0[h] = 1.0;
         }
     }
-    // Round the last vertex the other way: counter-clockwise from the edge it came by to the boundary.
+    // Go counter-clockwise round the last vertex, from the edge that enters it to the boundary.
     for (Index h = twin[cut.back()]; h != no_twin; h = twin[previous_halfedge(h)]) g0[h] = 1.0;
     return g0;
 }
@@ -99,7 +99,7 @@ VectorXd harmonic_between(const SparseMatrix& laplacian, std::vector<char> fixed
     return DirichletSolver(laplacian, fixed).solve(values).col(0);
 }
 
-/// g1 with div (dg0 + dg1) = 0 at every vertex, the boundary's too: K g1 = div dg0, and g1 = 0 at one vertex.
+/// g1 with div (dg0 + dg1) = 0 at every vertex, boundary included: K g1 = div dg0, and g1 = 0 at one vertex.
 VectorXd harmonic_correction(const SparseMatrix& laplacian, const std::vector<char>& unused, const VectorXd& load,
                              Index pinned)
 {
@@ -120,13 +120,13 @@ VectorXcd exponential(const Triangles& triangles, const AnnulusMap& map)
     VectorXcd positions = VectorXcd::Zero(map.f.size());
     for (Index corner = 0; corner < static_cast<Index>(triangles.size()); ++corner) {
         const Index v = triangles.data()[corner];
-        // Any corner will do: g0 differs by whole turns.
+        // Any corner gives the same: g0 differs by whole turns.
         positions[v] = std::polar(std::exp(-two_pi / map.lambda * map.f[v]), -two_pi * (map.g0[corner] + map.g1[v]));
     }
     return positions;
 }
 
-/// The vector once round a loop, which is a closed geodesic of the unfolded cylinder.
+/// The vector once round a loop, a closed geodesic of the unfolded cylinder.
 Complex period_of(const YamabeResult& metric, const VectorXcd& edges, const VertexLoop& loop)
 {
     std::vector<char> member(metric.u.size(), 0);
@@ -137,7 +137,7 @@ Complex period_of(const YamabeResult& metric, const VectorXcd& edges, const Vert
     return period;
 }
 
-/// exp(2 pi i w / L) of the flat cylinder.
+/// Maps by exp(2 pi i w / L) of the flat cylinder.
 AnnulusMap map_by_cylinder(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                            const VertexLoop& outer, const VertexLoop& inner, bool flips)
 {
@@ -169,7 +169,7 @@ AnnulusMap map_by_cylinder(const Triangles& triangles, const EdgeLengths& length
     return map;
 }
 
-/// The holomorphic 1-form.
+/// Maps by the holomorphic 1-form.
 AnnulusMap map_by_one_form(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                            const VertexLoop& outer, const VertexLoop& inner)
 {

@@ -24,7 +24,7 @@ struct Metric {
     Index vertex_count = 0;
 };
 
-/// 1 for the vertices that are on no face or on the boundary.
+/// 1 for unused vertices and boundary vertices.
 std::vector<char> outer_vertices(const Metric& surface, const VertexLoop& loop)
 {
     std::vector<char> outer = unused_vertices(surface.triangles, surface.vertex_count);
@@ -32,7 +32,7 @@ std::vector<char> outer_vertices(const Metric& surface, const VertexLoop& loop)
     return outer;
 }
 
-/// A new vertex at the mass centre of the largest face.
+/// Adds a vertex at the centroid of the largest face.
 Metric split_largest_face(const Metric& surface)
 {
     Eigen::Index largest = 0;
@@ -45,7 +45,7 @@ Metric split_largest_face(const Metric& surface)
         }
     }
     const Eigen::RowVector3d edge = surface.lengths.row(largest), squared = edge.array().square();
-    Eigen::RowVector3d arm;  // from each corner to the mass centre: two thirds of the median
+    Eigen::RowVector3d arm;  // from each corner to the centroid: two thirds of the median
     for (int k = 0; k < 3; ++k)
         arm[k] = std::sqrt(std::max(2.0 * (squared[k] + squared[(k + 2) % 3]) - squared[(k + 1) % 3], 0.0)) / 3.0;
     Metric result{Triangles(surface.triangles.rows() + 2, 3), EdgeLengths(surface.triangles.rows() + 2, 3),
@@ -64,7 +64,7 @@ Metric split_largest_face(const Metric& surface)
 
 struct Punctured {
     Metric rest;
-    VertexLoop hole;  // the rest on its left
+    VertexLoop hole;  // the rest of the surface on its left
 };
 
 /// Removes the star of p shrunk by 2^-halvings: each face p a b keeps that many layers of two faces.

@@ -1,11 +1,11 @@
-// What the library shows where it is a shared one (-DKOEBE_BUNDLE=ON): all else is hidden in it. Marked in every build,
-// so that a test sees what a release would miss (tests/python/test_module_symbols.py).
+// Marks the functions that the shared library exports (-DKOEBE_BUNDLE=ON). It hides all others. Every build sets the
+// marks, so that a test sees a missing one (tests/python/test_module_symbols.py).
 #pragma once
 
 #if !defined(_WIN32)
 #define KOEBE_API __attribute__((visibility("default")))
 #elif defined(KOEBE_SHARED)
-#define KOEBE_API __declspec(dllexport)  // programs that link it need no dllimport: they call through a jump
+#define KOEBE_API __declspec(dllexport)  // a program that links it needs no dllimport: it calls through a jump
 #else
 #define KOEBE_API
 #endif

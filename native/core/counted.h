@@ -1,11 +1,11 @@
-// Numbers of things in words.
+// Numbers with their nouns.
 #pragma once
 
 #include <string>
 
 namespace koebe {
 
-/// "1 face", "3 faces", "3 vertices".
+/// Returns "1 face", "3 faces", "3 vertices".
 inline std::string counted(std::size_t number, const std::string& noun)
 {
     if (number == 1) return "1 " + noun;

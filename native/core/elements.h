@@ -1,4 +1,4 @@
-// What the numbers that errors and warnings list are.
+// The kinds of elements that errors and warnings list.
 #pragma once
 
 namespace koebe {
@@ -7,10 +7,10 @@ enum class ElementKind {
     none,  ///< nothing is listed
     vertices,
     faces,
-    edges,      ///< by their ends: two vertices each
+    edges,      ///< each by the two vertices at its ends
     loops,      ///< or circles, by their place in the list
-    points,     ///< of planar polygons, by their place in all of them
-    landmarks,  ///< of a correspondence, by their place in the list
+    points,     ///< points of planar polygons, by their place in all polygons
+    landmarks,  ///< points of a correspondence, by their place in the list
 };
 
 constexpr const char* to_string(ElementKind kind) noexcept

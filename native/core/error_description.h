@@ -1,4 +1,4 @@
-// Errors told apart by whoever has their types: a program, and a shared library that it calls, have each their own.
+// Describes an exception by its C++ type. A program and a shared library that it calls have different types.
 #pragma once
 
 #include "core/api.h"
@@ -15,15 +15,15 @@
 namespace koebe {
 
 struct ErrorDescription {
-    std::string name;  ///< as KoebeError::name(); "MemoryError", "SolverError" for what the library does not throw
+    std::string name;  ///< as KoebeError::name(); "MemoryError" or "SolverError" for other exceptions
     std::string message;
     bool is_koebe_error = false;
     std::vector<Index> elements = {};
     const char* elements_of = nullptr;
-    const char* topology_kind = nullptr;  ///< of a TopologyError
+    const char* topology_kind = nullptr;  ///< set for a TopologyError
 };
 
-/// What an exception is, by the types of the side that calls; nothing if that side does not know it.
+/// Describes an exception by the types of the calling side. Returns nothing if that side does not know the type.
 inline std::optional<ErrorDescription> describe_error(const std::exception_ptr& pointer)
 {
     const ErrorDescription no_memory{"MemoryError", "the mesh needs more memory than there is"};
@@ -51,8 +51,8 @@ inline std::optional<ErrorDescription> describe_error(const std::exception_ptr& 
     return {};
 }
 
-/// The same by the types of the library. With the C++ runtime linked into both, a class has another identity on either
-/// side, and a `catch` here does not see what was thrown there.
+/// Describes an exception by the types of the library. Where both sides link the C++ runtime, each side has its own
+/// identity of a class, and a `catch` here does not see an exception that was thrown there.
 KOEBE_API std::optional<ErrorDescription> describe_error_of_library(const std::exception_ptr& pointer);
 
 }  // namespace koebe

@@ -11,7 +11,7 @@
 
 namespace koebe {
 
-/// Base of everything the library throws on purpose.
+/// Base of all errors that the library throws on purpose.
 class KoebeError : public std::runtime_error {
 public:
     explicit KoebeError(const std::string& message) : std::runtime_error(message) {}
@@ -23,7 +23,7 @@ public:
     /// The error's public name, as printed by the command and used in Python.
     virtual const char* name() const noexcept { return "KoebeError"; }
     const std::vector<Index>& elements() const noexcept { return elements_; }
-    /// What the elements are.
+    /// The kind of the elements.
     ElementKind elements_of() const noexcept { return elements_of_; }
 
 private:
@@ -31,7 +31,7 @@ private:
     std::vector<Index> elements_;
 };
 
-/// Arrays that are no mesh: wrong shape, index out of range, NaN or infinite coordinate.
+/// The arrays are not a mesh: wrong shape, index out of range, NaN or infinite coordinate.
 class InputError : public KoebeError {
 public:
     using KoebeError::KoebeError;
@@ -42,16 +42,16 @@ enum class TopologyKind {
     closed,              ///< no boundary loop
     genus,               ///< a handle; elements: vertices of a handle loop
     nonmanifold_edge,    ///< elements: edges with three or more faces
-    nonmanifold_vertex,  ///< faces around a vertex form more than one fan; elements: such vertices
+    nonmanifold_vertex,  ///< the faces around a vertex form more than one fan; elements: such vertices
     nonorientable,       ///< elements: the edge that cannot be made consistent
     disconnected,        ///< elements: faces outside the largest component
 };
 
 KOEBE_API const char* to_string(TopologyKind kind) noexcept;
-/// What the elements of such an error are.
+/// The kind of elements that an error of this kind lists.
 KOEBE_API ElementKind elements_of(TopologyKind kind) noexcept;
 
-/// A mesh that is no connected, orientable surface of genus 0 with boundary.
+/// The mesh is not a connected, orientable surface of genus 0 with boundary.
 class TopologyError : public KoebeError {
 public:
     TopologyError(TopologyKind kind, const std::string& message, std::vector<Index> elements = {})
@@ -72,7 +72,7 @@ public:
     const char* name() const noexcept override { return "SolverError"; }
 };
 
-/// A computation that does not fit into the memory there is; refused before it starts.
+/// A computation does not fit into the memory. It is refused before it starts.
 class OutOfMemory : public SolverError {
 public:
     using SolverError::SolverError;

@@ -7,7 +7,7 @@
 
 namespace koebe {
 
-/// The norm of a short vector, whatever its unit: Eigen's stableNorm, which takes ten times as long, only where the
+/// The norm of a short vector in any unit. Uses Eigen's stableNorm, which takes ten times as long, only where the
 /// square is out of range.
 template <class Vector>
 double length_of(const Eigen::MatrixBase<Vector>& vector)

@@ -1,17 +1,17 @@
-// The options that all maps have, and those of all that iterate. Users read of them what options/options.json says,
-// whose defaults these are (tests/python/test_option_table.py).
+// The options of every map, and of every map that iterates. options/options.json describes them to users; the defaults
+// agree with it (tests/python/test_option_table.py).
 #pragma once
 
 namespace koebe {
 
-/// Of a map that is made more even: round loops stay on circles and straight ends, which move.
+/// How loops move when a map is made more even: `round` keeps each on a circle or a straight end.
 enum class LoopForm { round, free };
 
 struct MapOptions {
-    double most_lost = 0.01;  ///< share of the surface's area that may be lost as stored (quality/take_verdict.h)
+    double most_lost = 0.01;  ///< share of the surface's area that may be lost when stored (quality/take_verdict.h)
 
-    /// Calls visit(name, pointer to member) for each, as all the options' structs do: flags of the command, reports and
-    /// the binding are made of it.
+    /// Calls visit(name, pointer to member) for each option. All option structs have such a function: the command's
+    /// flags, the reports and the Python binding are made of it.
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
@@ -20,7 +20,7 @@ struct MapOptions {
 };
 
 struct SweepOptions : MapOptions {
-    double tolerance = 1e-6;  ///< on what the map says of its change in a sweep: of the circles, in the unit disk
+    double tolerance = 1e-6;  ///< on the change of the map in a sweep; for circles in units of the unit disk
     int max_sweeps = 50;
 
     template <typename Visit>

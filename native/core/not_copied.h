@@ -1,4 +1,4 @@
-// A base for what is neither copied nor moved.
+// Base of classes that can be neither copied nor moved.
 #pragma once
 
 namespace koebe {

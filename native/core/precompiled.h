@@ -1,4 +1,4 @@
-// Precompiled for every source of the library: Eigen takes half of the time of most of them.
+// Precompiled header of all sources of the library: Eigen takes half of the compile time of most of them.
 #pragma once
 
 #include "core/types.h"

@@ -1,15 +1,15 @@
-// Memory asked for before it is needed.
+// Loads memory into the cache before it is needed.
 #pragma once
 
 #include <cstddef>
 
 namespace koebe {
 
-/// How far ahead of a walk whose way is known, in its steps.
+/// How many steps to look ahead in a walk whose path is known.
 inline constexpr std::size_t steps_ahead = 16;
 
-/// Brings what lies there into the cache while other work goes on: a walk over a surface from face to face would wait
-/// for nearly each.
+/// Brings memory at this place into the cache while other work goes on. A walk from face to face would otherwise wait
+/// at nearly each face.
 inline void prefetch(const void* place) { __builtin_prefetch(place); }
 
 }  // namespace koebe

@@ -1,4 +1,4 @@
-// Settings of the whole process that several calls at once need.
+// Settings of the whole process that several concurrent calls need.
 #pragma once
 
 #include "core/not_copied.h"
@@ -7,9 +7,9 @@
 
 namespace koebe {
 
-/// While one of these lives, a Setting lives: the first one makes it, the last one destroys it, whichever thread they
-/// are on. So a call that ends does not put back what another one, perhaps cancelled and left behind, still needs.
-/// @tparam Setting makes its setting in its constructor and puts back what was before in its destructor
+/// Keeps a Setting alive as long as any ProcessSetting lives. The first one makes the Setting and the last one destroys
+/// it, on whichever thread. So a call that ends does not undo a setting that another call still needs.
+/// @tparam Setting makes its setting in its constructor and restores the former one in its destructor
 template <typename Setting>
 class ProcessSetting : NotCopied {
 public:

@@ -8,7 +8,7 @@
 
 namespace koebe {
 
-/// CGAL reports failed checks by printing, and then throws: now it only throws.
+/// CGAL prints failed checks and then throws. While this lives it only throws.
 class CgalHandlersIgnored : NotCopied {
 public:
     CgalHandlersIgnored() : error_(CGAL::set_error_handler(ignore)), warning_(CGAL::set_warning_handler(ignore)) {}

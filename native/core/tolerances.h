@@ -1,17 +1,15 @@
-// The lengths below which a map in 32-bit UVs tells nothing.
+// The lengths that 32-bit UVs cannot resolve.
 #pragma once
 
 namespace koebe {
 
-/// UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs, which have steps of 6e-8
-/// there.
+/// UV units. A face whose longest edge is shorter is below the resolution of 32-bit UVs (steps of 6e-8).
 inline constexpr double uv_resolution = 1e-6;
 
-/// Disk units: how far from its circle a loop vertex may lie to count as on it. The disk is 2 wide, the UV square 1.
+/// Disk units: how far from its circle a loop vertex may lie. The disk is 2 wide, the UV square 1.
 inline constexpr double circle_tolerance = 1e-6;
 
-/// Disk units: how far a vertex is moved off its circle, or found there, and still counts as on it with room for
-/// rounding.
+/// Disk units: how far a vertex may be moved off its circle, or be found off it. It leaves room for rounding.
 inline constexpr double inner_circle_tolerance = 0.5 * circle_tolerance;
 
 }  // namespace koebe

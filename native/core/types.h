@@ -1,4 +1,4 @@
-// The array types that cross every boundary of the library.
+// The array types of the library's interfaces.
 #pragma once
 
 #include <Eigen/Core>

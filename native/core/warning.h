@@ -1,4 +1,4 @@
-// What to watch out for in a result that is there all the same.
+// Warnings about a result.
 #pragma once
 
 #include "core/api.h"
@@ -11,50 +11,50 @@
 namespace koebe {
 
 enum class WarningKind {
-    collapsed_faces,   ///< faces of the file with fewer than three different vertices, passed over; elements: faces
+    collapsed_faces,   ///< faces of the file with fewer than three different vertices, left out; elements: faces
     unused_vertices,   ///< vertices of no face, put at the centre; elements: vertices
     reoriented_faces,  ///< turned to the orientation of the others; elements: faces
     thin_faces,        ///< so thin that rounding shows in the map
     coarse_mesh,       ///< too few vertices between the loops
     no_flux,           ///< boundary vertices without flux, kept apart by a least distance
-    not_converged,     ///< the iteration, or the flow, ended before its tolerance
-    no_circles,        ///< the iteration led to none; those that are there fit a map of low angle error
-    lost_circles,      ///< too deep for rounding, or of too coarse a mesh; elements: loops
-    shrunk_circles,    ///< made smaller, as they met another; elements: loops
-    replaced_circles,  ///< others than the iteration's, on which no face turns over; elements: loops
+    not_converged,     ///< the iteration, or the flow, ended before it reached its tolerance
+    no_circles,        ///< the iteration found no circles; the circles given fit a map of low angle error
+    lost_circles,      ///< circles lost in rounding, or to a coarse mesh; elements: loops
+    shrunk_circles,    ///< circles made smaller because they met another circle; elements: loops
+    replaced_circles,  ///< other circles than the iteration's, on which no face turns over; elements: loops
     flaps,             ///< parts that hang on a loop by one edge; elements: their faces
     off_circle,        ///< vertices taken off their circle; elements: vertices
     below_resolution,  ///< a region too small for 32-bit UVs, with flipped faces in it; elements: its faces
     flipped,           ///< faces that could not be turned back; elements: faces
-    not_one_to_one,    ///< a promise that does not hold; elements: the flipped faces among it
-    out_of_place,      ///< a vertex that could not be brought to 0 without turning faces over; elements: it
+    not_one_to_one,    ///< a promise that does not hold; elements: the flipped faces among others
+    out_of_place,      ///< a vertex that could not move to 0 without turning faces over; elements: that vertex
     packing,           ///< the Ricci baseline: its circle packing changes edge lengths
     closing_gap,       ///< the Ricci baseline: holes do not close exactly
-    flow_flips,        ///< the Ricci baseline: flips of the flow's own map
-    no_hole,           ///< nothing to fill but the outer boundary
-    not_fitted,        ///< of a transfer: holes that were not bent onto each other; elements: loops of the source
-    replaced_uvs,      ///< texture coordinates of the file gave way to those of the map
-    not_kept,          ///< what the file holds and the one that is written does not
-    cut,               ///< the surface was cut in the UVs, as the report's cuts say; elements: vertices of the cuts
+    flow_flips,        ///< the Ricci baseline: faces flipped in the flow's own map
+    no_hole,           ///< the surface has no hole besides the outer boundary
+    not_fitted,        ///< of a transfer: holes that could not be bent onto each other; elements: loops of the source
+    replaced_uvs,      ///< the map's texture coordinates replaced those of the file
+    not_kept,          ///< contents of the input file that the written file does not hold
+    cut,               ///< the surface was cut in the UVs (the report lists the cuts); elements: vertices of the cuts
     pieces,            ///< several pieces, each with a map of its own
-    left_out,          ///< faces without a place of their own in the map; elements: they
-    not_even,          ///< left conformal, as no map that is more even was found; elements: faces of such parts
-    lost_area,         ///< more of the surface than is allowed has no area in the UVs; elements: its faces
-    not_mapped,        ///< faces of pieces that have no map; elements: they. The last of the kinds
+    left_out,          ///< faces without a place of their own in the map; elements: these faces
+    not_even,          ///< parts left conformal, as no map that is more even was found; elements: their faces
+    lost_area,         ///< more area than allowed has no area in the UVs; elements: the faces without area
+    not_mapped,        ///< faces of pieces without a map; elements: these faces. Must stay the last kind
 };
 
-/// As in the JSON report: the enumerator's name.
+/// The enumerator's name, as in the JSON report.
 KOEBE_API const char* to_string(WarningKind kind) noexcept;
-/// What the elements of a warning are.
+/// The kind of elements that a warning lists.
 KOEBE_API ElementKind elements_of(WarningKind kind) noexcept;
 
 struct Warning {
     WarningKind kind;
     std::string sentence;              ///< without a full stop
-    std::vector<Index> elements = {};  ///< rising; loops by their place in the report
-    std::string advice = {};           ///< one more sentence, or none
+    std::vector<Index> elements = {};  ///< ascending; loops by their place in the report
+    std::string advice = {};           ///< a further sentence, or empty
 
-    /// The sentence, the first of the elements, the advice.
+    /// The sentence, then the first elements, then the advice.
     std::string text() const;
     bool operator==(const Warning&) const = default;
 };

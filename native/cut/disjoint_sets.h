@@ -1,4 +1,4 @@
-// Sets that are joined, by Boost.
+// Disjoint sets of numbers (union-find), on Boost.
 #pragma once
 
 #include "core/not_copied.h"
@@ -22,7 +22,7 @@ public:
     }
 
     Index find(Index element) { return sets_.find_set(element); }
-    /// false: they were in one set before.
+    /// Joins two sets. Returns false if the elements were in one set before.
     bool join(Index a, Index b)
     {
         const Index of_a = find(a), of_b = find(b);
@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    // Not plain pointers: their `get` is found only where it was declared before, whatever is included first.
+    // Plain pointers do not work: their `get` is found only if declared before, which depends on the order of includes.
     using Map = boost::iterator_property_map<Index*, boost::typed_identity_property_map<Index>, Index, Index&>;
 
     std::vector<Index> rank_, parent_;

@@ -20,7 +20,7 @@ std::vector<std::vector<Index>> edge_chains(std::vector<std::pair<Index, Index>>
         ends.push_back({edges[e].second, edges[e].first, e});
     }
     std::ranges::sort(ends, {}, [](const End& end) { return std::pair(end.vertex, end.other); });
-    // The ends at a vertex: how many, and the first.
+    // Number of edge ends at a vertex, and the first of them.
     const auto at = [&](Index v) {
         const auto first = std::ranges::lower_bound(ends, v, {}, &End::vertex);
         return std::pair(std::ranges::upper_bound(ends, v, {}, &End::vertex) - first, first);

@@ -1,4 +1,4 @@
-// Edges as paths.
+// Joins edges to paths.
 #pragma once
 
 #include "core/types.h"
@@ -8,8 +8,8 @@
 
 namespace koebe {
 
-/// Paths of vertices that go along each of the edges once, as long as they can be without a branch; a closed one has
-/// its first vertex again at its end.
+/// Paths of vertices that go along each edge once, as long as possible without a branch. A closed path ends with its
+/// first vertex.
 std::vector<std::vector<Index>> edge_chains(std::vector<std::pair<Index, Index>> edges);
 
 }  // namespace koebe

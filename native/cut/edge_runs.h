@@ -1,4 +1,4 @@
-// The half-edges of each edge.
+// Groups half-edges by their edge.
 #pragma once
 
 #include "core/types.h"
@@ -10,7 +10,7 @@
 
 namespace koebe {
 
-/// Calls visit(span of half-edges, rising) for every edge, whatever the number and direction of its half-edges.
+/// Calls visit(span of half-edges, ascending) for every edge, with any number and direction of half-edges.
 template <typename Visit>
 void for_each_edge(const Triangles& triangles, Index vertex_count, Visit visit)
 {

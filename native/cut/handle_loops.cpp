@@ -10,8 +10,8 @@
 namespace koebe {
 namespace {
 
-constexpr double boundary_price = 30.0;  // dimensionless: an edge at the boundary counts as so many times as long
-constexpr double about_as_short = 2.0;   // dimensionless: loops cut at once with the shortest
+constexpr double boundary_price = 30.0;  // factor on the length of an edge at the boundary
+constexpr double about_as_short = 2.0;   // loops up to so many times the shortest are cut together with it
 
 struct Loop {
     std::vector<Index> halfedges;
@@ -28,7 +28,7 @@ public:
         dual_count_ = mesh.face.size() + loops.size();
     }
 
-    /// The loops of a basis, shortest first, without the way from the base point to them.
+    /// The loops of a basis, shortest first, without the path from the base point to them.
     std::vector<Loop> basis(Index base)
     {
         tree_ = shortest_paths(graph_, {base});
@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    /// Edges in neither tree, by the lower half-edge.
+    /// Edges in neither tree, each by its lower half-edge.
     std::vector<Index> left_over() const
     {
         std::vector<char> in_tree(mesh_.twin.size(), 0);

@@ -1,4 +1,4 @@
-// Short loops through the handles of a surface.
+// Finds short loops through the handles of a surface.
 #pragma once
 
 #include "cut/seamed_mesh.h"
@@ -9,14 +9,14 @@
 
 namespace koebe {
 
-/// Loops that share no vertex and together separate nothing: each cut takes one handle away.
+/// Finds loops that share no vertex and together do not separate the surface: each cut removes one handle.
 ///
-/// The shortest loop of the greedy homology bases of several base points, and those of the same bases that are not
-/// much longer and keep clear of it. A basis: a tree of shortest paths from the base point; a tree of the dual graph
-/// that crosses none of its edges and whose edges lie as far out as can be, each boundary loop one node; the edges left
-/// over close the loops [Erickson and Whittlesey 2005, section 3].
-/// @param mesh connected, of genus 1 at least @param base_points to try, 1 at least @param all any clear loop is taken
-/// @return the half-edges of each loop, in its order
+/// Takes the shortest loop of the greedy homology bases of several base points, and other loops of these bases that are
+/// not much longer and share no vertex with it. A basis has a tree of shortest paths from the base point, and a tree of
+/// the dual graph that crosses none of its edges. The dual tree's edges lie as far out as possible; each boundary loop
+/// is one node. The remaining edges close the loops [Erickson and Whittlesey 2005, section 3].
+/// @param mesh connected, of genus at least 1 @param base_points to try, at least 1 @param all take long loops too
+/// @return the half-edges of each loop in order
 std::vector<std::vector<Index>> handle_loops(const SeamedMesh& mesh, int base_points, bool all,
                                              ExecutionContext& context);
 

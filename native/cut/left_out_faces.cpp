@@ -23,7 +23,7 @@ Corners sorted_corners(const Triangles& triangles, Index f)
     return corners;
 }
 
-/// (F) the first face with the same vertices; itself where it is the first.
+/// (F) the first face with the same vertices, perhaps the face itself.
 std::vector<Index> first_alike(const Triangles& triangles)
 {
     std::vector<Index> order;
@@ -39,7 +39,7 @@ std::vector<Index> first_alike(const Triangles& triangles)
     return first;
 }
 
-/// Takes the mark of a duplicate from polygons that are not whole ones of one other polygon.
+/// Removes the duplicate's mark from polygons that do not duplicate one other polygon as a whole.
 void keep_partial_polygons(const std::vector<Index>& polygon, std::vector<Index>& first)
 {
     std::map<Index, std::vector<Index>> faces;
@@ -55,7 +55,7 @@ void keep_partial_polygons(const std::vector<Index>& polygon, std::vector<Index>
     }
 }
 
-/// (V) a face with each vertex that is not left out, or -1.
+/// (V) a face at each vertex that is not left out, or -1.
 std::vector<Index> face_at(const Triangles& triangles, Index vertex_count, const std::vector<Index>& first)
 {
     std::vector<Index> face(vertex_count, -1);

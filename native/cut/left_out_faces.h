@@ -1,4 +1,4 @@
-// Faces that no surface has room for.
+// Finds faces that cannot be part of a surface.
 #pragma once
 
 #include "cut/open_surface.h"
@@ -7,8 +7,8 @@
 
 namespace koebe {
 
-/// Faces that name a vertex twice, and those with the three vertices of an earlier face. Of polygons only whole ones
-/// are duplicates: all their faces are those of one other polygon.
+/// Finds faces that name a vertex twice, and faces with the three vertices of an earlier face. A polygon is a duplicate
+/// only as a whole: if all its faces duplicate faces of one other polygon.
 /// @param polygon (F) or empty, as in OpenOptions
 std::vector<LeftOutFace> left_out_faces(const Triangles& triangles, Index vertex_count,
                                         const std::vector<Index>& polygon);

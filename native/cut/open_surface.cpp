@@ -15,9 +15,9 @@ namespace koebe {
 namespace {
 
 constexpr int most_base_points = 24;
-/// Faces times base points for all handles of a surface: some seconds.
+/// Limit of faces times base points for all handles of a surface: some seconds.
 constexpr double most_work = 4e6;
-/// Rounds of cuts after which any loops are taken that keep clear of each other.
+/// After so many rounds of cuts, long loops are taken too.
 constexpr int patient_rounds = 12;
 
 void require_arrays(const Vertices& vertices, const Triangles& triangles, const OpenOptions& options)
@@ -40,7 +40,7 @@ void require_arrays(const Vertices& vertices, const Triangles& triangles, const 
         throw InputError("there must be a polygon for each face");
 }
 
-/// A connected part on its way to a piece.
+/// A connected part that is to become a piece.
 struct Work {
     SeamedMesh mesh;
     bool was_closed = false;  ///< before its handles were cut
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    /// What is to be cut next, already in the report; none if the part is a piece.
+    /// The next cuts, already added to the report; empty if the part is a piece.
     std::vector<std::vector<Index>> next_cuts(Work& work)
     {
         const std::size_t loops = boundary_halfedges(work.mesh).size();
@@ -97,7 +97,7 @@ private:
         if (loops > 0 && enough) return {};
         work.slit = true;
         std::vector<Index> path = options_.long_slit ? long_slit(work.mesh) : short_slit(work.mesh);
-        if (path.empty() && loops == 0) {  // of polygons that leave no other way
+        if (path.empty() && loops == 0) {  // if polygons leave no other path
             std::ranges::fill(work.mesh.whole, char{0});
             path = short_slit(work.mesh);
         }

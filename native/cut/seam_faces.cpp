@@ -11,7 +11,7 @@
 namespace koebe {
 namespace {
 
-/// Dimensionless, of the extent: added to every edge, so that of paths about as short that of fewer edges is taken.
+/// Share of the extent, added to every edge: of paths about equally short, the one with fewer edges is taken.
 constexpr double least_length = 1e-9;
 
 class FaceJoiner {
@@ -52,8 +52,8 @@ private:
         seams_.mesh.twin[h] = g;
     }
 
-    /// First inside polygons; then over the edges that have two half-edges left. A polygon that goes round a hole
-    /// through a slit meets itself there: its faces are whole as a tree.
+    /// Pairs half-edges, first inside polygons, then over edges with two half-edges left. A polygon that goes round a
+    /// hole through a slit meets itself there: inside it, faces are joined as a tree.
     void pair()
     {
         SeamedMesh& mesh = seams_.mesh;
@@ -80,7 +80,7 @@ private:
         return std::minmax({origin(seams_.mesh.corners, h), target(seams_.mesh.corners, h)});
     }
 
-    /// Corners joined over all edges, crowded ones too: what is then apart meets in a vertex only.
+    /// Joins corners over all edges, even crowded ones. Fans that are still apart meet in a vertex only.
     void find_bow_ties()
     {
         const Triangles& corners = seams_.mesh.corners;
@@ -100,7 +100,7 @@ private:
             if (fans_at[v] > 1) seams_.bow_ties.push_back(v);
     }
 
-    /// Breadth first over the faces, a polygon whole before its neighbours.
+    /// Orients faces breadth first, each polygon as a whole before its neighbours.
     void orient()
     {
         const Index face_count = static_cast<Index>(seams_.mesh.face.size());
@@ -147,7 +147,7 @@ private:
         }
     }
 
-    /// Turned faces have their half-edges in the other order.
+    /// Turned faces get their half-edges in the other order.
     void turn(const std::vector<signed char>& side)
     {
         SeamedMesh& mesh = seams_.mesh;
@@ -180,7 +180,7 @@ private:
         }
     }
 
-    /// Between two fans there may be one edge. The inside of a polygon can be a second one: then it is taken out.
+    /// Two fans may have only one edge between them. A polygon whose inside is a second edge becomes a part of its own.
     bool detach_entangled()
     {
         SeamedMesh& mesh = seams_.mesh;

@@ -16,7 +16,7 @@ Index turn_back(const SeamedMesh& mesh, Index h)
     return mesh.twin[h] == no_twin ? no_twin : next_halfedge(mesh.twin[h]);
 }
 
-/// Numbers of the connected parts for each face, over the twins.
+/// The number of each face's connected part, and how many parts there are.
 std::pair<std::vector<Index>, Index> part_of_faces(const SeamedMesh& mesh)
 {
     const Index face_count = static_cast<Index>(mesh.face.size());

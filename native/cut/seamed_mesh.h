@@ -1,4 +1,4 @@
-// Faces joined over some of their edges: all others are seams.
+// Faces joined over some of their edges; all other edges are seams.
 #pragma once
 
 #include "core/types.h"
@@ -9,15 +9,15 @@
 
 namespace koebe {
 
-/// Oriented triangles whose half-edges are joined in opposite pairs or not at all. Its vertices are fans: the corners
-/// that are joined round one vertex of the input. So it is manifold whatever the input.
+/// Oriented triangles whose half-edges are joined in opposite pairs or not at all. Its vertices are fans: corners
+/// joined round one vertex of the input. So it is manifold for every input.
 struct SeamedMesh {
     Triangles corners;           ///< (F, 3) vertices of the input
-    std::vector<Index> face;     ///< (F) of the input, rising
-    std::vector<char> turned;    ///< (F) 1 where the input has the second and third corner the other way round
-    std::vector<Index> twin;     ///< (3F) or no_twin at a seam and at the boundary
-    std::vector<char> whole;     ///< (3F) inside a polygon: not to be cut
-    std::vector<double> length;  ///< (3F) of the edge, in units of the input's extent
+    std::vector<Index> face;     ///< (F) of the input, ascending
+    std::vector<char> turned;    ///< (F) 1 where the second and third corner are exchanged against the input
+    std::vector<Index> twin;     ///< (3F) or no_twin at a seam and on the boundary
+    std::vector<char> whole;     ///< (3F) 1 inside a polygon: must not be cut
+    std::vector<double> length;  ///< (3F) of each edge, in units of the input's extent
     Triangles fans;              ///< (F, 3) from 0 to fan_count
     Index fan_count = 0;
 
@@ -25,30 +25,30 @@ struct SeamedMesh {
     void cut(Index halfedge);
 };
 
-/// Numbers the fans again after a change of the twins.
+/// Numbers the fans again after the twins have changed.
 void number_fans(SeamedMesh& mesh);
 
-/// Joins seams that separate nothing: both sides have the same fans at their ends. Fans stay as they are.
+/// Joins seams that separate nothing: both sides have the same fans at their ends. The fans do not change.
 void join_idle_seams(SeamedMesh& mesh);
 
-/// The connected parts, each with its fans numbered, by their lowest face.
+/// The connected parts by lowest face, each with its own fan numbers.
 std::vector<SeamedMesh> connected_parts(const SeamedMesh& mesh);
 
-/// Half-edges of each boundary loop, in order.
+/// Half-edges of each boundary loop in order.
 std::vector<std::vector<Index>> boundary_halfedges(const SeamedMesh& mesh);
 
-/// Of a connected mesh with so many boundary loops.
+/// The genus of a connected mesh with so many boundary loops.
 int genus_of(const SeamedMesh& mesh, std::size_t loops);
 
 struct Seams {
     SeamedMesh mesh;
     std::vector<std::pair<Index, Index>> crowded;   ///< edges of three or more faces
-    std::vector<std::pair<Index, Index>> disagree;  ///< edges across which the sides cannot be made to agree
-    std::vector<Index> bow_ties;                    ///< vertices with fans that no edge joins
+    std::vector<std::pair<Index, Index>> disagree;  ///< edges across which the two sides cannot agree
+    std::vector<Index> bow_ties;                    ///< vertices with fans that share no edge
 };
 
-/// Joins faces over all edges that have two of them, as far as these can be oriented alike.
-/// @param faces of the input to take, rising, with three different vertices each, no two the same three
+/// Joins faces over all edges with two faces, as far as these can be oriented alike.
+/// @param faces of the input to take, ascending, each with three different vertices, no two with the same three
 /// @param polygon (F) or empty, as in OpenOptions
 Seams seam_faces(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& faces,
                  const std::vector<Index>& polygon);

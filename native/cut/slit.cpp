@@ -54,7 +54,7 @@ std::vector<Index> long_slit(const SeamedMesh& mesh)
             if (tree.distance[v] > tree.distance[end]) end = v;
     std::vector<Index> path = tree.path(end);
     std::ranges::reverse(path);
-    // Only up to the first other loop: beyond it the path would cut something off.
+    // Stop at the first other loop: beyond it the path would cut a part off.
     Index at = end;
     std::vector<Index> fans{end};
     while (tree.parent[at] != at) fans.push_back(at = tree.parent[at]);

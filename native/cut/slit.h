@@ -7,16 +7,16 @@
 
 namespace koebe {
 
-/// The path along which a surface is opened, its boundary made long.
+/// The path along which a surface is opened, so that its boundary gets long.
 ///
-/// Without boundary: a shortest path between two vertices far apart, each the farthest of another (two sweeps). With
-/// loops: one from the longest loop to the farthest other one, up to the first that it meets, or to the farthest
-/// vertex where there is no other loop.
+/// Without boundary: a shortest path between two vertices far apart, each the farthest from another (two sweeps). With
+/// loops: a path from the longest loop towards the farthest other loop, up to the first loop that it meets; without
+/// another loop, to the farthest vertex.
 /// @param mesh connected, of genus 0
-/// @return half-edges in its order, two at least where there is no boundary; none where no path is worth it
+/// @return half-edges in order, at least two without boundary; empty if no path is worth it
 std::vector<Index> long_slit(const SeamedMesh& mesh);
 
-/// Two edges that meet, for a surface without boundary: the shortest that are found by one look at each.
+/// Two edges that meet, for a surface without boundary: the shortest pair found by one look at each edge.
 std::vector<Index> short_slit(const SeamedMesh& mesh);
 
 }  // namespace koebe

@@ -16,8 +16,8 @@ namespace koebe {
 namespace {
 
 constexpr int most_rounds = 40;
-constexpr double least_share = 1e-3;   // of a face's area, for each face that it stands for, over the mean
-constexpr double least_height = 1e-6;  // disk units: some roundings of 32-bit UVs
+constexpr double least_share = 1e-3;   // least area of a face, per face that it stands for, over the mean
+constexpr double least_height = 1e-6;  // disk units: some rounding errors of 32-bit UVs
 constexpr int last_sweeps = 20;
 
 class ConvexEmbedding {
@@ -67,7 +67,7 @@ private:
         return count;
     }
 
-    /// Every inner vertex the mean of its neighbours.
+    /// Puts every inner vertex at the mean of its neighbours.
     void solve()
     {
         const Triangles triangles = complex_.triangles();
@@ -82,7 +82,7 @@ private:
         }
     }
 
-    /// Faces that are wrong or too small for what they stand for, and have a vertex to take out.
+    /// Faces that are wrong, or too small for the faces they stand for, and have a vertex to take out.
     std::vector<Index> bad_faces() const
     {
         std::vector<Index> bad;
@@ -97,8 +97,8 @@ private:
         return bad;
     }
 
-    /// Takes out what it can of the vertices of some faces and of the rings around them, none next to another, those of
-    /// fewest faces first. @return whether any went
+    /// Takes out vertices of some faces and of the rings around them, no two of them neighbours, starting with vertices
+    /// of fewest faces. @return whether any were taken out
     bool thin_out(const std::vector<Index>& bad, int rings)
     {
         std::vector<char> near(complex_.vertex_count(), 0);

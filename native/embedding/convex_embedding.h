@@ -8,26 +8,27 @@
 
 namespace koebe {
 
-/// The surface with a fan of triangles in every inner hole, round a vertex of its own: a disk.
+/// The surface with every inner hole filled by a fan of triangles round a new vertex: a disk.
 struct FilledDisk {
     Triangles triangles;     ///< the surface's faces first
     Index surface_vertices;  ///< the fans' centres follow these, one for each inner loop
     Index vertex_count;
 };
 
-/// @param loops the outer one, which stays open, first
+/// @param loops the outer one first; it stays open
 FilledDisk fill_with_fans(const Surface& surface, const std::vector<VertexLoop>& loops);
 
-/// The outer loop on the unit circle, every other vertex the mean of its neighbours. In exact arithmetic every triangle
-/// keeps its orientation (Floater 2003, theorem 6: the boundary is strictly convex); but what lies deep inside, as in
-/// stacked triangles or at the end of a limb, comes out exponentially small, at last below the precision of numbers.
+/// Puts the outer loop on the unit circle, and every other vertex at the mean of its neighbours. In exact arithmetic
+/// every triangle keeps its orientation (Floater 2003, theorem 6: the boundary is strictly convex). But faces deep
+/// inside, as in stacked triangles or at the end of a limb, come out exponentially small, and at last below the
+/// precision of numbers.
 ///
-/// So where faces come out wrong or too small, inner vertices in and around them are taken out (disk_complex.h) until
-/// what is left comes out right, and put back one after the other, as in the proof of Fary's theorem (Fary 1948) and in
-/// progressive embedding (Shen, Jiang, Zorin and Panozzo 2019): each into the kernel of the polygon of its neighbours,
-/// where every face gets an area in proportion to the number of faces it stands for (star_centre.h), which the
-/// neighbours then follow. That is how Schnyder (1990) draws any triangulation on a grid of its size; a face is not
-/// exponentially small then, but about as large as the others.
+/// So where faces come out wrong or too small, inner vertices around them are taken out (disk_complex.h) until the rest
+/// comes out right. Then they are put back one after another, as in the proof of Fary's theorem (Fary 1948) and in
+/// progressive embedding (Shen, Jiang, Zorin and Panozzo 2019). Each goes into the kernel of the polygon of its
+/// neighbours, where every face gets an area in proportion to the number of faces it stands for (star_centre.h); the
+/// neighbours then follow. Schnyder (1990) draws any triangulation on a grid of its size in this way. Faces are then
+/// about equally large.
 /// @param rim (n) points of the outer loop on the unit circle, in order, all different
 /// @return (filled.vertex_count, 2)
 PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim,

@@ -54,8 +54,8 @@ void DiskComplex::link(Index vertex, std::vector<Index>& neighbours, std::vector
     } while (v != first);
 }
 
-/// The neighbour to slide into, as its place in the link: of those that may, the one with fewest faces.
-/// -1 if there is none.
+/// The neighbour to slide into, by its place in the link: of the possible ones the one with fewest faces. -1 without
+/// any.
 Index DiskComplex::heir(const std::vector<Index>& link, bool chords)
 {
     const std::size_t n = link.size();

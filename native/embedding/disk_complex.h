@@ -8,13 +8,13 @@
 
 namespace koebe {
 
-/// Taking out a vertex means to slide it along an edge into a neighbour: the polygon of its neighbours is filled with a
-/// fan of faces round that one. The neighbour is such that the complex stays simplicial (it shares no other neighbour
-/// with the vertex than the two on their common faces; Dey, Edelsbrunner, Guha and Nekhayev 1999, "link condition"). So
-/// wherever a drawing of what is left is one to one, the polygon has a kernel for the vertex to come back to, near that
-/// neighbour at the least.
+/// To take a vertex out, it is slid along an edge into a neighbour: a fan of faces round that neighbour fills the
+/// polygon of the vertex's neighbours. The complex must stay simplicial: the neighbour shares no other neighbour with
+/// the vertex than the two on their common faces (Dey, Edelsbrunner, Guha and Nekhayev 1999, "link condition"). So
+/// wherever a drawing of the rest is one to one, the polygon has a kernel for the vertex to return to, at least near
+/// that neighbour.
 ///
-/// Every face stands for a number of faces of the whole mesh: those it has taken the place of.
+/// Every face stands for a number of faces of the whole mesh: those that it has replaced.
 class DiskComplex {
 public:
     using Face = std::array<Index, 3>;
@@ -25,21 +25,21 @@ public:
     Index vertex_count() const { return static_cast<Index>(around_.size()); }
     bool outer(Index vertex) const { return outer_[vertex] != 0; }
     bool present(Index vertex) const { return !around_[vertex].empty(); }
-    /// Faces round a vertex, in no special order.
+    /// Faces round a vertex in no particular order.
     const std::vector<Index>& around(Index vertex) const { return around_[vertex]; }
     const Face& face(Index f) const { return faces_[f]; }
     double weight(Index f) const { return weights_[f]; }  ///< how many faces it stands for
     bool alive(Index f) const { return alive_[f] != 0; }
-    Index face_count() const { return static_cast<Index>(faces_.size()); }  ///< dead ones too
-    Triangles triangles() const;                                            ///< those alive
+    Index face_count() const { return static_cast<Index>(faces_.size()); }  ///< dead faces included
+    Triangles triangles() const;                                            ///< the faces that are alive
 
-    /// The face turned so that a vertex of it comes first.
+    /// The face's corners, turned so that this vertex comes first.
     Face seen_from(Index vertex, Index f) const;
-    /// Neighbours of an inner vertex in order, counter-clockwise, and the face from each to the next.
+    /// Neighbours of an inner vertex, counter-clockwise, and the face from each neighbour to the next.
     void link(Index vertex, std::vector<Index>& neighbours, std::vector<Index>& faces) const;
 
-    /// @param chords whether an edge between two outer vertices may come in
-    /// @return whether a neighbour can take it
+    /// Takes a vertex out. @param chords whether a new edge may join two outer vertices
+    /// @return false if no neighbour can take it
     bool take_out(Index vertex, bool chords);
     std::size_t taken_out() const { return removals_.size(); }
     /// Undoes the last take_out. @return the vertex

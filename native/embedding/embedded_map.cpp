@@ -12,9 +12,9 @@ namespace koebe {
 namespace {
 
 constexpr int free_rounds = 3, path_steps = 4, snap_rounds = 4, refits = 2;
-constexpr double open_holes = 0.3;  // weight of the holes' fans against faces, where no circle keeps holes open
-// Faces that Newton steps may be taken for before what is off its circle stays off: a step of the whole surface so
-// often, and those of a small surface.
+constexpr double open_holes = 0.3;  // weight of the holes' fans against faces, without circles to keep holes open
+// Newton steps may be taken for so many faces, then vertices off their circles stay off: so many steps of the whole
+// surface, plus a number for small surfaces.
 constexpr std::size_t steps_of_all = 60, most_for_small = 200000;
 
 class Embedding {
@@ -31,7 +31,7 @@ public:
 
     CircleMap run(const std::vector<Circle>& wanted, const ExecutionContext& context)
     {
-        // Conformal maps of a ring to a ring are many: the rim tells which one is meant.
+        // A ring has many conformal maps to a ring: the rim tells which one is meant.
         map_.let_rim_slide(false);
         for (int round = 0; round < free_rounds; ++round) map_.relax({.regular = open_holes}, 12, context);
         CircleMap result;
@@ -70,12 +70,12 @@ public:
 
 private:
     struct Attempt {
-        int off = -1;  // vertices that should be on their circles and are not
+        int off = -1;  // vertices that should be on their circles but are not
         FilledMap::State state;
         std::vector<Roundness> roundness;
     };
 
-    /// Draws the loops to their circles, and those of them that stay off to others nearby.
+    /// Draws the loops to their circles, and gives loops that stay off other circles nearby.
     void draw_and_mend(Attempt& best, const ExecutionContext& context)
     {
         draw(context);
@@ -90,14 +90,14 @@ private:
         }
     }
 
-    /// Keeps the map as it is if fewer vertices are off their circles.
+    /// Notes the map if fewer vertices are off their circles.
     void note(Attempt& best)
     {
         const int off = note_off();
         if (best.off < 0 || off < best.off) best = {off, map_.state(), roundness_};
     }
 
-    /// Circles that fit the loops as they are. @return whether they are apart
+    /// Fits circles to the loops' present images. @return whether they are apart
     bool refit(const std::vector<char>& which, HoleCircle kind)
     {
         std::vector<VectorXcd> images;
@@ -110,7 +110,7 @@ private:
         return fit_hole_circles(images, centres, which, kind, map_.circles());
     }
 
-    /// Loops and fans follow circles that go from those that fit to the wanted ones.
+    /// Makes loops and fans follow circles that move from the fitted to the wanted ones.
     void lead_to(const std::vector<Circle>& wanted, const ExecutionContext& context)
     {
         const std::vector<Circle> from = map_.circles();
@@ -133,7 +133,7 @@ private:
         for (int round = 0; round < snap_rounds && map_.snap() > 0; ++round) map_.relax({1e5, 1e3}, 12, context);
     }
 
-    /// Notes the loops with vertices that should be on their circles and are not.
+    /// Notes the loops with vertices that should be on their circles but are not.
     int note_off()
     {
         int count = 0;

@@ -18,15 +18,15 @@ namespace koebe {
 namespace {
 
 constexpr double rounding = 3e-7;  // twice the area a face can lose by rounding, over its longest edge, disk units
-constexpr double roomy = 1e-4;     // of the mean area: a face as large has room
+constexpr double roomy = 1e-4;     // of the mean area: a larger face has room
 constexpr int most_cautions = 4;
-// Relative decreases of the energy. A vertex that is to lie at 0 comes there only where faces have made room.
+// Relative decreases of the energy. The vertex for 0 gets there only when faces have made room.
 constexpr double settled = 3e-4, settled_with_center = 1e-5;
-// Of the vertex that is to lie at 0.
+// Limits for the vertex that is to lie at 0.
 constexpr int most_moves = 80, most_stuck = 4;
-constexpr double longest_move = 0.3;                    // disk units: of an automorphism
-constexpr double least_move = 1e-3, poor_move = 0.02;   // of the way to 0
-constexpr double with_room = 0.3, hardest_pull = 1e12;  // dimensionless: the weight of the holes' fans, and the pull
+constexpr double longest_move = 0.3;                    // disk units: |a| of an automorphism
+constexpr double least_move = 1e-3, poor_move = 0.02;   // shares of the way to 0
+constexpr double with_room = 0.3, hardest_pull = 1e12;  // dimensionless: weight of the holes' fans, and the pull
 
 }  // namespace
 
@@ -60,7 +60,7 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
     if (places_.center >= 0) bring_to_center(context);
 }
 
-/// The rim turned, so that the vertex that is to lie at 1 does.
+/// The rim turned so that the vertex for 1 is at 1.
 VectorXcd FilledMap::placed_rim(VectorXcd rim) const
 {
     if (places_.point < 0) return rim;
@@ -70,8 +70,8 @@ VectorXcd FilledMap::placed_rim(VectorXcd rim) const
     return rim;
 }
 
-/// An automorphism of the disk, vertex by vertex, the vertex at 1 left there.
-/// @return false, and nothing done, if it turns a face over
+/// Moves each vertex by an automorphism of the disk that leaves the vertex at 1.
+/// @return false, without a change, if a face would turn over
 bool FilledMap::move_by(Moebius moebius)
 {
     const std::vector<char> was_right = right_faces();
@@ -93,8 +93,8 @@ bool FilledMap::move_by(Moebius moebius)
     return true;
 }
 
-/// The vertex that is to lie at 0 moved a share of the way alone.
-/// @return false, and nothing done, if that turns a face over
+/// Moves the vertex for 0 alone, by a share of its way.
+/// @return false, without a change, if a face would turn over
 bool FilledMap::move_center_by(double share)
 {
     const Index v = places_.center;
@@ -106,9 +106,9 @@ bool FilledMap::move_center_by(double share)
     return false;
 }
 
-/// Brings the vertex that is to lie at 0 there, and holds it. An automorphism turns a face over only if its pole comes
-/// to lie in the circumscribed disk; so by small ones, whose poles are far, and by steps of the vertex alone. Between
-/// them the faces are relaxed around it, towards equilateral ones first, which have the smallest such disks.
+/// Brings the vertex for 0 there, and holds it. An automorphism turns a face over only if its pole lies in the face's
+/// circumscribed disk. So this takes small automorphisms, whose poles are far, and steps of the vertex alone. Between
+/// them the faces around it are relaxed, first towards equilateral ones, which have the smallest circumscribed disks.
 void FilledMap::bring_to_center(const ExecutionContext& context)
 {
     let_rim_slide(true);
@@ -118,8 +118,8 @@ void FilledMap::bring_to_center(const ExecutionContext& context)
     approach_center(true, context);
 }
 
-/// @param follows whether the vertex takes part when faces are relaxed; then it is pulled the last of the way
-/// @return whether it is at 0
+/// @param follows whether the vertex moves when faces are relaxed; it is then pulled the last part of the way
+/// @return whether the vertex is at 0
 bool FilledMap::approach_center(bool follows, const ExecutionContext& context)
 {
     const Index v = places_.center;
@@ -149,7 +149,7 @@ void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)
     PlanarPoints best;
     Eigen::Index fewest = filled_.triangles.rows() + 1;
     for (const double share : {0.0, 0.3, 1.0}) {
-        if (places_.center >= 0 && share < 1.0) continue;  // the given rim may have no room for the middle
+        if (places_.center >= 0 && share < 1.0) continue;  // the given rim may leave no room for the middle
         const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share, places_.center) : rim;
         now_.points = convex_embedding(filled_, loops_[0], placed_rim(wider), context);
         const double least = roomy * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
@@ -197,7 +197,7 @@ bool FilledMap::star_right(Index vertex, const std::vector<char>& was_right) con
                        [&](Index f) { return !was_right[f] || right(f); });
 }
 
-/// A sector of a regular polygon, of some area.
+/// A sector of a regular polygon, with a given area.
 Eigen::Matrix2d FilledMap::fan_reference(Eigen::Index f, double area) const
 {
     const auto corners = static_cast<double>(around_[filled_.triangles(f, 2)].size());
@@ -207,7 +207,7 @@ Eigen::Matrix2d FilledMap::fan_reference(Eigen::Index f, double area) const
     return edges * std::sqrt(2.0 * area / edges.determinant());
 }
 
-/// Faces that are wrong already do not take part, and their corners are held.
+/// Poses the problem. Wrong faces are left out, and their corners are held.
 FoldoverProblem FilledMap::problem(Pull pull) const
 {
     FoldoverProblem problem;
@@ -268,7 +268,7 @@ void FilledMap::relax(Pull pull, int iterations, const ExecutionContext& context
         bool kept = moving.points.allFinite();
         if (kept) {
             now_.points = std::move(moving.points);
-            kept = run_once_round(image_of(0), 1);  // upright faces may lie over each other at a rim that turns back
+            kept = run_once_round(image_of(0), 1);  // upright faces may overlap at a rim that turns back
             for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
                 if (was_right[f] && !right(f)) {
                     kept = false;
@@ -297,7 +297,7 @@ int FilledMap::snap()
         if (pulled_[v] && now_.mobility[v] == Mobility::free) moved.push_back(v);
     const auto put = [&](Index v, Complex place) { now_.points.row(v) << place.real(), place.imag(); };
     for (const Index v : moved) put(v, on_circle(v));
-    // Back with those at wrong faces, until there are none; then these one after the other.
+    // Return the vertices at wrong faces until there is no wrong face; then move them one by one.
     std::vector<Index> back;
     for (bool again = true; again;) {
         again = std::erase_if(moved, [&](Index v) {

@@ -1,4 +1,4 @@
-// A one-to-one map of a surface with its holes filled, which stays one to one whatever moves.
+// A one-to-one map of a surface with its holes filled, which stays one to one in every move.
 #pragma once
 
 #include "circles/circle_fit.h"
@@ -16,45 +16,46 @@
 
 namespace koebe {
 
-/// Every move ends in a map whose faces are right wherever they were right before: upright, holes' fans too, and those
-/// of the surface also as they are stored, if they are large enough for 32-bit UVs. The outer loop runs once round the
-/// circle. What would break this is undone. As the fans stay upright, no loop crosses itself or another.
+/// Every move ends in a map whose faces are right wherever they were right before. Right faces are upright, fans
+/// included; the surface's faces also as stored, if they are large enough for 32-bit UVs. The outer loop runs once
+/// round the circle. A move that would break this is undone. As the fans stay upright, no loop crosses itself or
+/// another.
 class FilledMap {
 public:
-    /// Dimensionless.
+    /// Weights, dimensionless.
     struct Pull {
         double rim = 0.0;       ///< of loop vertices to their circles
         double centre = 0.0;    ///< of fans' centres to the circles' centres
-        double regular = 1e-3;  ///< weight of the fans, which would be regular polygons, against the surface's faces
-        double place = 0.0;     ///< of the vertex that is to lie at 0, there
-        PatchShape shape = PatchShape::surface;  ///< that the faces are to have
+        double regular = 1e-3;  ///< weight of the fans, drawn to regular polygons, against the surface's faces
+        double place = 0.0;     ///< of the vertex for 0 to its place
+        PatchShape shape = PatchShape::surface;  ///< wanted shape of the faces
     };
 
-    /// Starts from convex_embedding, on a rim with more room where it has too little (roomy_rim.h).
+    /// Starts from convex_embedding, on a rim with more room where there is too little (roomy_rim.h).
     /// @param flaps their rims are not pulled to the circles of inner loops
-    /// @param places vertices that have and keep their places, the centre unless its faces would turn over there
+    /// @param places vertices with fixed places; the centre is not at 0 if its faces would turn over there
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
               const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places,
               const ExecutionContext& context);
 
     /// Lowers the angle error of the surface's faces, and the pulls, by some Newton steps (foldover_free.h, strict).
     void relax(Pull pull, int iterations, const ExecutionContext& context);
-    /// Puts pulled vertices onto their circles, where they slide from then on; not those whose faces would turn over.
-    /// @return how many are off
+    /// Puts pulled vertices onto their circles, where they slide from then on, unless a face would turn over.
+    /// @return the number of vertices off their circles
     int snap();
     /// Lets the vertices of an inner loop leave its circle.
     void release(std::size_t loop);
 
-    /// Whether the outer loop slides along the unit circle, as it does at first.
+    /// Sets whether the outer loop slides along the unit circle. At first it does.
     void let_rim_slide(bool slides);
 
-    /// What changes: to come back to.
+    /// The state that moves change, to return to.
     struct State {
         PlanarPoints points;
         std::vector<FoldoverProblem::Mobility> mobility;
         std::vector<Circle> circles;
     };
-    /// Faces that Newton steps were taken for.
+    /// Number of faces over all Newton steps so far.
     std::size_t work() const { return work_; }
     const State& state() const { return now_; }
     void return_to(State state) { now_ = std::move(state); }
@@ -63,9 +64,9 @@ public:
     Complex at(Index vertex) const { return {now_.points(vertex, 0), now_.points(vertex, 1)}; }
     Index fan_centre(std::size_t loop) const { return filled_.surface_vertices + static_cast<Index>(loop) - 1; }
     VectorXcd image_of(std::size_t loop) const;
-    /// How round a loop lies about its circle, vertices that are not pulled aside.
+    /// The roundness of a loop about its circle, without vertices that are not pulled.
     Roundness roundness_of(std::size_t loop) const;
-    /// Vertices of an inner loop that are not on its circle. @param pulled only those that should be
+    /// Vertices of an inner loop that are not on its circle. @param pulled only those that should be on it
     std::vector<Index> off_circle(std::size_t loop, bool pulled) const;
     PlanarPoints surface_points() const { return now_.points.topRows(surface_.vertex_count); }
 
@@ -93,12 +94,12 @@ private:
     FilledDisk filled_;
     std::vector<std::vector<Index>> around_;  // faces of each vertex
     std::vector<int> loop_of_;
-    std::vector<char> pulled_;     // 1 for vertices that should be on the circles of inner loops
-    std::vector<double> caution_;  // per face: what its floor is multiplied by
+    std::vector<char> pulled_;     // 1 for vertices that should be on circles of inner loops
+    std::vector<double> caution_;  // per face: factor of its floor
     FixedPlaces places_;
     State now_;
     std::size_t work_ = 0;
-    std::vector<Index> faces_;  // of the surface
+    std::vector<Index> faces_;  // the surface's faces
 };
 
 }  // namespace koebe

@@ -1,4 +1,4 @@
-// Vertices whose places in the disk are given.
+// Vertices with given places in the disk.
 #pragma once
 
 #include "core/types.h"
@@ -6,8 +6,8 @@
 namespace koebe {
 
 struct FixedPlaces {
-    Index center = -1;  ///< the vertex, of no loop, that lies at 0; -1: none
-    Index point = -1;   ///< the one of the outer loop that lies at 1; -1: none
+    Index center = -1;  ///< the inner vertex that lies at 0, or -1
+    Index point = -1;   ///< the vertex of the outer loop that lies at 1, or -1
 };
 
 }  // namespace koebe

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double share_of_room = 0.9;
 
-/// The radius up to which a circle round a point stays in the hole; negative outside.
+/// The largest radius of a circle round a point that stays in the hole; negative outside.
 double free_radius(const VectorXcd& image, Complex centre)
 {
     double least = 1.0;

@@ -1,4 +1,4 @@
-// Circles for the holes of a map that has none.
+// Chooses circles for the holes of a map.
 #pragma once
 
 #include "circles/circle.h"
@@ -8,16 +8,16 @@
 namespace koebe {
 
 enum class HoleCircle {
-    through,  ///< the loop, by least squares; made smaller where it would meet another
+    through,  ///< the loop, by least squares; smaller where it would meet another circle
     inside    ///< the hole, round its middle
 };
 
-/// A circle for each of some loops, apart from the others' and inside the unit circle; at the least the one that
-/// touches the loop from inside, which meets nothing.
+/// Chooses a circle for each of some loops, apart from the others and inside the unit circle. At worst it is a circle
+/// that touches the loop from inside, which meets no other.
 /// @param images of the loops, the unit circle's first; the holes lie on their right
-/// @param fan_centres (loops) points from which all of each hole is seen; the first is not read
-/// @param refit (loops) 1 where a circle is wanted; the others stay @param circles (loops), changed in place
-/// @return whether the circles are apart now, those that stay too
+/// @param fan_centres (loops) points from which all of each hole is visible; the first is not read
+/// @param refit (loops) 1 to choose a new circle; other circles stay @param circles (loops), changed in place
+/// @return whether all circles are apart now
 bool fit_hole_circles(const std::vector<VectorXcd>& images, const std::vector<Complex>& fan_centres,
                       const std::vector<char>& refit, HoleCircle kind, std::vector<Circle>& circles);
 

@@ -9,17 +9,17 @@
 namespace koebe {
 namespace {
 
-constexpr Index most_vertices = 5000;  // arcs inside arcs take the square of their number
+constexpr Index most_vertices = 5000;  // arcs inside arcs take time by the square of their number
 constexpr double longest_arc = 2.5;    // radians
 
-/// What an edge between two outer vertices cuts off: an arc of the loop, and the faces behind it.
+/// The part cut off by an edge between two outer vertices: an arc of the loop, and the number of faces behind it.
 struct Arc {
     Index first, steps;
     double faces;
 };
 
-/// The faces parted by edges that join outer vertices; each part's arc, inner ones first, but for the part with the
-/// centre, or the largest.
+/// Cuts the faces into parts by edges that join outer vertices. Returns each part's arc, inner ones first, except for
+/// the part with the centre, or else the largest part.
 std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer, Index center)
 {
     const Triangles& triangles = filled.triangles;
@@ -55,7 +55,7 @@ std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer, Inde
     for (Index h = 0; h < static_cast<Index>(triangles.size()) && center >= 0; ++h)
         if (origin(triangles, h) == center) root = part[face_of(h)];
     struct Entry {
-        Index part, door;  // the part's own half-edge on the edge towards the root; -1 for the root
+        Index part, door;  // the part's half-edge on the edge towards the root; -1 for the root
     };
     std::vector<Entry> order{{root, -1}};
     std::vector<Index> parent(size.size(), -1);
@@ -69,7 +69,7 @@ std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer, Inde
     std::vector<Arc> arcs;
     for (std::size_t k = order.size() - 1; k > 0; --k) {
         const auto [id, door] = order[k];
-        // The part is on the left of its door, and so the loop runs on from the door's end to its beginning.
+        // The part is on the left of its door, so the loop runs on from the door's end to its start.
         const Index first = place[target(triangles, door)], last = place[origin(triangles, door)];
         arcs.push_back({first, (last - first + n) % n, faces[id]});
         faces[parent[id]] += faces[id];

@@ -1,4 +1,4 @@
-// Where the outer loop's vertices go for everything behind them to have room.
+// Spaces the outer loop's vertices so that the faces behind each edge have room.
 #pragma once
 
 #include "embedding/convex_embedding.h"
@@ -6,13 +6,12 @@
 
 namespace koebe {
 
-/// The rim with steps no smaller than a share of what they need, which is 1 / n of the circle each; and the arc behind
-/// an edge that joins two vertices of the loop, t long, cuts off t^3 / 12 of the unit disk, so what lies behind it
-/// needs at least the t at which its faces are as large as the others.
+/// Widens the rim's steps to a share of what they need. Each step needs 1 / n of the circle. Behind an edge that joins
+/// two vertices of the loop, an arc of length t cuts off t^3 / 12 of the unit disk. So the arc needs at least the t at
+/// which the faces behind the edge are as large as the others.
 /// @param rim (n) points of the outer loop on the unit circle, in order; the first keeps its place
-/// @param share 0: the rim as it is; 1: nothing is left of it
-/// @param center a vertex, of no loop, that is to have the middle of the disk: what lies behind an edge is what
-///        the edge parts from it; -1: from the largest part
+/// @param share 0: the rim does not change; 1: only the needs count
+/// @param center an inner vertex for the middle of the disk, which is not behind any edge; -1: the largest part is not
 VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share,
                     Index center = -1);
 

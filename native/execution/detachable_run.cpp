@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto exit_patience = 500ms;  // that an exit has with computations nobody waits for any more
+constexpr auto exit_patience = 500ms;  // an exit waits so long for abandoned computations
 constexpr auto look_again = 2ms;
 
 std::atomic<int> running{0};
@@ -29,7 +29,7 @@ bool watch_the_exit() { return on_exit(end_the_process, nullptr) == 0; }
 
 #else
 
-/// Without the exit's status nothing is left but to wait.
+/// Waits for all computations where the exit status is not known.
 void wait_for_all()
 {
     while (running > 0) std::this_thread::sleep_for(look_again);

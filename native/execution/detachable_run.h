@@ -1,4 +1,4 @@
-// Computations that can be left at once, even inside a kernel that does not ask whether it should go on.
+// Computations that can be abandoned at once, even inside a kernel without checkpoints.
 #pragma once
 
 #include "core/api.h"
@@ -22,9 +22,9 @@ namespace koebe {
 
 namespace detail {
 
-/// Counts a computation from its making to the end of its thread. The libraries a thread works in are taken down when
-/// the process exits, so an exit waits for those that are counted; where one does not end soon, having been left in a
-/// kernel without checkpoints, the process ends without taking anything down.
+/// Counts a computation from its start to the end of its thread. Libraries are taken down when the process exits, so an
+/// exit waits for counted computations. If one does not end soon, as it was abandoned in a kernel without checkpoints,
+/// the process ends without taking libraries down.
 class KOEBE_API CountedRun : NotCopied {
 public:
     CountedRun();
@@ -33,9 +33,9 @@ public:
 
 }  // namespace detail
 
-/// Runs a computation on a thread of its own, reports its progress on the calling thread, and answers a raised token
-/// within 20 ms by Cancelled; the computation then ends at its next checkpoint, unseen. So it must own all it reads.
-/// Its exceptions come out of here, and an exception of the progress or the poll callback leaves it in the same way.
+/// Runs a computation on a thread of its own, reports its progress on the calling thread, and throws Cancelled within
+/// 20 ms of a raised token. The abandoned computation ends at its next checkpoint, so it must own all data that it
+/// reads. Throws the computation's exceptions, and those of the progress and the poll callback, which abandon it.
 template <class Result>
 Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionContext&)> compute)
 {

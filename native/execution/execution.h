@@ -1,4 +1,4 @@
-// Progress and cancellation: the one object that goes through every long computation.
+// Progress and cancellation: the object passed through every long computation.
 #pragma once
 
 #include "core/errors.h"
@@ -22,10 +22,10 @@ private:
     std::shared_ptr<std::atomic<bool>> flag_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-/// Called on the calling thread with a fraction in [0, 1] that never goes back, and the stage's name.
+/// Called on the calling thread with a fraction in [0, 1], which never falls, and the stage's name.
 using ProgressCallback = std::function<void(double fraction, const std::string& stage)>;
 
-/// Called on the calling thread at every checkpoint, about every 20 ms in run_detachable: what it throws ends the call.
+/// Called on the calling thread at every checkpoint, about every 20 ms in run_detachable. Its exceptions end the call.
 using PollCallback = std::function<void()>;
 
 class ExecutionContext {
@@ -43,8 +43,8 @@ public:
         if (token_.cancelled()) throw Cancelled();
     }
 
-    /// Reports progress within the current stage and then checks for cancellation.
-    /// @param fraction in [0, 1] of the stage that begin_stage opened
+    /// Reports progress within the current stage, then checks for cancellation.
+    /// @param fraction in [0, 1] of the stage opened by begin_stage
     void advance(double fraction)
     {
         if (progress_) {
@@ -55,7 +55,7 @@ public:
         checkpoint();
     }
 
-    /// Passes on what another context has reported of the whole.
+    /// Passes on another context's report on the whole.
     void report(double overall, const std::string& stage) { begin_stage(stage, overall, overall); }
 
     /// Opens a stage that covers [begin, end] of the whole.

@@ -18,7 +18,7 @@
 namespace koebe {
 namespace {
 
-constexpr double worth_asking = 64e6;  // bytes: looking costs some ten microseconds
+constexpr double worth_asking = 64e6;  // bytes; the question takes some ten microseconds
 #if !defined(_WIN32)
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -33,7 +33,7 @@ double number_after(const char* file, const std::string& word)
     return unknown;
 }
 
-/// The one number in a file; "max" or no file is no limit.
+/// The single number in a file; "max" or a missing file means no limit.
 double only_number(const char* file)
 {
     double number = 0.0;
@@ -49,7 +49,7 @@ double available_memory()
     MEMORYSTATUSEX status{};
     status.dwLength = sizeof status;
     if (!GlobalMemoryStatusEx(&status)) return std::numeric_limits<double>::infinity();
-    return static_cast<double>(status.ullAvailPageFile);  // what can be committed
+    return static_cast<double>(status.ullAvailPageFile);  // the memory that can be committed
 }
 #else
 double available_memory()
@@ -79,8 +79,8 @@ void require_memory(double bytes, const char* purpose)
 
 double memory_for_faces(std::ptrdiff_t faces)
 {
-    // The factor grows by the same for each face whenever the surface is cut in two once more. Measured: 771 bytes a
-    // face at 0.66 million, 837 at 2.6 million, 896 at 10.5 million.
+    // The factor's bytes per face grow by a constant each time the surface doubles. Measured: 771 bytes a face at 0.66
+    // million, 837 at 2.6 million, 896 at 10.5 million.
     const double count = static_cast<double>(faces);
     return faces < 2 ? 0.0 : count * (200.0 + 31.2 * std::log2(0.5 * count));
 }

@@ -1,4 +1,4 @@
-// What the process has needed at most.
+// The peak memory of the process.
 #pragma once
 
 namespace koebe {

@@ -15,7 +15,7 @@
 namespace koebe {
 namespace {
 
-/// What the threads share.
+/// State shared by the threads.
 struct Shared {
     std::atomic<std::size_t> next{0}, done{0};
     std::atomic<bool> stop{false};
@@ -23,8 +23,8 @@ struct Shared {
     std::size_t failed = 0;
     std::exception_ptr error;
 
-    /// Work is begun in its order, so all that is before the first failure is done: which one is thrown does not depend
-    /// on the threads.
+    /// Work starts in order, so all work before the first failure is finished. So the thrown error does not depend on
+    /// threads.
     void fail(std::size_t i)
     {
         const std::scoped_lock lock(mutex);
@@ -68,13 +68,13 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
                 try {
                     detail::take_thread_memory();
                 } catch (const std::bad_alloc&) {
-                    return;  // the other threads do it
+                    return;  // other threads do it
                 }
                 const BesideOthers beside;
                 run(own, {});
             });
         } catch (const std::system_error&) {
-            break;  // no more threads
+            break;  // no more threads can start
         }
     std::exception_ptr cancelled;
     try {
@@ -90,7 +90,7 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
     for (std::thread& other : others) other.join();
     if (cancelled) std::rethrow_exception(cancelled);
     if (shared.error) std::rethrow_exception(shared.error);
-    context.advance(1.0);  // the last piece may have been another thread's
+    context.advance(1.0);  // another thread may have done the last piece
 }
 
 }  // namespace koebe

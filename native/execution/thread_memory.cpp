@@ -18,10 +18,10 @@ extern "C" void* __tls_get_addr(TlsPlace* place);
 namespace koebe::detail {
 namespace {
 
-constexpr std::size_t overhead = 64 << 10;  // bytes, for what the allocator adds
+constexpr std::size_t overhead = 64 << 10;  // bytes that the allocator adds
 
 struct Missing {
-    std::array<std::size_t, 256> modules;  // a loader's lock is held while it is filled: nothing may be thrown
+    std::array<std::size_t, 256> modules;  // no exception may be thrown while a loader's lock is held
     std::size_t count = 0;
     std::size_t bytes = overhead;
 };
@@ -42,7 +42,7 @@ void take_thread_memory()
 {
     Missing missing;
     dl_iterate_phdr(note_missing, &missing);
-    void* volatile room = std::malloc(missing.bytes);  // volatile, or the compiler leaves it out
+    void* volatile room = std::malloc(missing.bytes);  // volatile keeps the compiler from removing it
     if (!room) throw std::bad_alloc();
     std::free(room);
     for (std::size_t i = 0; i < missing.count; ++i) {

@@ -46,7 +46,7 @@ void in_pieces(std::size_t size, std::size_t length,
 
 void in_ranges(std::size_t size, const std::function<void(std::size_t begin, std::size_t end)>& work)
 {
-    constexpr std::size_t shortest = 16384, most = 8;  // as each goes over all
+    constexpr std::size_t shortest = 16384, most = 8;  // as each range looks at all data
     const std::size_t count =
         std::clamp(static_cast<std::size_t>(ThreadShare::here()), std::size_t{1}, std::min(most, size / shortest + 1));
     in_pieces(size, std::max<std::size_t>((size + count - 1) / count, 1), work);

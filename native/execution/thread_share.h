@@ -1,4 +1,4 @@
-// The threads that a computation may use, known wherever it goes.
+// The number of threads that a computation may use, known to all its functions.
 #pragma once
 
 #include "core/api.h"
@@ -10,8 +10,8 @@
 
 namespace koebe {
 
-/// How many threads what runs on this thread may take, itself counted, for the object's lifetime. It is 1 where nothing
-/// is said, and always in work that runs beside other work (side_by_side, each_beside).
+/// Sets the number of threads for work on this thread, itself included, for the object's lifetime. It is 1 by default,
+/// and always in work that runs beside other work (side_by_side, each_beside).
 class KOEBE_API ThreadShare : NotCopied {
 public:
     /// @param threads 0: as many as the machine has
@@ -24,7 +24,7 @@ private:
     int before_;
 };
 
-/// This thread has work beside others for the object's lifetime: its share is 1 whatever is said.
+/// This thread works beside others for the object's lifetime: its share is always 1.
 class BesideOthers : NotCopied {
 public:
     BesideOthers();
@@ -34,22 +34,22 @@ private:
     bool before_;
 };
 
-/// Calls work(i) once for each i < count, on this thread's share of threads. The work must not share what it changes:
-/// then its results are the same for any number.
-/// @throws of what the work throws that of the lowest i; no more work is begun then
+/// Calls work(i) once for each i < count, on this thread's share of threads. The calls must not change shared data;
+/// then any number of threads gives the same results.
+/// @throws the exception of the lowest i that throws; no more work starts then
 KOEBE_API void each_beside(std::size_t count, const std::function<void(std::size_t i)>& work);
 
-/// Calls work(begin, end) for the pieces of [0, size) of `length` each, the last one shorter: the same ones for any
-/// number of threads.
+/// Calls work(begin, end) for the pieces of [0, size) of `length` each, the last one shorter. Any number of threads has
+/// the same pieces.
 KOEBE_API void in_pieces(std::size_t size, std::size_t length,
                          const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-/// Calls work(begin, end) for ranges of [0, size), one for each of this thread's share of threads: for work that looks
-/// at all there is and does what concerns its range, in the order of one range. Then its results do not depend on how
-/// many ranges there are.
+/// Calls work(begin, end) for ranges of [0, size), one for each of this thread's share of threads. Such work looks at
+/// all data, and handles what concerns its range in the order of a single range. Then results do not depend on the
+/// number of ranges.
 KOEBE_API void in_ranges(std::size_t size, const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-/// The numbers below `size` that a test finds, ascending.
+/// The numbers below `size` that pass a test, ascending.
 template <class Number, class Test>
 std::vector<Number> found_in_pieces(Number size, const Test& test)
 {

@@ -12,13 +12,13 @@
 namespace koebe {
 namespace {
 
-constexpr double flatter[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.15};  // heights tried over the natural one
+constexpr double flatter[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.15};  // heights tried, over the natural height
 constexpr int lens_level = static_cast<int>(std::size(flatter));
 constexpr double least_share = 0.3;  // of the mean edge along a rim
 constexpr double lens_reach = 0.9;   // of the way from the hinge to the middle of the hole
 constexpr double lens_aspect = 1.0;  // height of the lens's control point over the hinge's length
 
-/// A flap in its own numbering: the ends of the hinge, the rim, the interior.
+/// A flap with its own vertex numbers: the ends of the hinge, the rim, the interior.
 struct HangingFlap {
     HangingFlap(const Vertices& positions, const Triangles& faces, const Flap& flap)
         : loop(flap.loop), rim(static_cast<Index>(flap.rim.size())), names{flap.first, flap.last}
@@ -37,7 +37,7 @@ struct HangingFlap {
         image = VectorXcd::Zero(static_cast<Eigen::Index>(names.size()));
     }
 
-    /// From the first end of the hinge along the rim to the last.
+    /// The vertices from the hinge's first end along the rim to its last end.
     std::vector<Index> chain() const
     {
         std::vector<Index> result{0};
@@ -46,14 +46,14 @@ struct HangingFlap {
         return result;
     }
 
-    /// Share of the chain's length passed at each rim vertex.
+    /// Share of the chain's length up to each rim vertex.
     VectorXd shares() const
     {
         const auto steps = chain();
         VectorXd walked(rim);
         VectorXd edges(rim + 1);
         for (Index i = 0; i <= rim; ++i) edges[i] = (vertices.row(steps[i + 1]) - vertices.row(steps[i])).stableNorm();
-        edges = edges.array().max(least_share * edges.mean());  // coinciding vertices need a place of their own
+        edges = edges.array().max(least_share * edges.mean());  // coinciding vertices need places of their own
         double sum = 0.0;
         for (Index i = 0; i < rim; ++i) walked[i] = (sum += edges[i]) / edges.sum();
         return walked;
@@ -68,8 +68,8 @@ struct HangingFlap {
         return true;
     }
 
-    /// Harmonic inside, the chain given; with weights of 1, which never flip in a convex outline (Tutte 1963), where
-    /// the surface's own do.
+    /// Makes the inside harmonic, with the chain given. Where the surface's own weights flip a face, it takes weights
+    /// of 1, which never flip in a convex outline (Tutte 1963).
     void fill()
     {
         if (static_cast<std::size_t>(rim) + 2 == names.size()) return;
@@ -89,12 +89,12 @@ struct HangingFlap {
 
     int loop;
     Index rim;                 // number of rim vertices
-    std::vector<Index> names;  // vertex of the surface for each
+    std::vector<Index> names;  // the surface's vertex for each
     Triangles triangles;
     Vertices vertices;
     VectorXcd image;
     VectorXcd natural;  // the conformal flattening
-    int level = 0;      // how far it has been flattened
+    int level = 0;      // how often it has been flattened
 };
 
 void lay_on_rim(HangingFlap& flap)
@@ -128,7 +128,7 @@ void draw(HangingFlap& flap, Complex middle)
     flap.fill();
 }
 
-/// The hole: the polygon of the core's loop, convex, clockwise as the surface is on its left.
+/// Whether the flap lies inside the hole: the core loop's polygon, convex, clockwise as the surface is on its left.
 bool inside_hole(const HangingFlap& flap, const VectorXcd& hole)
 {
     for (Index i = 0; i < flap.rim; ++i)

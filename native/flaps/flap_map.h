@@ -1,4 +1,4 @@
-// Where flaps go once the rest of the surface is mapped: into their hole, or onto the rim of the disk.
+// Draws flaps once the rest of the surface is mapped: into their hole, or onto the rim of the disk.
 #pragma once
 
 #include "core/types.h"
@@ -7,16 +7,16 @@
 
 namespace koebe {
 
-/// Draws every flap next to its hinge, none over another face.
+/// Draws every flap next to its hinge, and none over another face.
 ///
-/// On the outer loop (loop 0) the flap's rim takes the arc between the ends of its hinge, evenly by length, and what
-/// is inside is harmonic: the segment is convex. On any other loop the flap is flattened by the free-boundary least
-/// squares conformal map with the hinge pinned (Levy et al. 2002) and hangs into the hole, the convex polygon of the
-/// shortened loop. What would leave the hole, overlap itself or meet another flap is made flatter, at last drawn in
-/// the convex lens between its hinge and the middle of the hole, where it meets nothing.
+/// On the outer loop (loop 0) the flap's rim takes the arc between the ends of its hinge, evenly by length. Its inside
+/// is harmonic; the segment is convex. On any other loop the flap hangs into the hole, the convex polygon of the
+/// shortened loop. It is flattened by the free-boundary least squares conformal map with the hinge pinned (Levy et al.
+/// 2002). A flap that would leave the hole, overlap itself or meet another flap is made flatter; at last it is drawn in
+/// the convex lens between its hinge and the middle of the hole, where it meets no other face.
 /// @param uv (V, 2) of the surface; the core's vertices are given, the flaps' are filled in
 /// @param loops of the surface, the outer one first
-/// @return the vertices that do not lie on their loop's circle, in the flaps' order
+/// @return the vertices off their loop's circle, in the flaps' order
 std::vector<Index> hang_flaps(const Vertices& vertices, const Triangles& triangles, const std::vector<Flap>& flaps,
                               const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context);
 

@@ -10,13 +10,13 @@ namespace {
 
 constexpr int no_loop = -1, several_loops = -2;
 
-/// What is left of the surface between the chords: a node of a tree, since a chord of one loop separates.
+/// A part of the surface between the chords. The parts form a tree, as a chord of one loop separates.
 struct Block {
     std::vector<Index> faces;
     std::vector<Index> chords;  // half-edges of this part on a chord
-    int loop = no_loop;         // whose boundary edges it and all that was peeled off it carry
+    int loop = no_loop;         // the loop on the boundary edges of this part and all parts peeled off it
     double area = 0.0;
-    int open_chords = 0;  // to parts that have not been peeled off
+    int open_chords = 0;  // chords to parts not yet peeled off
     bool peeled = false;
 };
 
@@ -92,7 +92,7 @@ private:
         }
     }
 
-    /// Takes leaves of the tree off, as long as nothing but the chord's own loop runs along them.
+    /// Takes off leaves of the tree, as long as only the chord's own loop runs along them.
     void peel()
     {
         std::size_t kept = 0;
@@ -152,7 +152,7 @@ private:
     const Surface& surface_;
     const std::vector<VertexLoop>& loops_;
     std::vector<int> loop_of_;
-    std::vector<Index> place_;    // in its loop
+    std::vector<Index> place_;    // place of each vertex in its loop
     std::vector<Index> part_of_;  // per face
     std::vector<Block> parts_;
     bool any_chord_ = false;
@@ -183,7 +183,7 @@ FlapCut cut_flaps(const Vertices& vertices, const Surface& surface, const std::v
         for (const Index v : loop)
             if (rank[v] >= 0) cut.loops.back().push_back(rank[v]);
     }
-    // A flap is a disk that hangs by one edge: without it the rest is as manifold, oriented and of the same genus.
+    // A flap is a disk that hangs by one edge. Without it the surface stays manifold, oriented and of the same genus.
     std::vector<Index> face_rank(surface.triangles.rows(), -1);
     Index faces = 0;
     for (std::size_t f = 0; f < cut_face.size(); ++f)

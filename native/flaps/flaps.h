@@ -1,4 +1,4 @@
-// Parts of a surface that hang on one boundary loop by a single interior edge.
+// Finds parts of a surface that hang on one boundary loop by a single interior edge.
 #pragma once
 
 #include "mesh/topology.h"
@@ -7,13 +7,13 @@
 
 namespace koebe {
 
-/// An ear or a strip behind an interior edge, the hinge, that joins two vertices of one loop and has no other loop
-/// behind it. With all its loop vertices on their circle it would be drawn over its neighbours, since the hinge is a
-/// chord of the hole (docs/numerics.md, "Flips").
+/// An ear or a strip behind an interior edge, the hinge. The hinge joins two vertices of one loop, and no other loop
+/// lies behind it. With all loop vertices on their circle the flap would be drawn over its neighbours, as the hinge is
+/// a chord of the hole (docs/numerics.md, "Flips").
 struct Flap {
     int loop = 0;                 ///< place in the list of loops
     Index first = 0, last = 0;    ///< the hinge: the loop runs from first along the flap to last
-    std::vector<Index> rim;       ///< the loop's vertices strictly between them, in its order
+    std::vector<Index> rim;       ///< the loop's vertices strictly between first and last, in order
     std::vector<Index> interior;  ///< vertices of no loop
     std::vector<Index> faces;
 };
@@ -21,12 +21,12 @@ struct Flap {
 /// The surface without its flaps.
 struct FlapCut {
     std::vector<Flap> flaps;
-    Surface core;                   ///< as the surface, on the vertices that are left; empty if there are no flaps
-    std::vector<Index> vertices;    ///< vertex of the surface for each of the core
-    std::vector<VertexLoop> loops;  ///< the shorter loops, of the core's vertices, in the order given
+    Surface core;                   ///< on the remaining vertices; empty without flaps
+    std::vector<Index> vertices;    ///< the surface's vertex for each vertex of the core
+    std::vector<VertexLoop> loops;  ///< the shortened loops, in core vertices, in the given order
 };
 
-/// Cuts off every flap; nested ones go together. On a disk both sides of every such edge are free of other loops:
+/// Cuts off every flap; nested flaps go together. On a disk both sides of every such edge are free of other loops:
 /// there the part of the largest area stays. A shortened loop keeps at least three vertices, since no two edges of a
 /// mesh join the same vertices.
 /// @param loops the surface's loops in any order

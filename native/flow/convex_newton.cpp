@@ -7,8 +7,8 @@
 namespace koebe {
 namespace {
 
-constexpr double longest_step = 4.0;    // of any entry of u: a factor of 55 in a length
-constexpr double widest_range = 60.0;   // of u: where no minimum exists it runs away
+constexpr double longest_step = 4.0;    // change of any entry of u: a factor of 55 in a length
+constexpr double widest_range = 60.0;   // of u: beyond it u diverges, as there is no minimum
 constexpr double shortest_step = 1e-9;  // of the first step tried
 constexpr double first_shift = 1e-12;   // of the mean diagonal
 constexpr double last_shift = 1e-2;
@@ -20,8 +20,8 @@ std::vector<Index> pattern_of(const SparseMatrix& matrix)
     return pattern;
 }
 
-/// The Hessian with the constants out of its kernel, and 1 on the diagonal of empty rows. The right-hand side sums to
-/// 0, so what is added at one vertex moves nothing but the constant.
+/// The Hessian without the constants in its kernel, and with 1 on the diagonal of empty rows. The right-hand side sums
+/// to 0, so the entry added at one vertex moves only the constant.
 SparseMatrix grounded(const SparseMatrix& hessian, double shift)
 {
     const VectorXd diagonal = hessian.diagonal();
@@ -54,7 +54,7 @@ VectorXd ConvexNewton::solve(SparseMatrix hessian, const VectorXd& right)
             }
             return cholesky_->solve(right).col(0);
         } catch (const SolverError&) {
-            // Faces that have collapsed leave the Hessian singular up to round-off.
+            // Collapsed faces leave the Hessian singular up to round-off.
             cholesky_.reset();
             if (shift >= last_shift) throw;
         }

@@ -11,13 +11,13 @@
 
 namespace koebe {
 
-/// A convex function of one number per vertex that does not change when all numbers grow by the same: the gradient
-/// sums to 0, and the constants are in the kernel of the Hessian.
+/// A convex function of one number per vertex that does not change when a constant is added to all: the gradient sums
+/// to 0, and the constants are in the kernel of the Hessian.
 class ConvexEnergy {
 public:
     virtual ~ConvexEnergy() = default;
     virtual VectorXd gradient(const VectorXd& u) = 0;
-    /// At the point of the last gradient; both triangles stored, positive semidefinite.
+    /// The Hessian at the point of the last gradient; both triangles stored, positive semidefinite.
     virtual SparseMatrix hessian() const = 0;
 };
 
@@ -33,12 +33,12 @@ struct NewtonReport {
     std::string reason;             ///< why it stopped before it converged
 };
 
-/// Keeps the factorization's symbolic part for as long as the Hessian's pattern stays.
+/// Keeps the symbolic factorization as long as the Hessian's pattern stays.
 class ConvexNewton {
 public:
-    /// Minimizes the energy from u on. A step is halved until the derivative along it is no larger than half of what
-    /// it was at the start, which a convex energy with a continuous gradient reaches; the energy itself is not needed,
-    /// whose differences are lost to round-off near the minimum. The mean of u stays.
+    /// Minimizes the energy, starting at u. A step is halved until the derivative along it is at most half of the first
+    /// one, which a convex energy with a continuous gradient reaches. The energy itself is not used, as its differences
+    /// are lost to round-off near the minimum. The mean of u does not change.
     /// @throws Cancelled
     NewtonReport minimize(ConvexEnergy& energy, VectorXd& u, const NewtonOptions& options, ExecutionContext& context);
 

@@ -9,7 +9,7 @@
 namespace koebe {
 namespace {
 
-/// Fills the face's edges, given the direction of one of them.
+/// Fills in a face's edges from the direction of one edge.
 void lay_face(const EdgeLengths& lengths, Index h, Complex direction, VectorXcd& edges)
 {
     const Index next = next_halfedge(h), previous = previous_halfedge(h);

@@ -44,7 +44,7 @@ double YamabeEnergy::scaled_length(Index h, const VectorXd& u) const
     return lengths_.data()[h] * std::exp(0.5 * (u[origin(triangles_, h)] + u[koebe::target(triangles_, h)]));
 }
 
-/// Of the angle opposite to half-edge h; beyond 1 in absolute value where the triangle inequality fails.
+/// Cosine of the angle opposite to half-edge h; beyond 1 in absolute value where the triangle inequality fails.
 double YamabeEnergy::cosine(Index h, const VectorXd& u) const
 {
     const double a = scaled_length(h, u);

@@ -1,4 +1,4 @@
-// Discrete Yamabe flow: the conformally equivalent metric with given curvature.
+// Discrete Yamabe flow: finds the conformally equivalent metric with given curvature.
 #pragma once
 
 #include "flow/convex_newton.h"
@@ -9,32 +9,32 @@
 namespace koebe {
 
 struct YamabeOptions {
-    /// Edges are flipped wherever u makes them fail to be Delaunay, with lengths by Ptolemy's relation.
+    /// Flips edges that are not Delaunay at u, with lengths by Ptolemy's relation.
     bool flips = true;
     NewtonOptions newton;
 };
 
 struct YamabeResult {
     VectorXd u;               ///< (V) logarithmic scale factors, of mean 0
-    Triangles triangles;      ///< (F, 3) as given, but for flips
+    Triangles triangles;      ///< (F, 3) the input's, except for flips
     EdgeLengths lengths;      ///< (F, 3) of the new metric
     std::vector<Index> twin;  ///< (3F)
     int flips = 0;
     std::vector<Index> collapsed;  ///< faces whose new lengths break the triangle inequality
     NewtonReport newton;
-    bool converged = false;  ///< Newton's method has, and no face has collapsed
+    bool converged = false;  ///< Newton's method converged and no face collapsed
 };
 
 /// The energy of the discrete conformal metrics l_ij exp((u_i + u_j) / 2): its gradient is the curvature less the
 /// target, its Hessian the cotan Laplacian of the scaled lengths (Luo 2004; Springborn, Schroeder, Pinkall 2008,
-/// section 4). With flips the triangulation is Delaunay in the scaled metric at every u, which removes the bounds of a
-/// fixed triangulation (Gu, Luo, Sun, Wu 2018; Gillespie, Springborn, Crane 2021); a flip takes the length of the new
-/// diagonal from Ptolemy's relation, which commutes with the scaling, also where the triangle inequality fails. Only
-/// inner edges flip, and none whose new edge would join a vertex to itself; the surface is not doubled along its
-/// boundary, so that faces on boundary edges may still collapse.
+/// section 4). With flips the triangulation is Delaunay in the scaled metric at every u, which removes the limits of a
+/// fixed triangulation (Gu, Luo, Sun, Wu 2018; Gillespie, Springborn, Crane 2021). A flip takes the length of the new
+/// diagonal from Ptolemy's relation, which commutes with the scaling, even where the triangle inequality fails. Only
+/// inner edges flip, and no new edge joins a vertex to itself. The surface is not doubled along its boundary, so faces
+/// on boundary edges may still collapse.
 class YamabeEnergy : public ConvexEnergy {
 public:
-    /// @param target (V) curvature wanted, radians, of sum 2 pi chi
+    /// @param target (V) wanted curvature, radians, sum 2 pi chi
     YamabeEnergy(const Triangles& triangles, const EdgeLengths& lengths, const VectorXd& target, bool flips);
 
     VectorXd gradient(const VectorXd& u) override;
@@ -59,11 +59,11 @@ private:
     int flips_ = 0;
 };
 
-/// Newton's method on that energy from u = 0. Without flips the energy, extended beyond the triangle inequality, may
-/// have its minimum where faces have collapsed: then no metric of the class on this triangulation has the curvature.
-/// @param triangles (F, 3) oriented, manifold @param lengths (F, 3) in any unit, which may break the triangle
-/// inequality
-/// @throws InputError the target's size or sum is wrong; Cancelled. No convergence is reported.
+/// Minimizes that energy by Newton's method from u = 0. Without flips the energy, extended beyond the triangle
+/// inequality, may have its minimum where faces have collapsed: then no metric of the class on this triangulation has
+/// the curvature.
+/// @param triangles (F, 3) oriented, manifold @param lengths (F, 3) in any unit, may break the triangle inequality
+/// @throws InputError the target's size or sum is wrong; Cancelled. Non-convergence is reported.
 YamabeResult yamabe_flow(const Triangles& triangles, const EdgeLengths& lengths, const VectorXd& target,
                          const YamabeOptions& options, ExecutionContext& context);
 

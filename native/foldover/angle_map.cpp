@@ -12,7 +12,7 @@ namespace koebe {
 namespace {
 
 constexpr double thin = 1e-10;             // twice the area over the squared longest edge, as in quality/distortion.cpp
-constexpr double lost_by_rounding = 3e-7;  // twice the area that a face can lose, over its longest edge, disk units
+constexpr double lost_by_rounding = 3e-7;  // twice the area a face can lose, over its longest edge, disk units
 
 /// exp(i angle) at the three corners of a triangle of the surface; zeros where it has no area.
 std::array<Complex, 3> corner_turns(const Vertices& vertices, const Triangles& triangles, Eigen::Index f)
@@ -57,7 +57,7 @@ AngleMap::AngleMap(const Vertices& vertices, const Triangles& triangles, const P
             longest = std::max(longest, std::abs(at(k + 1) - at(k)));
         }
         if (turns[0] != 0.0) counted_ += 3;
-        // What 32 bits cannot tell keeps an area, and no more.
+        // A face above the resolution of 32 bits keeps an area; others may not.
         if (longest >= 2.0 * uv_resolution)
             least_area_[f] = std::min(lost_by_rounding * longest, cross(at(1) - at(0), at(2) - at(0)));
     }

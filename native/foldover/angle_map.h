@@ -1,4 +1,4 @@
-// A map's angles against those of the surface, corner by corner, and what each vertex of it may do.
+// Compares a map's angles with the surface's, corner by corner, and knows how each vertex may move.
 #pragma once
 
 #include "circles/circle.h"
@@ -11,8 +11,8 @@
 
 namespace koebe {
 
-/// The error of an angle: arg w, w its image turned back by the angle on the surface. Where it is small, by the series
-/// of the arctangent, 1e-8 of it off at worst: several times as fast as the library's.
+/// The error of an angle: arg w, w the corner's image turned back by the angle on the surface. Small errors come from
+/// the series of the arctangent, off by 1e-8 of them at worst and several times as fast as the library's function.
 inline double angle_of(Complex w)
 {
     const double x = w.real(), y = w.imag();
@@ -21,7 +21,7 @@ inline double angle_of(Complex w)
     return t * (1.0 + s * (-1.0 / 3.0 + s * (1.0 / 5.0 + s * (-1.0 / 7.0 + s * (1.0 / 9.0 - s / 11.0)))));
 }
 
-inline Complex times_conjugate(Complex a, Complex b)  // a b*, without the library's care for infinities
+inline Complex times_conjugate(Complex a, Complex b)  // a b*, without the library's test for infinities
 {
     return {a.real() * b.real() + a.imag() * b.imag(), a.imag() * b.real() - a.real() * b.imag()};
 }
@@ -30,21 +30,21 @@ class AngleMap {
 public:
     enum class Mobility : char { held, sliding, free };
 
-    /// A corner of a face, seen from its vertex: where its own error stands, those of the next and the previous corner,
-    /// and their vertices.
+    /// A corner of a face, seen from its vertex: the places of its own error, of the next and the previous corner's,
+    /// and the vertices of these two corners.
     struct Corner {
         Index own, after, before;
         Index next, previous;
     };
 
-    /// What a sliding vertex keeps to: its circle, and its place between two vertices of the loop.
+    /// The circle of a sliding vertex, and its neighbours there.
     struct Slide {
         Circle circle;
-        Index next, previous;  // those on the circle
-        double sense;          // 1 where the loop runs counter-clockwise
+        Index next, previous;  // the next and previous vertex on the circle
+        double sense;          // 1 where the loop runs counter-clockwise, else -1
     };
 
-    /// Errors of a face's corners, the second and third in the order in which the first sees them.
+    /// Errors of a face's corners, in the order seen from the first one.
     struct FaceErrors {
         double own, after, before;
         double sum() const { return std::abs(own) + std::abs(after) + std::abs(before); }
@@ -57,10 +57,10 @@ public:
         return {corners_.data() + begin_[v], corners_.data() + begin_[v + 1]};
     }
     Index vertex_count() const { return static_cast<Index>(points.size()); }
-    /// Whether the face has an area on the surface, and so angles.
+    /// Whether the face has an area on the surface. Only then it has angles.
     bool counts(const Corner& corner) const { return turn_[corner.own] != 0.0; }
 
-    /// Of the face of a corner whose edges lead to the next vertex and to the previous one.
+    /// Errors of a corner's face whose edges lead to the next vertex and to the previous one.
     FaceErrors face_errors(const Corner& corner, Complex to_next, Complex to_previous) const
     {
         const double own = angle_of(times_conjugate(times_conjugate(to_previous, to_next), turn_[corner.own]));
@@ -69,15 +69,15 @@ public:
         return {own, after, -own - after};
     }
 
-    /// Twice the area below which a face may not fall: what rounding to 32 bits can take, or what it has.
+    /// Twice the least area allowed for a face: what rounding to 32 bits can take, or its present area.
     double least_area(const Corner& corner) const { return least_area_[corner.own / 3]; }
 
-    /// The place at a turn of a sliding vertex along its circle, length / radius.
+    /// The place of a sliding vertex after a way along its circle, length / radius.
     Complex slid(Index v, double length) const;
     const Slide& slide(Index v) const { return slides_[slide_of_[v]]; }
     void let_slide(Index v, const Slide& slide);
 
-    /// Takes the errors anew. @return the sum of their sizes
+    /// Computes all errors. @return the sum of their absolute values
     double measure();
     Index corner_count() const { return counted_; }
 
@@ -87,7 +87,7 @@ public:
 
 private:
     const Triangles& triangles_;
-    std::vector<Complex> turn_;  // (3F) of length 1, by the angle on the surface; 0 where there is none
+    std::vector<Complex> turn_;  // (3F) of length 1, by the angle on the surface; 0 without an angle
     std::vector<double> least_area_;
     std::vector<Index> begin_;
     std::vector<Corner> corners_;

@@ -14,9 +14,9 @@ namespace {
 
 using Mobility = AngleMap::Mobility;
 
-constexpr double shift = 1e-9;  // of the Hessian's diagonal, over itself
+constexpr double shift = 1e-9;  // share added to the Hessian's diagonal
 
-/// d arg w = Im(c dz) in x and y.
+/// d arg w = Im(c dz) by x and y.
 Eigen::Vector2d slope(Complex c) { return {c.imag(), c.real()}; }
 
 }  // namespace
@@ -73,7 +73,7 @@ private:
 
     Index dimension(Index v) const { return map_.mobility[v] == Mobility::free ? 2 : 1; }
 
-    /// The directions in which a vertex moves, as columns; the second is 0 where it slides.
+    /// The directions in which a vertex moves, as columns; for a sliding vertex the second is 0.
     Eigen::Matrix2d directions(Index v) const
     {
         if (map_.mobility[v] == Mobility::free) return Eigen::Matrix2d::Identity();
@@ -93,7 +93,7 @@ private:
         hessian_.finalize();
     }
 
-    /// The columns of a vertex, its own rows and those of later vertices.
+    /// Adds the columns of a vertex: its own rows, and the rows of later vertices.
     void add_columns(Index v)
     {
         Eigen::Matrix2d own = Eigen::Matrix2d::Zero();
@@ -112,7 +112,7 @@ private:
             for (std::size_t k = 0; k < blocks_.size(); ++k) {
                 const Index w = blocks_[k].vertex;
                 Eigen::Vector2d rows = blocks_[k].values * here.col(j);
-                // Two faces share an edge: the other's part stands next.
+                // Two faces share an edge: the other face's part is next.
                 if (k + 1 < blocks_.size() && blocks_[k + 1].vertex == w) rows += blocks_[++k].values * here.col(j);
                 rows = directions(w).transpose() * rows;
                 for (Index i = 0; i < dimension(w); ++i) hessian_.insertBack(first_unknown_[w] + i, column) = rows[i];
@@ -148,7 +148,7 @@ private:
     }
 
     const AngleMap& map_;
-    std::vector<Index> first_unknown_;  // per vertex, -1 if held
+    std::vector<Index> first_unknown_;  // per vertex, -1 if it is held
     Index unknowns_ = 0;
     std::vector<double> weight_;
     std::vector<Block> blocks_;

@@ -1,4 +1,4 @@
-// The angle error lowered for all vertices at once.
+// Lowers the angle error for all vertices at once.
 #pragma once
 
 #include "foldover/angle_map.h"
@@ -7,19 +7,19 @@
 
 namespace koebe {
 
-/// Newton steps on the same map: the linear systems are analyzed once.
+/// Takes Newton steps on one map. The linear systems are analyzed once.
 class AngleNewton {
 public:
     explicit AngleNewton(const AngleMap& map);
     ~AngleNewton();
 
-    /// The step to where sum_k w_k e_k^2 over all corners is least to first order, e_k the error of an angle and w_k =
-    /// (e_k^2 + least^2)^-1/2: one linear system of two unknowns a free vertex, one a sliding vertex. The map's errors
-    /// have to be up to date, and who moves the same each time.
+    /// Computes the step that minimizes sum_k w_k e_k^2 over all corners to first order, e_k the error of an angle and
+    /// w_k = (e_k^2 + least^2)^-1/2. The linear system has two unknowns for a free vertex, one for a sliding vertex.
+    /// The map's errors must be up to date; the mobility of vertices must not change between calls.
     /// @param least radians
     /// @return whether the system could be solved
     bool solve(double least);
-    /// Where the vertices are after a share of the step: (V).
+    /// (V) the places of the vertices after a share of the step.
     std::vector<Complex> places(double share) const;
 
 private:

@@ -16,15 +16,15 @@ namespace {
 
 using Mobility = AngleMap::Mobility;
 
-constexpr int most_passes = 6;             // of Newton
-constexpr double large = 0.1;              // relative fall of the angle error that another is made for
-constexpr double least_step_share = 0.25;  // of such a step
-constexpr int first_sweeps = 2;            // before the Newton step, which weighs by what they leave
-constexpr int most_sweeps = 8;             // after it
-constexpr double worthwhile = 1e-3;        // relative fall of the angle error that another sweep is made for
-constexpr double least_error = 0.3;        // at which a weight is taken, over the mean
-constexpr double noticeable = 1e-6;        // relative fall that a result is kept for: above what angle_of is off
-constexpr int most_restorations = 16;      // of vertices around faces that became too small
+constexpr int most_passes = 6;             // Newton steps
+constexpr double large = 0.1;              // relative fall of the angle error that is worth another Newton step
+constexpr double least_step_share = 0.25;  // least share of a Newton step
+constexpr int first_sweeps = 2;            // before the Newton step; its weights come from the errors then
+constexpr int most_sweeps = 8;             // after the Newton step
+constexpr double worthwhile = 1e-3;        // relative fall of the angle error that is worth another sweep
+constexpr double least_error = 0.3;        // least error in a weight, over the mean error
+constexpr double noticeable = 1e-6;        // relative fall for a result to be kept: above the error of angle_of
+constexpr int most_restorations = 16;      // rounds that put vertices around bad faces back
 
 class AnglePolish {
 public:
@@ -63,7 +63,7 @@ private:
         return cross(places[corner.next] - places[v], places[corner.previous] - places[v]);
     }
 
-    /// The vertices of a loop that are on its circle, if they run round it.
+    /// Lets the vertices on a loop's circle slide, if they run once round it.
     void let_slide(const VertexLoop& loop, const Circle& circle, double sense)
     {
         std::vector<Index> on;
@@ -85,7 +85,7 @@ private:
                slide.sense * cross(arm(slide.previous), arm(v)) > 0.0;
     }
 
-    /// What would turn otherwise: one vertex of the outer loop, three if there is no other and none inside is held.
+    /// Holds one outer vertex; or three if there is no other loop and no inner vertex is held, to fix the position.
     void pin(const std::vector<VertexLoop>& loops, const std::vector<Index>& held)
     {
         const VertexLoop& outer = loops[0];
@@ -99,7 +99,7 @@ private:
             map_.mobility[outer[(first + i * outer.size() / 3) % outer.size()]] = Mobility::held;
     }
 
-    /// Up to so many sweeps, as long as they are worthwhile. @return the error
+    /// Sweeps up to `most` times, as long as it is worthwhile. @return the error
     double sweeps(double error, int most, ExecutionContext& context, double begin)
     {
         for (int sweep = 0; sweep < most; ++sweep) {
@@ -111,7 +111,7 @@ private:
         return error;
     }
 
-    /// Steps of all vertices as long as they lower the error by much. @return the error
+    /// Takes Newton steps as long as the error falls by much. @return the error
     double newton(double error, ExecutionContext& context)
     {
         AngleNewton newton(map_);
@@ -126,7 +126,7 @@ private:
         return error;
     }
 
-    /// Moves the vertices there if that lowers the error. @return the error
+    /// Moves the vertices to these places if that lowers the error. @return the error
     double with_step(std::vector<Complex> places, double error)
     {
         if (!restore(places)) return error;
@@ -137,8 +137,8 @@ private:
         return error;
     }
 
-    /// Puts the vertices of faces that got too small, and those out of their order on a loop, back where they are.
-    /// @return whether none is left
+    /// Puts vertices back that are on faces that got too small, or out of order on a loop.
+    /// @return whether no such vertex is left
     bool restore(std::vector<Complex>& places) const
     {
         std::vector<Index> moved(map_.vertex_count()), wrong;
@@ -147,7 +147,7 @@ private:
             wrong.clear();
             for (const Index v : moved) collect_wrong(v, places, wrong);
             if (wrong.empty()) return true;
-            moved.clear();  // those whose faces change now
+            moved.clear();  // vertices whose faces change in this round
             for (const Index v : wrong) {
                 if (places[v] == map_.points[v]) continue;
                 places[v] = map_.points[v];
@@ -168,9 +168,8 @@ private:
         }
     }
 
-    /// Writes the map, but for vertices of faces that are flipped as stored and were not, and of loops that cross
-    /// themselves or each other: those stay.
-    /// @return whether all others are right
+    /// Writes the map. Vertices of newly flipped faces (as stored), and of loops that cross, keep their old places.
+    /// @return whether the written map is right
     bool write()
     {
         const PlanarPoints before = uv_;

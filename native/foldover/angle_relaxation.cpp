@@ -10,7 +10,7 @@ namespace {
 using Mobility = AngleMap::Mobility;
 
 constexpr double over_relaxation = 1.6;
-constexpr int trials = 3;          // steps, each half the last
+constexpr int trials = 3;          // steps tried, each half as long as the one before
 constexpr double regular = 1e-14;  // determinant of a Hessian over the product of its diagonal
 
 class Relaxation {
@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    /// Sums gradient and Hessian of the star, and what its errors are.
+    /// Sums the star's gradient, Hessian and errors.
     void sum_star(Index v)
     {
         before_ = gx_ = gy_ = hxx_ = hxy_ = hyy_ = 0.0;
@@ -43,7 +43,7 @@ private:
             if (!map_.counts(corner)) continue;
             const Complex a = map_.points[corner.next] - z, b = map_.points[corner.previous] - z;
             const double an = 1.0 / std::norm(a), bn = 1.0 / std::norm(b);
-            // d arg = Im(c dz) = x dx + y dy: of the angle there, c = 1/a - 1/b, of the next, -1/a, the previous, 1/b.
+            // d arg = Im(c dz) = x dx + y dy, c = 1/a - 1/b for this angle, -1/a for the next, 1/b for the previous.
             const double ax = -a.imag() * an, ay = a.real() * an, bx = -b.imag() * bn, by = b.real() * bn;
             add(map_.error[corner.own], ax - bx, ay - by);
             add(map_.error[corner.after], -ax, -ay);
@@ -71,7 +71,7 @@ private:
         return Complex(hxy_ * gy_ - hyy_ * gx_, hxy_ * gx_ - hxx_ * gy_) / determinant;
     }
 
-    /// Along the circle, counter-clockwise.
+    /// The step along the circle, counter-clockwise.
     Complex sliding_step(Index v)
     {
         sum_star(v);
@@ -81,7 +81,7 @@ private:
                (t.real() * t.real() * hxx_ + 2.0 * t.real() * t.imag() * hxy_ + t.imag() * t.imag() * hyy_);
     }
 
-    /// At most half the way to the next vertex of the loop.
+    /// The place after a slide of at most half the way to the next vertex of the loop.
     Complex slid(Index v, double length) const
     {
         const AngleMap::Slide& slide = map_.slide(v);
@@ -92,7 +92,7 @@ private:
         return map_.slid(v, std::copysign(turn, length));
     }
 
-    /// Infinite where a face gets too small.
+    /// The sum of errors with the vertex at a place; infinite where a face gets too small.
     double error_at(Index v, Complex place)
     {
         trial_.clear();

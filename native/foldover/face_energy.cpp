@@ -23,7 +23,7 @@ Symmetric Symmetric::positive_part() const
 }
 
 /// In the real and imaginary parts of `like` and `unlike` the Hessian has the eigenvalues 4 / chi +- twice the slope by
-/// the determinant; but for the plane in which their sizes p and q grow, where it is a 2x2 matrix.
+/// the determinant, except in the plane in which their sizes p and q grow: there it is a 2x2 matrix.
 FaceDerivatives FaceEnergy::derivatives(const FaceMap& map, double floor, double weight, const WantedShape& shape) const
 {
     const double p = std::sqrt(std::norm(map.like)), q = std::sqrt(std::norm(map.unlike)), d = map.determinant();
@@ -34,7 +34,7 @@ FaceDerivatives FaceEnergy::derivatives(const FaceMap& map, double floor, double
     const double n = map.squared_norm() + area_weight * (d * d + 1.0), inverse = 1.0 / chi_now;
     const double slope = -chi_slope * inverse * inverse;
     const double bend = 2.0 * chi_slope * chi_slope * inverse * inverse * inverse - chi_bend * inverse * inverse;
-    // By p and by q: of the determinant, of n, and of the term.
+    // Derivatives by p and by q of the determinant, of n, and of the term.
     const double d0 = 2.0 * p, d1 = -2.0 * q;
     const double n0 = 4.0 * p + 2.0 * area_weight * d * d0, n1 = 4.0 * q + 2.0 * area_weight * d * d1;
     const double g0 = inverse * n0 + n * slope * d0, g1 = inverse * n1 + n * slope * d1;

@@ -1,4 +1,4 @@
-// What one face counts in a foldover-free map, and how that changes with its corners.
+// The energy of one face in a foldover-free map, and its derivatives by the face's corners.
 #pragma once
 
 #include "core/types.h"
@@ -15,7 +15,7 @@ namespace koebe {
 
 namespace detail {
 
-inline Complex product(Complex a, Complex b)  // without the library's care for infinities
+inline Complex product(Complex a, Complex b)  // without the library's test for infinities
 {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -29,12 +29,12 @@ struct FaceMap {
     double squared_norm() const { return 2.0 * (std::norm(like) + std::norm(unlike)); }
 };
 
-/// By the corners of the image: like is the sum of these numbers times the corners, unlike that of their conjugates.
+/// A face's wanted shape: like is the sum of its numbers times the image's corners, unlike that of their conjugates.
 struct WantedShape {
     /// @param edges columns: 0-1 and 0-2
     explicit WantedShape(const Eigen::Matrix2d& edges);
 
-    /// @param second, third corners less the first, so that nothing cancels
+    /// @param second, third corners of the image less its first, so that no digits cancel
     FaceMap map_to(Complex second, Complex third) const
     {
         return {detail::product(number[1], second) + detail::product(number[2], third),
@@ -48,13 +48,13 @@ struct WantedShape {
 struct Symmetric {
     double m00 = 0.0, m01 = 0.0, m11 = 0.0;
 
-    /// What its positive eigenvalues make.
+    /// The matrix with its negative eigenvalues replaced by 0.
     Symmetric positive_part() const;
 };
 
-/// Derivatives of a face's term by its corners, the Hessian made positive semidefinite. In the numbers c of the shape,
-/// it is `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as turns and scalings, and `along` in u and w: where the sizes
-/// of the map's two parts grow.
+/// Derivatives of a face's term by its corners, with the Hessian made positive semidefinite. With the shape's numbers
+/// c, the Hessian is `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as turns and scalings, plus `along` in u and w: the
+/// directions in which the sizes of the map's two parts grow.
 struct FaceDerivatives {
     double term;
     std::array<Complex, 3> gradient;
@@ -62,7 +62,7 @@ struct FaceDerivatives {
     Symmetric along;
     std::array<Complex, 3> u, w;
 
-    /// The Hessian's rows of a corner, columns of another.
+    /// The Hessian's block: rows of one corner, columns of another.
     Eigen::Matrix2d block(int row, int column, const WantedShape& shape) const
     {
         const Complex a = shape.number[row], b = shape.number[column];
@@ -79,7 +79,7 @@ struct FaceDerivatives {
     }
 };
 
-/// (|J|^2 + theta (D^2 + 1)) / chi(D - floor), D = det J, or a power of it (foldover_free.h).
+/// (|J|^2 + theta (D^2 + 1)) / chi(D - floor), D = det J, or a power of that (foldover_free.h).
 struct FaceEnergy {
     double area_weight, power, slack;
     double epsilon = 1.0;

@@ -17,9 +17,9 @@ using Mobility = FoldoverProblem::Mobility;
 
 constexpr double least_epsilon = 1e-6;  // Garanzha et al. 2021, section 3.2
 constexpr double armijo = 1e-4;
-constexpr double rounded = 1e-14;  // of a sum whose least value is known: what rounding may add to it
+constexpr double rounded = 1e-14;  // relative rounding error of a sum whose least value is known
 constexpr int halvings = 24;
-constexpr int patience = 30;  // iterations without a better worst determinant, while folded
+constexpr int patience = 30;  // iterations without a better worst determinant, while the map is folded
 
 class FoldoverMinimizer {
 public:
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// The sum that is minimized, and the least determinant above its floor.
+    /// The minimized sum, and the least determinant above its floor.
     struct Worth {
         double energy = 0.0, worst = std::numeric_limits<double>::infinity();
     };
@@ -99,7 +99,7 @@ private:
 
     bool to_centre(Eigen::Index v) const { return !problem_.pull_inside.empty() && problem_.pull_inside[v]; }
 
-    /// The outward direction of a pulled vertex and its distance from the circle, or the centre, over the radius.
+    /// The outward direction of a pulled vertex, and its distance from the circle or the centre over the radius.
     std::pair<Eigen::Vector2d, double> offset(const PlanarPoints& points, Eigen::Index v) const
     {
         const Circle& circle = problem_.circles[v];
@@ -111,7 +111,7 @@ private:
         return {arm / distance, distance / circle.radius - target};
     }
 
-    /// Fills the system. @return the sum that is minimized
+    /// Fills the system. @return the minimized sum
     double take_derivatives()
     {
         system_.clear();
@@ -135,8 +135,8 @@ private:
         return energy + pulls(problem_.points);
     }
 
-    /// A damped Newton step for the present epsilon; false if no step decreases the energy.
-    /// @param now what the points are worth, taken anew after the step
+    /// Takes a damped Newton step for the present epsilon. Returns false if no step decreases the energy.
+    /// @param now the worth of the points, updated after the step
     bool newton_step(double before, Worth& now)
     {
         const auto [step, slope] = system_.descent();
@@ -165,7 +165,7 @@ private:
     FaceEnergy energy_;
     std::vector<WantedShape> shapes_;  // per face
     NewtonSystem system_;
-    bool hindered_ = false;  // by what refuses points, in the last step
+    bool hindered_ = false;  // whether points were refused in the last step
 };
 
 }  // namespace

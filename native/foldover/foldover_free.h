@@ -10,32 +10,31 @@ namespace koebe {
 
 struct FoldoverOptions {
     int max_iterations = 60;
-    double area_weight = 1.0 / 128.0;  ///< of det + 1/det against the conformal term, dimensionless (Garanzha's theta)
-    double settled = 1e-4;             ///< relative decrease at which a foldover-free map is good enough
-    double least = 0.0;                ///< what the sum cannot fall below: decreases are relative to what is above it
-    double stalled = 1e-4;             ///< and one at which a folded map is given up
-    bool strict = false;               ///< no step over a floor: from a foldover-free map to foldover-free ones only
+    double area_weight = 1.0 / 128.0;  ///< weight of det + 1/det against the conformal term (Garanzha's theta)
+    double settled = 1e-4;             ///< relative decrease at which a foldover-free map is finished
+    double least = 0.0;                ///< lower bound of the sum: relative decreases are of the part above it
+    double stalled = 1e-4;             ///< relative decrease at which a folded map is given up
+    bool strict = false;               ///< no step crosses a floor: a foldover-free map stays so throughout
     double power = 1.0;                ///< s >= 1: see below
     double slack = 0.0;                ///< delta: see below
-    /// Refuses points, asked last; empty: none. What is refused is the last step, which is shortened.
+    /// Refuses points, as the last test of a step; empty: no test. A step to refused points is shortened.
     std::function<bool(const PlanarPoints&)> refuses = {};
 };
 
 struct FoldoverResult {
     bool foldover_free = false;  ///< every determinant is above its floor
     int iterations = 0;
-    bool hindered = false;  ///< it ended as points were refused
+    bool hindered = false;  ///< it ended because points were refused
 };
 
-/// Minimizes sum_f (tr(J'J) / chi(det J - floor) + theta (det^2 + 1) / chi) over the mobile vertices, J the linear map
-/// from the reference to the image, chi(D, eps) = (D + sqrt(eps^2 + D^2)) / 2, eps shrinking as the worst
-/// determinant rises, and pull ((|z - c| - r) / r)^2, to centres pull (|z - c| / r)^2, over the pulled vertices
+/// Minimizes sum_f (tr(J'J) / chi(det J - floor) + theta (det^2 + 1) / chi) over the mobile vertices. J is the linear
+/// map from the reference to the image, chi(D, eps) = (D + sqrt(eps^2 + D^2)) / 2, and eps shrinks as the worst
+/// determinant rises. Pulled vertices add pull ((|z - c| - r) / r)^2, or pull (|z - c| / r)^2 if pulled to centres.
 /// (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50 lines of code", sections
-/// 2 and 3), by Newton's method on Hessians made positive semidefinite face by face. With a power s > 1 each term t
-/// becomes (t / 2 - 1 + delta)^s: with theta = 0 that is (2 |mu|^2 / (1 - |mu|^2) + delta)^s, whose minimum feels
-/// single vertices that are held however fine the mesh, and the greatest |mu| the more the larger s; delta keeps its
-/// Hessian regular.
-/// @return problem.points holds the result whether it is free of foldovers or not
+/// 2 and 3.) Uses Newton's method on Hessians made positive semidefinite face by face. With a power s > 1 each term t
+/// becomes (t / 2 - 1 + delta)^s. With theta = 0 that is (2 |mu|^2 / (1 - |mu|^2) + delta)^s. Its minimum feels single
+/// held vertices on any fine mesh, and a larger s lowers the greatest |mu| more; delta keeps the Hessian regular.
+/// @return problem.points holds the result, with or without foldovers
 FoldoverResult minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
                                       const FoldoverOptions& options = {});
 

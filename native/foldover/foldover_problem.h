@@ -1,4 +1,4 @@
-// A planar triangle mesh with the shape each face is to take.
+// A planar triangle mesh with a wanted shape for each face.
 #pragma once
 
 #include "circles/circle.h"
@@ -11,11 +11,11 @@
 
 namespace koebe {
 
-/// What moves.
+/// The places that a minimization changes.
 struct FoldoverPlaces {
     PlanarPoints points;           ///< (V, 2)
-    std::vector<Track> tracks;     ///< that vertices ride on
-    std::vector<Complex> periods;  ///< of which only the length changes of the first one, not its direction
+    std::vector<Track> tracks;     ///< tracks that vertices ride on
+    std::vector<Complex> periods;  ///< the first one changes only its length, not its direction
 };
 
 struct FoldoverProblem : FoldoverPlaces {
@@ -24,14 +24,14 @@ struct FoldoverProblem : FoldoverPlaces {
 
     Triangles triangles;                     ///< (F, 3)
     std::vector<Eigen::Matrix2d> reference;  ///< (F) columns: edges 0-1 and 0-2 of the wanted shape, of positive area
-    VectorXd floor;                          ///< (F) the determinant to stay above, in the reference's areas
+    VectorXd floor;                          ///< (F) lower bound of the determinant, in the reference's areas
     VectorXd weight;                         ///< (F) of each face in the sum; empty: 1
     std::vector<Mobility> mobility;          ///< (V)
     std::vector<Circle> circles;             ///< (V) of sliding and of pulled vertices
-    VectorXd pull;                           ///< (V) of free vertices to their circles, dimensionless; empty: none
-    std::vector<char> pull_inside;           ///< (V) 1: to the circle's centre instead; empty: nowhere
-    std::vector<int> track_of;               ///< (V) of riding vertices; empty: none rides
-    CornerLifts lift;                        ///< (F) of the periods; empty without periods
+    VectorXd pull;                           ///< (V) of free vertices to their circles, dimensionless; empty: 0
+    std::vector<char> pull_inside;           ///< (V) 1: pulled to the circle's centre instead; empty: none of them
+    std::vector<int> track_of;               ///< (V) track of riding vertices; empty: no vertex rides
+    CornerLifts lift;                        ///< (F) numbers of periods; empty without periods
 };
 
 }  // namespace koebe

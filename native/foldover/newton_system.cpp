@@ -8,11 +8,11 @@
 namespace koebe {
 namespace {
 
-constexpr double shift = 1e-9;  // of the Hessian's diagonal, over itself
+constexpr double shift = 1e-9;  // share added to the Hessian's diagonal
 
 Eigen::Vector2d vector(Complex z) { return {z.real(), z.imag()}; }
 
-/// Turned clockwise.
+/// The vector turned clockwise.
 Eigen::Vector2d normal_of(const Eigen::Vector2d& along) { return {along[1], -along[0]}; }
 
 }  // namespace
@@ -41,7 +41,7 @@ Index NewtonSystem::unknowns_of(Index v) const
     return problem_.mobility[v] == Mobility::free ? 2 : problem_.mobility[v] == Mobility::held ? 0 : 1;
 }
 
-/// Whether unknowns that many faces share move its corners.
+/// Whether unknowns that many faces share move the face's corners.
 bool NewtonSystem::is_shared(Eigen::Index f) const
 {
     if (!problem_.periods.empty() && problem_.lift[f] != CornerLifts::value_type{}) return true;
@@ -87,11 +87,11 @@ std::vector<NewtonSystem::Column> NewtonSystem::columns(Eigen::Index f) const
     return result;
 }
 
-/// The lower triangle of the Hessian, its columns and rows of one vertex side by side; for each two corners of a
-/// face, where the rows of the later one begin in the first column of the other.
+/// Sets the lower triangle of the Hessian, with the columns and rows of a vertex side by side. Notes for each two
+/// corners of a face where the rows of the later one begin in the first column of the other.
 void NewtonSystem::set_pattern()
 {
-    std::vector<std::pair<Index, Index>> pairs;  // (column's vertex or track, row's), by first unknowns
+    std::vector<std::pair<Index, Index>> pairs;  // (vertex or track of the column, of the row), by first unknowns
     std::vector<Index> width_of(unknowns_, 0);
     for (Eigen::Index v = 0; v < problem_.points.rows(); ++v)
         if (first_unknown_[v] >= 0) width_of[first_unknown_[v]] = unknowns_of(v);
@@ -107,7 +107,7 @@ void NewtonSystem::set_pattern()
     }
     std::ranges::sort(pairs);
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    std::vector<Index> begin(pairs.size());  // of each pair in the first column of its own
+    std::vector<Index> begin(pairs.size());  // of each pair in its first column
     std::vector<Index> rows, outer{0};
     for (std::size_t i = 0; i < pairs.size();) {
         const Index column = pairs[i].first, width = width_of[column];
@@ -134,7 +134,7 @@ void NewtonSystem::set_pattern()
     }
 }
 
-/// The tracks and periods of a face with its vertices, and with each other.
+/// Pairs the tracks and periods of a face with its vertices and with each other.
 void NewtonSystem::add_shared_pairs(Eigen::Index f, std::vector<std::pair<Index, Index>>& pairs) const
 {
     std::vector<Index> shared;
@@ -196,7 +196,7 @@ void NewtonSystem::add(Index column_vertex, Index row_vertex, Index place, const
     }
 }
 
-/// A face that is_shared, whose entries are searched for.
+/// Adds a face that is_shared, with a search for its entries.
 void NewtonSystem::add_by_columns(Eigen::Index f, const FaceDerivatives& face, const WantedShape& shape)
 {
     const std::vector<Column> all = columns(f);
@@ -264,7 +264,7 @@ std::pair<VectorXd, double> NewtonSystem::descent()
 {
     for (Index i = 0; i < unknowns_; ++i) {
         double& diagonal = hessian_.valuePtr()[hessian_.outerIndexPtr()[i]];
-        diagonal = diagonal > 0.0 ? (1.0 + shift) * diagonal : 1.0;  // a track that nothing rides on
+        diagonal = diagonal > 0.0 ? (1.0 + shift) * diagonal : 1.0;  // a track without riders
     }
     VectorXd step = newton_direction();
     double slope = gradient_.dot(step);
@@ -275,7 +275,7 @@ std::pair<VectorXd, double> NewtonSystem::descent()
     return {std::move(step), slope};
 }
 
-/// -H^-1 gradient, or 0 if H is singular.
+/// -H^-1 gradient; 0 if H is singular.
 VectorXd NewtonSystem::newton_direction()
 {
     try {

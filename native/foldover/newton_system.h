@@ -14,11 +14,11 @@
 
 namespace koebe {
 
-/// A free vertex has two unknowns, a sliding or riding one the way along its circle or track. Tracks and periods are
-/// unknowns that many faces share; theirs come last. The Hessian has one pattern.
+/// A free vertex has two unknowns, a sliding or riding vertex has one: the way along its circle or track. The unknowns
+/// of tracks and periods come last, as many faces share them. The pattern of the Hessian does not change.
 class NewtonSystem {
 public:
-    /// @param problem whose places may change while the system is in use, and nothing else of it
+    /// @param problem must not change while the system is in use, except for its places
     explicit NewtonSystem(const FoldoverProblem& problem);
 
     Index unknowns() const { return unknowns_; }
@@ -27,20 +27,20 @@ public:
     void add_face(Eigen::Index f, const FaceDerivatives& face, const WantedShape& shape);
     /// @param gradient, hessian by the place of a free vertex
     void add_vertex(Index vertex, const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian);
-    /// After all faces: the bend of circles that are ridden on, where the gradient pulls outward.
+    /// Call after all faces: adds the curvature of circles that vertices ride on, where the gradient pulls outward.
     void add_bends();
 
-    /// -H^-1 gradient, the Hessian's diagonal a little larger; where that leads not down, less the gradient over the
-    /// diagonal. @return the slope, not below 0 if neither leads down
+    /// -H^-1 gradient, with the Hessian's diagonal a little larger. Where that does not lead down: minus the gradient
+    /// over the diagonal. @return the step and its slope, which is not below 0 if neither leads down
     std::pair<VectorXd, double> descent();
 
-    /// Where a share of a step leads.
+    /// The places after a share of a step.
     FoldoverPlaces moved(const VectorXd& step, double share) const;
 
 private:
     using Mobility = FoldoverProblem::Mobility;
 
-    /// An unknown, and where it moves a corner of a face.
+    /// An unknown, and the direction in which it moves a corner of a face.
     struct Column {
         Index unknown;
         int corner;
@@ -61,12 +61,12 @@ private:
     VectorXd newton_direction();
 
     const FoldoverProblem& problem_;
-    std::vector<Index> first_unknown_;  // per vertex, -1 if held
+    std::vector<Index> first_unknown_;  // per vertex, -1 if it is held
     std::vector<Index> first_of_track_, first_of_period_;
     Index unknowns_ = 0;
-    std::vector<std::array<Index, 3>> places_;  // per face and corner: see set_pattern
+    std::vector<std::array<Index, 3>> places_;  // per face and corner: set by set_pattern
     VectorXd gradient_;
-    std::vector<double> outward_force_;  // (V) on riding vertices: less the gradient, along the radius
+    std::vector<double> outward_force_;  // (V) of riding vertices: minus the gradient, along the radius
     SparseMatrix hessian_;
     std::optional<SparseCholesky> solver_;
 };

@@ -1,4 +1,4 @@
-// A part of a map as a foldover-free problem.
+// Poses a part of a map as a foldover-free problem.
 #pragma once
 
 #include "foldover/foldover_free.h"
@@ -12,9 +12,9 @@ namespace koebe {
 
 struct PatchProblem {
     FoldoverProblem problem;
-    std::vector<Index> vertices;  ///< of the surface, rising: the first rows of problem.points
+    std::vector<Index> vertices;  ///< of the surface, ascending: the first rows of problem.points
 
-    /// -1 for a vertex outside the patch.
+    /// Row of a vertex in problem.points; -1 outside the patch.
     Index row(Index vertex) const
     {
         const auto found = std::lower_bound(vertices.begin(), vertices.end(), vertex);
@@ -23,10 +23,10 @@ struct PatchProblem {
     bool moves(std::size_t row) const { return problem.mobility[row] != FoldoverProblem::Mobility::held; }
 };
 
-/// Some faces of the surface with the shapes they should have. Vertices on the edge of the patch are held, those on
-/// circles slide. Every determinant must stay above what a face can lose by rounding to 32 bits; a face that is right
-/// as stored needs at most half of what it has, or thin faces elsewhere would keep the minimizer busy.
-/// @param faces of the surface, rising
+/// Takes some faces of the surface with wanted shapes. Vertices on the edge of the patch are held, vertices on circles
+/// slide. Every determinant must stay above what a face can lose by rounding to 32 bits. A face that is right as stored
+/// needs at most half of its present determinant; otherwise thin faces elsewhere would keep the minimizer busy.
+/// @param faces of the surface, ascending
 PatchProblem patch_problem(const TangledMap& map, const std::vector<Index>& faces, PatchShape shape,
                            PatchBoundary boundary);
 

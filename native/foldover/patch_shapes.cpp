@@ -26,7 +26,7 @@ Eigen::Matrix2d shaped(double l01, double l12, double l20, double area)
     return edges * std::sqrt(2.0 * area / edges.determinant());
 }
 
-/// The corners of some faces, (n, 3), their vertices numbered from 0 as they come.
+/// The corners of some faces, (n, 3), with vertices numbered from 0 in the order they appear.
 Triangles numbered_corners(const Triangles& triangles, const std::vector<Index>& faces)
 {
     std::unordered_map<Index, Index> number_of;

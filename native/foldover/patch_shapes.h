@@ -1,4 +1,4 @@
-// What shape and size the faces of a tangled neighbourhood should have.
+// The wanted shapes and sizes of faces in a tangled neighbourhood.
 #pragma once
 
 #include "core/types.h"
@@ -9,19 +9,19 @@
 
 namespace koebe {
 
-/// What the faces of a patch are drawn towards: the surface's as large as the map has them around, equilateral ones, or
-/// the surface's as they are.
+/// Shapes to draw the faces of a patch towards: the surface's in the map's local size, equilateral ones, or the
+/// surface's in true size.
 enum class PatchShape { surface, equilateral, true_size };
 
 struct PatchShapes {
     std::vector<Eigen::Matrix2d> references;  ///< columns: edges 0-1 and 0-2 of each face, counter-clockwise
-    VectorXd areas;                           ///< of each, in the unit of the plane
+    VectorXd areas;                           ///< of each face, in the unit of the plane
 };
 
-/// Areas are the surface's by the local conformal factor, which is taken from edges, as the areas of the map may be
-/// folded, but for true size; for equilateral shapes, their mean around each face. A face is at least 1e-2 of its
-/// longest edge high.
-/// @param uv (V, 2) the map as it is @param faces the faces to take
+/// Areas are the surface's areas times the local conformal factor, except for true size. The factor comes from edges,
+/// as areas of the map may be folded. For equilateral shapes the area is the mean around each face. A face is at least
+/// 1e-2 of its longest edge high.
+/// @param uv (V, 2) the present map @param faces the faces to take
 PatchShapes patch_shapes(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
                          const std::vector<Index>& faces, PatchShape shape);
 

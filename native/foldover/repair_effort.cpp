@@ -7,10 +7,10 @@
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index step_overhead = 30;  // faces: what a Newton step costs besides
+constexpr Eigen::Index step_overhead = 30;  // fixed cost of a Newton step, in faces
 constexpr std::size_t fewest_steps = 10;
-constexpr std::size_t steps_of_all = 30;   // of the whole surface
-constexpr std::size_t small_steps = 2000;  // of a small one, besides
+constexpr std::size_t steps_of_all = 30;   // steps of the whole surface
+constexpr std::size_t small_steps = 2000;  // further steps for a small surface
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What a loop stays on while it moves: a circle, or a straight line.
+// The track of a loop that moves: a circle, or a straight line.
 #pragma once
 
 #include "circles/circle.h"
@@ -8,15 +8,15 @@
 
 namespace koebe {
 
-/// An unknown itself, by its centre and radius, or by its distance along its normal.
+/// A track is itself unknown: a circle by its centre and radius, a line by its distance along its normal.
 struct Track {
     bool straight = false;
     Circle circle;                       ///< unless it is straight
-    Complex point, direction{1.0, 0.0};  ///< a point of a straight one, and where it leads, of length 1
+    Complex point, direction{1.0, 0.0};  ///< a point of the line, and its unit direction
 
     int unknowns() const { return straight ? 1 : 3; }
 
-    /// Where a point beside the track comes to lie on it.
+    /// The point of the track nearest to a place beside it.
     Complex nearest(Complex place) const
     {
         if (straight) return point + dot(place - point, direction) * direction;
@@ -24,7 +24,7 @@ struct Track {
         return circle.center + circle.radius / std::abs(arm) * arm;
     }
 
-    /// Of length 1, along the track at a place on it; the normal is this turned clockwise.
+    /// Unit vector along the track at a place on it. The normal is this vector turned clockwise.
     Complex along(Complex place) const
     {
         if (straight) return direction;
@@ -32,7 +32,7 @@ struct Track {
         return Complex(-arm.imag(), arm.real()) / distance(arm, 0.0);
     }
 
-    /// @param step by which the unknowns change
+    /// @param step the change of the unknowns
     Track moved(const double* step, double share) const
     {
         Track track = *this;
@@ -45,7 +45,7 @@ struct Track {
         return track;
     }
 
-    /// Where a place on the track comes when the track becomes another and it goes some way along.
+    /// The new place of a point that goes some way along the track while the track becomes another.
     Complex carried(Complex place, double way, const Track& after) const
     {
         if (straight) return after.point + (dot(place - point, direction) + way) * after.direction;

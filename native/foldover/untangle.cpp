@@ -11,8 +11,8 @@ namespace {
 
 constexpr int ring_counts[] = {2, 4, 8, 16};
 constexpr PatchShape shapes[] = {PatchShape::surface, PatchShape::equilateral};
-constexpr std::size_t most_tries = 16;  // single vertices freed in turn for one patch
-constexpr int most_rounds = 12;         // of freeing
+constexpr std::size_t most_tries = 16;  // single vertices tried in turn for one patch
+constexpr int most_rounds = 12;         // rounds of freeing vertices
 
 using Place = TangledMap::Place;
 
@@ -52,7 +52,7 @@ public:
             report.tangled = map_.tangled();
             if (!progress && round >= 2) break;
         }
-        nudge_faces(report);  // vertices that slid may have come too near
+        nudge_faces(report);  // vertices that slid may be too near to each other
         std::erase_if(report.freed, [&](Index v) { return map_.near_circle(v); });
         std::sort(report.freed.begin(), report.freed.end());
         return report;
@@ -106,7 +106,7 @@ private:
         return better;
     }
 
-    /// Frees one vertex if one is enough to better the patch, else all that touch its tangled faces.
+    /// Frees one vertex if that improves the patch, else all loop vertices of its tangled faces.
     std::vector<Index> free_some(const std::vector<Index>& patch, int round)
     {
         std::vector<Index> near = candidates(patch, round);

@@ -1,4 +1,4 @@
-// Turns flipped faces back, by moving as little as possible.
+// Turns flipped faces back with as little motion as possible.
 #pragma once
 
 #include "circles/circle.h"
@@ -11,25 +11,25 @@
 namespace koebe {
 
 struct UntangleOptions {
-    bool slide = true;               ///< along the circles, before any vertex is freed
+    bool slide = true;               ///< try to slide along the circles before freeing any vertex
     std::vector<Index> held = {};    ///< vertices that stay where they are
-    RepairEffort* effort = nullptr;  ///< of several searches on the same surface
-    double share = 1.0;              ///< of what is left of it
+    RepairEffort* effort = nullptr;  ///< shared by several searches on the same surface
+    double share = 1.0;              ///< share of the effort left that may be used
 };
 
 struct UntangleReport {
     int repairs = 0;             ///< neighbourhoods that were moved
     std::vector<Index> freed;    ///< loop vertices that had to leave their circles
-    std::vector<Index> tangled;  ///< faces still flipped, those below resolution aside
+    std::vector<Index> tangled;  ///< faces still flipped, except those below resolution
 };
 
-/// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, from
-/// the mildest measure to the harshest, until none is left: 2, 4, 8 and 16 rings around them with the loops held; the
-/// same with the loops' vertices sliding along their circles; the same with a few vertices freed from their circles,
-/// which a face between vertices that span more than half a circle may need. The first two
-/// get three quarters of the effort at most, and a problem that has failed is not posed again.
+/// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, from the
+/// mildest measure to the harshest, until no flipped face is left. First 2, 4, 8 and 16 rings around them with the
+/// loops held; then the same with loop vertices sliding along their circles; then with a few vertices freed from their
+/// circles, which a face may need whose vertices span more than half a circle. The first two measures may use three
+/// quarters of the effort. A problem that has failed is not tried again.
 /// @param vertices, surface, loops (the outer one first), circles the surface and its image's circles
-/// @param off_circle loop vertices that are off their circles already
+/// @param off_circle loop vertices that are already off their circles
 /// @param uv (V, 2) moved in place
 UntangleReport untangle(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                         const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv,

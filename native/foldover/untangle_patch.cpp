@@ -13,7 +13,7 @@
 namespace koebe {
 namespace {
 
-/// Of all that the result follows from.
+/// A hash of all data that determines the result.
 std::size_t hash_of(const FoldoverProblem& problem)
 {
     std::size_t hash = 14695981039346656037ULL;  // FNV-1a, of 64 bits at a time
@@ -67,7 +67,7 @@ std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std:
             for (int k = 0; k < 3; ++k) {
                 const Index v = map.triangles()(group[head], k);
                 const auto [known, fresh] = moves_cache.try_emplace(v, false);
-                if (!fresh) continue;  // its faces are in a group already, or it does not move
+                if (!fresh) continue;  // it does not move, or its faces are in a group already
                 known->second = moves(v);
                 if (!known->second) continue;
                 for (const Index f : map.faces_around(v))
@@ -116,7 +116,7 @@ bool nudge_face(TangledMap& map, Index face)
     for (const Index corner : v)
         if (map.loop_of(corner) != 0 || map.place(corner) != TangledMap::Place::on_circle || map.held(corner))
             return false;
-    // The middle one is opposite to the longest edge.
+    // The middle vertex is opposite to the longest edge.
     const auto opposite = [&](int k) { return (uv.row(v[(k + 1) % 3]) - uv.row(v[(k + 2) % 3])).squaredNorm(); };
     const int middle = opposite(0) > std::max(opposite(1), opposite(2)) ? 0 : opposite(1) > opposite(2) ? 1 : 2;
     std::vector<Index> around;

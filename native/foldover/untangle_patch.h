@@ -1,4 +1,4 @@
-// Neighbourhoods of flipped faces, and the attempts to turn them back.
+// Selects neighbourhoods of flipped faces, and tries to turn the faces back.
 #pragma once
 
 #include "execution/execution.h"
@@ -10,18 +10,18 @@
 
 namespace koebe {
 
-/// The faces around some, `rings` rings wide, in groups that touch in no mobile vertex.
+/// The faces up to `rings` rings around some faces, in groups that share no mobile vertex.
 std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std::vector<Index>& faces, int rings,
                                                PatchBoundary boundary);
 
-/// Minimizes on one patch, all that lies on its edge held; keeps the result if fewer of its faces are tangled and
-/// no loop crosses itself or another.
-/// @return whether it was kept
+/// Minimizes on one patch with its edge held. Keeps the result if fewer of its faces are tangled and no loop crosses
+/// itself or another.
+/// @return whether the result was kept
 bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
                   RepairEffort& effort, const ExecutionContext& context);
 
-/// A face with all three vertices on the outer loop is as thin as its arc: where that is less than 32-bit UVs
-/// resolve, its two outer ones go inward by inner_circle_tolerance.
+/// Moves the two outer vertices of a face inward by inner_circle_tolerance. The face has all three vertices on the
+/// outer loop, and its arc is so short that 32-bit UVs do not resolve the face.
 /// @return whether fewer faces are tangled
 bool nudge_face(TangledMap& map, Index face);
 

@@ -10,15 +10,15 @@
 
 namespace koebe {
 
-/// CGAL's kernel under a name of its own, for the specialization below.
+/// CGAL's kernel under a name of its own, so that the class below can be specialized for it.
 struct KernelOfAgedCells : CGAL::Exact_predicates_inexact_constructions_kernel {};
 
 }  // namespace koebe
 
 namespace CGAL {
 
-/// A cell that knows its age. CGAL names an edge by the least of the cells around it, and walks around it from there.
-/// Without an age the least cell is that of the lowest address, which differs from call to call.
+/// A cell with a time stamp. CGAL names an edge by the least of the cells around it, and walks around it from there.
+/// Without a stamp the least cell is the one of lowest address, which differs from call to call.
 template <class Base>
 class Delaunay_triangulation_cell_base_3<koebe::KernelOfAgedCells, Base> : public Base {
 public:

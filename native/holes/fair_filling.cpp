@@ -24,16 +24,16 @@ namespace {
 using Kernel = KernelOfAgedCells;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// The cubic method as a last resort takes a second at this many corners.
+/// Largest number of corners for the cubic method, the last resort, which then takes a second.
 constexpr std::size_t cubic_corners = 500;
 
-/// CGAL makes a patch as fine as what is around it, of about 0.13 n^2 triangles for n edges, with the factor sqrt(2);
-/// their number goes with the factor's square. The fairing's time grows faster than that (80,000 take 4 s).
+/// A patch as fine as its surroundings has about 0.13 n^2 triangles for n edges, with CGAL's factor sqrt(2). Their
+/// number grows with the factor's square, the time of fairing grows faster (80,000 triangles take 4 s).
 constexpr double fine = std::numbers::sqrt2, triangles_per_square = 0.13;
-/// Triangles of a patch beyond which it is made coarser than what is around it, and the least per edge of the loop.
+/// A patch with more triangles is made coarser than its surroundings, with at least so many per edge of the loop.
 constexpr double enough_triangles = 10000.0, least_per_edge = 4.0;
 
-/// Edges of a loop that are shorter, of the mean one (dimensionless), are made that long while the patch is made.
+/// Loop edges that are shorter than this share of the mean are made that long while the patch is made.
 constexpr double shortest_edge = 1e-2;
 
 double density(double edges)
@@ -42,18 +42,18 @@ double density(double edges)
     return fine * std::min(1.0, std::sqrt(triangles / triangles_per_square) / edges);
 }
 
-/// How the curvature is continued. As fine as what is around it, a patch takes it from there: one solution of third
-/// order (a spherical cap of 0.8 radians: 1.6 % of the radius off). Slender triangles at the rim, of a coarser patch or
-/// at edges below a tenth of the mean one, throw that order into spikes. There the equations are of second order, which
-/// give the tangent planes alone; solved again with the weights of the shape found, they bend evenly (5 % off after one
-/// solution, 3 % after three).
+/// How the curvature is continued. A patch as fine as its surroundings takes one solution of third order (a spherical
+/// cap of 0.8 radians: 1.6 % of the radius off). Slender triangles at the rim, of a coarser patch or at edges below a
+/// tenth of the mean, turn that into spikes. Then the equations are of second order, which keep the tangent planes
+/// only. Solved again with the weights of the new shape, they bend evenly (5 % off after one solution, 3 % after
+/// three).
 struct Fairing {
     unsigned int continuity, solutions;
 };
 
 Fairing fairing(double density, bool is_even) { return density < fine || !is_even ? Fairing{1, 3} : Fairing{2, 1}; }
 
-/// Moves and scales a surface into the unit cube, so that no square over- or underflows, and back.
+/// Moves and scales a surface into the unit cube and back, so that no square over- or underflows.
 class UnitCube {
 public:
     explicit UnitCube(const Vertices& vertices)
@@ -95,8 +95,8 @@ bool has_extent(const Vertices& vertices, const VertexLoop& loop)
     return positions.colwise().maxCoeff() != positions.colwise().minCoeff();
 }
 
-/// Moves vertices of a loop that lie on the one before them, or nearly so, on along the loop: the refinement does not
-/// end where vertices are doubled.
+/// Moves vertices of a loop that coincide with the vertex before, or nearly, on along the loop: the refinement does not
+/// end with doubled vertices.
 void part_doubled(Mesh& mesh, const VertexLoop& loop)
 {
     const std::size_t n = loop.size();
@@ -114,7 +114,7 @@ void part_doubled(Mesh& mesh, const VertexLoop& loop)
     }
 }
 
-/// Whether no edge of a loop is shorter than a tenth of the mean one.
+/// Whether every edge of a loop has at least a tenth of the mean length.
 bool is_even(const Mesh& mesh, const VertexLoop& loop)
 {
     const std::size_t n = loop.size();
@@ -128,7 +128,7 @@ bool is_even(const Mesh& mesh, const VertexLoop& loop)
     return least >= 0.1 * sum / static_cast<double>(n);
 }
 
-/// Two vertices of a loop at one place, if there are such.
+/// Two vertices of a loop at the same place, if any.
 std::vector<Index> meeting_vertices(const Mesh& mesh, const VertexLoop& loop)
 {
     VertexLoop order = loop;
@@ -138,8 +138,7 @@ std::vector<Index> meeting_vertices(const Mesh& mesh, const VertexLoop& loop)
     return pair == order.end() ? std::vector<Index>{} : std::vector<Index>{pair[0], pair[1]};
 }
 
-/// What a singular system is solved by is not finite, and the exact arithmetic that looks at it next would end the
-/// process.
+/// The solution of a singular system is not finite, and the exact arithmetic that reads it next would end the process.
 bool are_finite(const Mesh& mesh, const std::vector<Mesh::Vertex_index>& vertices)
 {
     return std::ranges::all_of(vertices, [&](Mesh::Vertex_index v) {

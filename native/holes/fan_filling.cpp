@@ -12,10 +12,10 @@
 namespace koebe {
 namespace {
 
-/// Positions times a power of two, so that the largest coordinate is about 1: exact, and no sum overflows.
+/// Positions times a power of two, so that the largest coordinate is about 1. Scaling is exact, and no sum overflows.
 struct ScaledPositions {
     Vertices positions;
-    int exponent = 0;  ///< the positions are those given times 2^-exponent
+    int exponent = 0;  ///< the positions are the input's times 2^-exponent
 
     explicit ScaledPositions(const Vertices& given)
     {
@@ -37,7 +37,7 @@ Eigen::RowVector3d mean_vertex(const Vertices& given)
 {
     const ScaledPositions scaled(given);
     const Vertices& loop = scaled.positions;
-    // Rounding may lead out of the box, where the largest numbers are not finite any more.
+    // Rounding may lead out of the box, where the largest numbers become infinite.
     const Eigen::RowVector3d center =
         loop.colwise().mean().cwiseMax(loop.colwise().minCoeff()).cwiseMin(loop.colwise().maxCoeff());
     return center.unaryExpr([&](double x) { return std::ldexp(x, scaled.exponent); });

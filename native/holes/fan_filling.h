@@ -1,4 +1,4 @@
-// Triangles for the holes of a surface (paper, section 4.4): a fan on the surface, Delaunay patches in the plane.
+// Fills the holes of a surface (paper, section 4.4): a fan on the surface, Delaunay patches in the plane.
 #pragma once
 
 #include "core/api.h"
@@ -11,7 +11,7 @@
 
 namespace koebe {
 
-/// A disk of triangles; its first vertices are those of the loop, in the loop's order, then the new ones.
+/// A disk of triangles. Its first vertices are the loop's in the loop's order, then come the new ones.
 struct SurfacePatch {
     Vertices vertices;
     Triangles triangles;
@@ -23,29 +23,29 @@ struct SurfacePatch {
 /// @return m + 1 vertices, m triangles
 SurfacePatch fill_on_surface(const Vertices& loop);
 
-/// Delaunay patch of a planar polygon: no boundary edge is split, edges match the polygon's near it and, unless the
-/// options say otherwise, are nowhere longer than its mean edge.
-/// @param polygon (m) simple, counter-clockwise (or clockwise: triangles are counter-clockwise in either case)
+/// Delaunay patch of a planar polygon. No boundary edge is split. Edges match the polygon's edges nearby and, unless
+/// the options say otherwise, are nowhere longer than its mean edge.
+/// @param polygon (m) simple, of either orientation; triangles are always counter-clockwise
 /// @throws InputError the polygon crosses itself or has coinciding points
 PlanarMesh planar_patch(const VectorXcd& polygon);
 PlanarMesh planar_patch(const VectorXcd& polygon, const PlanarMeshOptions& options);
 
 struct FilledSurface {
     Vertices vertices;         ///< the input's, then one for each filled loop
-    Triangles triangles;       ///< the input's, turned to one orientation, then those of the patches
-    std::vector<Index> label;  ///< per face: -1 input, k the loop filled, by rank among the boundary loops
+    Triangles triangles;       ///< the input's, turned to one orientation, then the patches'
+    std::vector<Index> label;  ///< per face: -1 in the input, k in the patch of the loop of rank k
 };
 
-/// The loops to fill: the ranks given, sorted and once each, or all.
+/// The ranks of the loops to fill: the given ranks, sorted and without duplicates, or all.
 /// @throws InputError a rank that does not exist
 std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std::vector<Index>>& loops);
 
-/// The rank of the longest boundary loop, the first of equal ones: what stays open if only the holes are filled.
-/// @param surface with one loop at least
+/// The rank of the longest boundary loop, the first of equal ones: the loop that stays open when only holes are filled.
+/// @param surface with at least one loop
 Index longest_loop(const Vertices& vertices, const Surface& surface);
 
 /// Fills boundary loops by fans on the surface.
-/// @param loops ranks of the loops to fill, in the order of Surface::loops; all of them if absent
+/// @param loops ranks of the loops to fill, in the order of Surface::loops; all loops if absent
 /// @throws InputError a rank that does not exist; TopologyError as analyze_surface
 KOEBE_API FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
                                    const std::optional<std::vector<Index>>& loops = std::nullopt);

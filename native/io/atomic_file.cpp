@@ -41,7 +41,7 @@ fs::path io::temporary_name(const fs::path& folder)
 }
 
 AtomicFile::AtomicFile(const fs::path& target)
-    : target_(io::is_pipe_or_device(target) ? target : io::followed(target))  // a pipe's link leads to no path
+    : target_(io::is_pipe_or_device(target) ? target : io::followed(target))  // the link of a pipe leads to no path
 {
     if (io::is_pipe_or_device(target_)) {
         descriptor_ = io::open_device(target_);

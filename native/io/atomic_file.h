@@ -1,4 +1,4 @@
-// A file that is whole or absent.
+// Writes a file as a whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,10 @@
 
 namespace koebe {
 
-/// Writes to a temporary file in the target's folder, which commit renames to the target. Without commit, nothing
-/// of it stays and a file of the target's name stays as it was; a process that is killed may leave the temporary file
-/// (io::temporary_name), which disturbs no later run. A symbolic link is followed, so that it stays and its target is
-/// replaced; the permissions of the file replaced are kept. A target that is no regular file (a pipe, /dev/null) is
-/// written to directly.
+/// Writes to a temporary file in the target's folder, which commit renames to the target. Without commit the temporary
+/// file is removed and the target does not change. A killed process may leave the temporary file (io::temporary_name),
+/// which disturbs no later run. A symbolic link stays, and its target is replaced. Permissions of a replaced file are
+/// kept. A target that is not a regular file (a pipe, /dev/null) is written to directly.
 class AtomicFile {
 public:
     /// @throws FileError the temporary file cannot be made
@@ -19,13 +18,13 @@ public:
     AtomicFile(AtomicFile&& other) noexcept;
     AtomicFile& operator=(AtomicFile&&) = delete;
 
-    /// @throws FileError as on a full disk
+    /// @throws FileError for example, the disk is full
     void write(std::string_view bytes);
     /// @throws FileError the target cannot be replaced
     void commit();
 
-    /// Removes all that was not committed, for an end of the process that runs no destructors. It asks for no memory;
-    /// nobody may be at work on such files.
+    /// Removes all files that are not committed, for a process that ends without destructors. Allocates no memory; no
+    /// other thread may use such files.
     static void remove_temporary_files() noexcept;
 
 private:
@@ -35,10 +34,10 @@ private:
 
     std::filesystem::path target_, temporary_;
     int descriptor_ = -1;
-    AtomicFile* next_ = nullptr;  ///< in the list of all there are
+    AtomicFile* next_ = nullptr;  ///< in the list of all such files
 };
 
-/// What AtomicFile needs, asked before a long computation.
+/// Checks before a long computation that an AtomicFile can be made.
 /// @throws FileError the folder is missing or not writable; the target is a folder or a file that is not writable
 void require_writable(const std::filesystem::path& target);
 

@@ -12,9 +12,9 @@
 namespace koebe::io {
 namespace {
 
-constexpr std::size_t items_at_a_time = 32768;  // vertices, or faces, of a thread
+constexpr std::size_t items_at_a_time = 32768;  // vertices, or faces, per thread
 
-/// Where the bytes of an element's items are.
+/// The places of an element's items in the bytes.
 struct Layout {
     explicit Layout(const PlyElement& element)
     {
@@ -23,8 +23,8 @@ struct Layout {
             bytes += bytes_of(property.length.value_or(property.type));
         }
     }
-    std::vector<std::size_t> offsets;  // of the properties, the items of lists left out
-    std::size_t bytes = 0;             // of an item of the element, likewise
+    std::vector<std::size_t> offsets;  // of the properties, without the items of lists
+    std::size_t bytes = 0;             // of an item of the element, without the items of lists
 };
 
 template <class Number>
@@ -45,7 +45,7 @@ bool is_plain(const PlyElement& vertices)
            is_axis("y") && is_axis("z");
 }
 
-/// Whether the corners are its one list.
+/// Whether the corners are the only list.
 bool is_plain_face(const PlyElement& faces)
 {
     const PlyProperty* corners = faces.find("vertex_indices");

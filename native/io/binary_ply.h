@@ -1,4 +1,4 @@
-// The usual binary PLY file, block by block.
+// Reads the usual binary PLY file, block by block.
 #pragma once
 
 #include "io/ply_file.h"
@@ -8,9 +8,9 @@
 
 namespace koebe::io {
 
-/// A little-endian file of vertices and then faces, whose one list is that of the corners. It is read on the calling
-/// thread's share of threads.
-/// @return nothing where the file is another one, or has a fault: it is then read value by value, and its fault is told
+/// Reads a little-endian file with vertices, then faces whose only list is that of the corners, on the calling thread's
+/// share of threads.
+/// @return nothing for another kind of file, or with a fault: the file is then read value by value, which reports it
 std::optional<PolygonMesh> read_binary_ply(const PlyFile& file);
 
 }  // namespace koebe::io

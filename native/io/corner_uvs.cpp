@@ -23,11 +23,11 @@ public:
         for (Index f = 0; f < mesh_.face_count(); ++f) complete(f);
     }
 
-    /// (C) a corner of a triangle for each corner of a polygon, or no_corner.
+    /// (C) the triangle corner for each polygon corner, or no_corner.
     const std::vector<Index>& source() const { return source_; }
 
 private:
-    /// The corner whose edge to the next one is the triangle's.
+    /// Takes the corner whose edge to the next corner is the triangle's.
     void take(Index face, Index triangle_corner)
     {
         const Index from = vertex(triangle_corner);
@@ -39,7 +39,7 @@ private:
                 source_[static_cast<std::size_t>(mesh_.face_begin[face]) + i] = triangle_corner;
     }
 
-    /// For corners that are named twice in a row.
+    /// Takes corners that are named twice in a row.
     void take_by_vertex(Index face, Index triangle_corner)
     {
         const auto polygon = mesh_.face(face);

@@ -1,4 +1,4 @@
-// What the C++ library has no word for: files by their numbers, on every system.
+// File operations that the C++ library lacks, by file numbers, on every system.
 #pragma once
 
 #include <cstdio>
@@ -7,32 +7,32 @@
 
 namespace koebe::io {
 
-/// A new file to write, closed in child processes. @returns -1 and errno; EEXIST where something has that name
+/// Opens a new file to write, closed in child processes. @returns -1 and errno; EEXIST if the name exists
 int open_new(const std::filesystem::path& path);
 
-/// What is there already, a pipe or a device, to write to. @returns -1 and errno
+/// Opens an existing pipe or device to write. @returns -1 and errno
 int open_device(const std::filesystem::path& path);
 
-/// A file to read, byte for byte. @returns nullptr and errno
+/// Opens a file to read, byte for byte. @returns nullptr and errno
 std::FILE* open_to_read(const std::filesystem::path& path);
 
-/// All of it. @returns whether it could be written, else errno says why not
+/// Writes all bytes. @returns false and errno if it failed
 bool write_all(int descriptor, std::string_view bytes);
 
-/// @returns whether what was written has arrived, else errno says why not
+/// Closes a file. @returns false and errno if its bytes did not arrive
 bool close_written(int descriptor);
 
-/// Asks for no memory, so that it serves where there is none.
+/// Removes a file. Allocates no memory, so that it works without any.
 void remove_now(const std::filesystem::path& path) noexcept;
 
-/// Whether this user may write to what is there. In a folder: may make files. @returns false and errno
+/// Whether this user may write to the file, or make files in the folder. @returns false and errno
 bool may_write(const std::filesystem::path& path);
 
-/// Whether two paths name one thing that is there, through symbolic and hard links. The null device, which keeps
-/// nothing, is never the same as anything.
+/// Whether two paths name the same existing file, through symbolic and hard links. The null device, which keeps
+/// nothing, equals no path.
 bool is_same(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// The same for an open file.
+/// Whether a path names this open file.
 bool is_open_as(int descriptor, const std::filesystem::path& path);
 
 /// The number of this process.

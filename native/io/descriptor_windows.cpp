@@ -24,7 +24,7 @@ std::FILE* open_to_read(const fs::path& path) { return ::_wfopen(path.c_str(), L
 
 bool write_all(int descriptor, std::string_view bytes)
 {
-    constexpr std::size_t most = std::size_t{1} << 30;  // a call's count is an int
+    constexpr std::size_t most = std::size_t{1} << 30;  // the count of a call is an int
     while (!bytes.empty()) {
         const int written = ::_write(descriptor, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), most)));
         if (written < 0) return false;

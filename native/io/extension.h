@@ -1,4 +1,4 @@
-// What a file's name says of its format.
+// The format in a file's name.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace koebe::io {
 
-/// A word with its ASCII letters small, whatever the locale.
+/// A word with its ASCII letters in lower case, in every locale.
 inline std::string lower(std::string word)
 {
     for (char& c : word)
@@ -14,7 +14,7 @@ inline std::string lower(std::string word)
     return word;
 }
 
-/// ".obj" of "scan.OBJ"; empty if there is none.
+/// ".obj" of "scan.OBJ"; empty without an extension.
 inline std::string lower_extension(const std::filesystem::path& path) { return lower(path.extension().string()); }
 
 }  // namespace koebe::io

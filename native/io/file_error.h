@@ -1,11 +1,11 @@
-// The typed error of the file system's failures.
+// The typed error of file system failures.
 #pragma once
 
 #include "core/errors.h"
 
 namespace koebe {
 
-/// A file that could not be opened, read or written; what is wrong inside a mesh file is an InputError.
+/// A file could not be opened, read or written. A fault inside a mesh file is an InputError.
 class FileError : public KoebeError {
 public:
     using KoebeError::KoebeError;

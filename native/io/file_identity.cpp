@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;  // as the kernel has it
+constexpr int most_links = 40;  // as in the kernel
 
 bool is_there(const fs::path& path)
 {
@@ -22,12 +22,12 @@ bool is_there(const fs::path& path)
     return fs::exists(path, error);
 }
 
-/// Asked of the file system itself, by a file that lives for a moment.
+/// Asks the file system itself, with a temporary file.
 bool ignores_case(const fs::path& folder)
 {
     const fs::path small = temporary_name(folder);
     const int descriptor = open_new(small);
-    if (descriptor < 0) return false;  // nothing can be made there at all
+    if (descriptor < 0) return false;  // no file can be made there at all
     close_written(descriptor);
     std::string large = small.filename().string();
     for (char& c : large)

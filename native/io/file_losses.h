@@ -1,4 +1,4 @@
-// What a mesh file holds beside the mesh, and the file that is written does not.
+// Contents of a mesh file, beside the mesh, that the written file does not hold.
 #pragma once
 
 #include "core/warning.h"
@@ -10,15 +10,15 @@
 namespace koebe::io {
 
 struct FileLosses {
-    bool texture_coordinates = false;  ///< those of the file were replaced by new ones
-    std::vector<std::string> others;   ///< that are not written: "groups", "vertex property red" ...
+    bool texture_coordinates = false;  ///< whether the file's were replaced by new ones
+    std::vector<std::string> others;   ///< other lost contents: "groups", "vertex property red" ...
 };
 
-/// Of a file that is written in another format, or with other vertices than it has: all that the mesh does not hold.
+/// The losses of a file written in another format or with other vertices: all contents beside the mesh.
 /// @param with_uvs whether new texture coordinates are written
 FileLosses losses_of_all(const MeshFile& filed, bool with_uvs);
 
-/// @param moved whether the vertices lie elsewhere
+/// @param moved whether vertices have other positions
 std::vector<Warning> loss_warnings(const FileLosses& losses);
 
 }  // namespace koebe::io

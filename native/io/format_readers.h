@@ -1,5 +1,5 @@
-// One reader for each format, from the file's bytes. Called by read_mesh only, which checks the indices and the
-// coordinates. And what a file that was read holds beside vertices and faces.
+// One reader for each format, from the file's bytes, called by read_mesh only, which checks indices and coordinates.
+// And functions that list a file's contents beside vertices and faces.
 #pragma once
 
 #include "io/file_losses.h"

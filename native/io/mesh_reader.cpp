@@ -37,10 +37,10 @@ std::string read_bytes(const fs::path& path)
     const auto fail = [&path] { throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")"); };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(io::open_to_read(path), std::fclose);
     if (!file) fail();
-    if (fs::is_character_file(path) || fs::is_block_file(path))  // those may have no end
+    if (fs::is_character_file(path) || fs::is_block_file(path))  // these may have no end
         throw FileError("cannot read " + path.string() + " (it is a device)");
     std::string bytes;
-    std::error_code no_size;  // a pipe has none
+    std::error_code no_size;  // a pipe has no size
     const auto size = fs::file_size(path, no_size);
     std::size_t wanted = no_size ? 0 : static_cast<std::size_t>(size) + 1;
     for (std::size_t filled = 0;;) {
@@ -94,7 +94,7 @@ PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension)
 MeshFile read_mesh_file(const std::filesystem::path& path)
 {
     MeshFile file{{}, io::lower_extension(path)};
-    reader_for(file.extension);  // no file of another format is read
+    reader_for(file.extension);  // throws for unknown formats, before reading
     file.bytes = read_bytes(path);
     if (file.bytes.starts_with(byte_order_mark)) file.bytes.erase(0, byte_order_mark.size());
     return file;

@@ -1,4 +1,4 @@
-// Mesh files: OBJ, OFF, PLY and STL to polygons in 64 bits.
+// Reads mesh files: OBJ, OFF, PLY and STL, to polygons in 64 bits.
 #pragma once
 
 #include "core/api.h"
@@ -10,29 +10,29 @@
 
 namespace koebe {
 
-/// The bytes of a mesh file, which hold more than the mesh: what is written keeps the rest of it.
+/// The bytes of a mesh file. They hold more than the mesh, and writers keep the rest.
 struct MeshFile {
     std::string bytes;      ///< without a byte order mark
-    std::string extension;  ///< in lower case, with the dot; empty: no file
+    std::string extension;  ///< in lower case, with the dot; empty: there is no file
 };
 
-/// @throws FileError, InputError as read_mesh; the bytes are not looked at
+/// @throws FileError, InputError as read_mesh; the bytes are not parsed
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
-/// Reads a mesh file; the extension, in any case, names the format.
+/// Reads a mesh file. The extension, in any case, gives the format.
 ///
-/// OBJ; OFF, text only; PLY, text and binary of both byte orders; STL, text and binary, with corners of identical
-/// position made one vertex, numbered by first appearance. Vertices of no face stay. Numbers of a text are read to the
-/// nearest 64-bit float. Normals, colours, texture coordinates, groups and materials are passed over
-/// here, and kept by the writers (mesh_writer.h).
+/// OBJ; OFF, text only; PLY, text and binary of both byte orders; STL, text and binary: corners at identical positions
+/// become one vertex, numbered by first appearance. Unused vertices stay. Numbers in text are read to the nearest
+/// 64-bit float. Normals, colours, texture coordinates, groups and materials are ignored here, and kept by the writers
+/// (mesh_writer.h).
 ///
 /// @throws FileError the file cannot be read
-/// @throws InputError the format is not supported; it is not followed, or the file ends early (elements: the first
-///         vertex or face that is not read); there is no vertex or no face; a face names a vertex that is not there
-///         (elements: faces); a coordinate is NaN or infinite (elements: vertices)
+/// @throws InputError the format is unknown or violated, or the file ends early (elements: the first vertex or face
+/// that is not read); there is no vertex or no face; a face names a vertex that does not exist (elements: faces); a
+/// coordinate is NaN or infinite (elements: vertices)
 PolygonMesh read_mesh(const std::filesystem::path& path);
 
-/// The same for the bytes of a file.
+/// Reads a mesh from the bytes of a file.
 /// @param extension of its name, with the dot
 /// @throws InputError as read_mesh
 KOEBE_API PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension);

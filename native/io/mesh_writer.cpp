@@ -36,7 +36,7 @@ FiledPly ply_of(const FiledMesh& filed)
     return has_format(filed, WrittenFormat::ply) ? FiledPly{filed.file.bytes, filed.moved} : FiledPly{};
 }
 
-/// @param losses where the format is kept
+/// @param losses if the format is kept
 std::vector<Warning> warnings_after(const FiledMesh& filed, WrittenFormat format, const io::FileLosses& losses)
 {
     return loss_warnings(has_format(filed, format) ? losses : io::losses_of_all(filed.file, true));

@@ -8,7 +8,7 @@
 
 namespace koebe::io {
 
-/// Not by CGAL, which makes a stream of each line: that takes a third of the command's whole time. tinyobjloader
+/// CGAL is not used, as it makes a stream of each line, which takes a third of the command's whole time. tinyobjloader
 /// changes the last digits of numbers, and Assimp keeps 32 bits.
 PolygonMesh read_obj(std::string_view bytes)
 {
@@ -26,7 +26,7 @@ PolygonMesh read_obj(std::string_view bytes)
             }
         } else if (keyword == "f") {
             for (;;) {
-                Index corner = 0;  // from 1 on; from the last vertex backwards if it is negative
+                Index corner = 0;  // counted from 1; if negative, from the last vertex backwards
                 if (!lines.next_plain(corner)) {
                     const std::string_view word = lines.next_word_of_joined_lines();
                     if (word.empty()) break;

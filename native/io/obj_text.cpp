@@ -10,9 +10,9 @@
 namespace koebe::io {
 namespace {
 
-constexpr std::string_view own_comment = "# Koebe UV ";  // of an earlier run; the writer adds its own
+constexpr std::string_view own_comment = "# Koebe UV ";  // from an earlier run; the writer adds its own
 
-/// What a statement is about, as bits.
+/// The contents of a statement, as bits.
 enum Content : unsigned {
     nothing = 0,
     groups = 1,
@@ -53,7 +53,7 @@ std::vector<std::string_view> pieces_of_text(std::string_view text)
     return pieces;
 }
 
-/// The vertex of a corner and its normal, as they stand in "v/vt/vn"; empty where they are missing.
+/// The vertex of a corner and its normal, as they stand in "v/vt/vn"; empty if missing.
 struct Corner {
     explicit Corner(std::string_view word) : vertex(word.substr(0, word.find('/')))
     {
@@ -174,7 +174,7 @@ private:
             words_.push_back(word);
     }
 
-    /// After the words of a statement that is written anew: its comment, and the end of the line.
+    /// Ends a statement that is written anew: adds its comment and the end of the line.
     void end_statement()
     {
         const std::string_view rest = text_.rest_of_line();
@@ -183,7 +183,7 @@ private:
             out_.add(' ');
             out_.add(rest);
         }
-        const bool is_last = end == end_;  // without an end
+        const bool is_last = end == end_;  // the line has no end
         out_.add(is_last ? whole_.end_of_line_ : rest.empty() && end[-1] == '\r' ? "\r\n" : "\n");
     }
 
@@ -244,7 +244,7 @@ private:
         end_statement();
     }
 
-    /// The normals of the words, counted from 1. @return false if there is none, or one that is not in the text
+    /// Takes the normals of the words, counted from 1. @return false if a word has none, or one that is not in the text
     bool take_normals()
     {
         normals_.clear();
@@ -268,7 +268,7 @@ private:
     TextLines text_;
     const char* const end_;
     Counts at_;
-    const char *begin_ = nullptr, *kept_from_ = nullptr;  // of the statement; of what is to be added as it is
+    const char *begin_ = nullptr, *kept_from_ = nullptr;  // start of the statement; start of the text to be copied
     std::vector<std::string_view> words_;
     std::vector<std::int64_t> normals_;
 };

@@ -1,4 +1,4 @@
-// The text of an OBJ file, to be written again with other texture coordinates and all else that it holds.
+// Writes the text of an OBJ file again, with other texture coordinates and all its other contents.
 #pragma once
 
 #include "io/polygon_mesh.h"
@@ -12,25 +12,25 @@
 
 namespace koebe::io {
 
-/// Adds "v/vt"; both are counted from 0.
+/// Adds "v/vt". Both numbers are counted from 0.
 void add_obj_corner(TextWriter& text, Index vertex, Index texture);
 
-/// What is written otherwise than it stands in the text.
+/// The changes of a text that is written again.
 struct ObjChange {
-    const PolygonMesh& mesh;         ///< with the faces of the text in their order
-    std::span<const Index> texture;  ///< (C) of each corner the number of its new `vt`; empty: the old ones stay
-    bool moved = false;              ///< vertices lie where the mesh has them; normals are left out
-    std::vector<char> turned = {};   ///< (F) faces whose corners are written in the reverse order; or empty
+    const PolygonMesh& mesh;         ///< with the text's faces in their order
+    std::span<const Index> texture;  ///< (C) number of the new `vt` of each corner; empty: the old ones stay
+    bool moved = false;              ///< take the mesh's positions, and leave normals out
+    std::vector<char> turned = {};   ///< (F) 1 to write a face's corners in the reverse order; or empty
 };
 
-/// Statements are told apart as read_obj does. Every other line stays as it is, comments and unknown ones too; so do
-/// the normals of faces, but as counted from 1. In `l` and `surf` texture coordinates that are replaced are left out.
+/// Recognizes statements as read_obj does. Every other line stays as it is, also comments and unknown ones. Normals of
+/// faces stay, but are counted from 1. `l` and `surf` lose texture coordinates that are replaced.
 class ObjText {
 public:
-    /// @param text of an OBJ file that read_obj takes; it must outlive this
+    /// @param text of an OBJ file that read_obj accepts; it must outlive the object
     explicit ObjText(std::string_view text);
 
-    /// What it holds beside vertices and faces, in words: "groups", "materials" ...; without texture coordinates.
+    /// Contents beside vertices, faces and texture coordinates, in words: "groups", "materials" ...
     const std::vector<std::string>& contents() const { return contents_; }
     std::size_t texture_coordinates() const { return total_.texture_coordinates; }
     std::size_t normals() const { return total_.normals; }
@@ -39,10 +39,10 @@ public:
     bool holds(std::string_view content) const;
     std::string_view end_of_line() const { return end_of_line_; }
 
-    /// Adds what stands before the first face.
+    /// Adds the text before the first face.
     void add_head(TextWriter& text, const ObjChange& change) const;
     /// Adds the rest, on this thread's share of threads.
-    /// @return number of faces that lost their normals, as one of them is not in the text
+    /// @return number of faces that lost their normals, as the text lacks one of them
     std::size_t add_rest(TextWriter& text, const ObjChange& change) const;
 
 private:
@@ -64,7 +64,7 @@ private:
     std::size_t add_pieces(TextWriter& text, const ObjChange& change, std::size_t begin, std::size_t end) const;
 
     std::vector<Piece> pieces_;
-    std::size_t first_with_faces_ = 0;  ///< of the pieces: it begins with the first face
+    std::size_t first_with_faces_ = 0;  ///< the piece that begins with the first face
     Counts total_;
     std::vector<std::string> contents_;
     std::string_view end_of_line_ = "\n";

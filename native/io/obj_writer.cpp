@@ -27,7 +27,7 @@ void add_vertices(TextWriter& text, const Vertices& vertices, Index begin)
     });
 }
 
-/// (C) numbers of the places, by first appearance.
+/// (C) numbers of the corners' places, by first appearance.
 std::vector<Index> places_of_corners(const PolygonMesh& mesh, const PlanarPoints& corner_uvs)
 {
     std::vector<Index> place(mesh.corners.size());
@@ -51,7 +51,7 @@ void add_texture_coordinate(TextWriter& text, double u, double v, std::string_vi
     text.add(end_of_line);
 }
 
-/// @param texture (C) numbers of texture coordinates; empty: none
+/// @param texture (C) numbers of texture coordinates, or empty
 void add_face(TextWriter& text, const PolygonMesh& mesh, Index f, std::span<const Index> texture)
 {
     text.add('f');
@@ -66,8 +66,8 @@ void add_face(TextWriter& text, const PolygonMesh& mesh, Index f, std::span<cons
     text.add('\n');
 }
 
-/// The mesh as it is, or the text that it was read from, with texture coordinates between.
-/// @param texture (C) numbers of those
+/// Writes the mesh, or the text that it was read from, with texture coordinates between vertices and faces.
+/// @param texture (C) numbers of texture coordinates
 template <class AddTextureCoordinates>
 io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<const Index> texture,
                          const FiledObj& filed, const AddTextureCoordinates& add_texture_coordinates)

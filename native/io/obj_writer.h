@@ -1,4 +1,4 @@
-// OBJ files: the polygons as they were filed, with texture coordinates or groups, and what else the file held.
+// Writes OBJ files: the polygons as filed, with texture coordinates or groups, and the file's other contents.
 #pragma once
 
 #include "io/atomic_file.h"
@@ -11,34 +11,34 @@
 
 namespace koebe {
 
-/// The text of an OBJ file that a mesh was read from, or none. All that it holds is written again as it stands; only
-/// texture coordinates are replaced, and those of `l` are left out.
+/// The text of the OBJ file that a mesh was read from, or empty. All its contents are written again unchanged, except
+/// for texture coordinates: they are replaced, and left out in `l`.
 struct FiledObj {
     std::string_view text = {};
-    bool moved = false;  ///< the mesh has the vertices elsewhere: normals are left out
+    bool moved = false;  ///< the mesh has other positions: normals are left out
 };
 
 /// Writes the mesh with one `vt` for each vertex: u = (1 + x) / 2, v = (1 + y) / 2, clamped to [0, 1]. New numbers
 /// are the shortest that read back to the same 64-bit float. The caller commits the file.
 /// @param disk_points (V, 2) points of the closed unit disk
-/// @throws InputError disk_points has not one row for each vertex
+/// @throws InputError disk_points does not have one row per vertex
 /// @throws FileError
 io::FileLosses write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points,
                                   const FiledObj& filed = {});
 
-/// Writes the mesh with a `vt` for each place that a vertex has: corners of one vertex at one place share it.
+/// Writes the mesh with a `vt` for each place of a vertex: corners of one vertex at one place share it.
 /// @param corner_uvs (C, 2) in [0, 1]^2, in the order of mesh.corners
-/// @throws InputError corner_uvs has not one row for each corner
+/// @throws InputError corner_uvs does not have one row per corner
 /// @throws FileError
 io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs,
                                          const FiledObj& filed = {});
 
 /// Writes the mesh with a `g` line wherever the group changes from face to face. The caller commits the file. The mesh
-/// may have more vertices and faces than the text, behind its own. Where the text has groups or objects, its faces stay
-/// in them and only the others get the groups of this call.
+/// may have more vertices and faces than the text, after the text's own. If the text has groups or objects, its faces
+/// stay in them, and only the other faces get the groups of this call.
 /// @param group (F) of each face, an index into names
 /// @param filed its texture coordinates stay
-/// @param turned (F) faces of the text whose corners the mesh has in the reverse order
+/// @param turned (F) 1 for faces of the text that the mesh has in the reverse order
 /// @throws FileError
 void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std::vector<Index>& group,
                            const std::vector<std::string>& names, const FiledObj& filed = {},

@@ -14,7 +14,7 @@
 namespace koebe::io {
 namespace {
 
-/// The next word that is no comment, and the rest of the text; empty at its end.
+/// The next word outside comments, and the rest of the text; empty at the end.
 std::string_view next_word(std::string_view& text)
 {
     std::string_view word = take_word(text);
@@ -26,7 +26,7 @@ std::string_view next_word(std::string_view& text)
     return word;
 }
 
-/// The first word of the next line that has one; empty at the end.
+/// The first word of the next line that has a word; empty at the end.
 std::string_view first_word(TextLines& lines)
 {
     std::string_view word;
@@ -39,10 +39,10 @@ constexpr const char* no_off_header = "the file does not start with OFF and thre
 struct OffHeader {
     bool has_textures = false, has_normals = false, is_homogeneous = false;
     std::size_t vertices = 0, faces = 0;
-    std::string_view rest;  ///< what follows the third number
+    std::string_view rest;  ///< after the third number
 };
 
-/// Takes the prefix off the keyword.
+/// Takes a prefix off the keyword.
 bool take_prefix(std::string_view& keyword, std::string_view prefix)
 {
     const bool is_there = keyword.starts_with(prefix);
@@ -50,14 +50,14 @@ bool take_prefix(std::string_view& keyword, std::string_view prefix)
     return is_there;
 }
 
-/// A number of the header; what comes behind it is the rest of the text.
-/// @throws InputError it is no integer, or is more than the file can hold
+/// Takes a number of the header; the rest of the text follows it.
+/// @throws InputError it is not an integer, or is more than the file can hold
 std::int64_t take_count(std::string_view& text, const std::string& element, std::size_t bytes)
 {
     const std::string_view word = next_word(text);
     std::int64_t count = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-    // Vertices and faces take a byte at least. How many edges there are is for nobody's use.
+    // Vertices and faces take at least a byte. The number of edges is not used.
     const auto most = static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 28));
     if (error == std::errc::result_out_of_range || count > most || count < -most)
         throw InputError("the header's number of element " + element + " does not fit the file");
@@ -68,7 +68,7 @@ std::int64_t take_count(std::string_view& text, const std::string& element, std:
     return count;
 }
 
-/// @throws InputError the file is not a text in three dimensions, or a count is more than the file can hold
+/// @throws InputError the file is not three-dimensional text, or a count is more than the file can hold
 OffHeader off_header(std::string_view bytes)
 {
     OffHeader header{.rest = bytes};
@@ -79,22 +79,22 @@ OffHeader off_header(std::string_view bytes)
         keyword.find('n') != std::string_view::npos)
         throw InputError("OFF is supported as a text in three dimensions, not binary, SKEL or nOFF");
     header.has_textures = take_prefix(keyword, "ST");
-    take_prefix(keyword, "C");  // as many numbers as the line has more
+    take_prefix(keyword, "C");  // the line has further numbers as colours
     header.has_normals = take_prefix(keyword, "N");
     header.is_homogeneous = take_prefix(keyword, "4");
     const std::int64_t vertices = take_count(header.rest, "vertex", bytes.size());
     const std::int64_t faces = take_count(header.rest, "face", bytes.size());
     take_count(header.rest, "edge", bytes.size());
     if (keyword != "OFF" || vertices < 0 || faces < 0) throw InputError(no_off_header);
-    if (header.rest.starts_with('.')) throw InputError("the header has no number of edges");  // it is a coordinate
+    if (header.rest.starts_with('.')) throw InputError("the header has no number of edges");  // a coordinate
     header.vertices = static_cast<std::size_t>(vertices);
     header.faces = static_cast<std::size_t>(faces);
     return header;
 }
 
-/// The next line that says something: three coordinates, which a fourth number divides if they are homogeneous, and
+/// Reads the next line with content: three coordinates, perhaps a fourth that divides them if they are homogeneous, and
 /// perhaps a normal, a colour or texture coordinates.
-/// @return false: the line is missing, or is not these numbers
+/// @return false if the line is missing or has other words
 bool read_off_vertex(TextLines& lines, bool is_homogeneous, double* point)
 {
     std::string_view word = first_word(lines);
@@ -106,8 +106,8 @@ bool read_off_vertex(TextLines& lines, bool is_homogeneous, double* point)
     return true;
 }
 
-/// The next line that says something: a number of corners, as many vertices, and perhaps a colour.
-/// @return false: the line is missing, is cut short or names a vertex that is not there
+/// Reads the next line with content: the number of corners, the vertices, and perhaps a colour.
+/// @return false if the line is missing, is cut short or names a vertex that does not exist
 bool read_off_face(TextLines& lines, std::vector<Index>& corners, std::size_t vertex_count)
 {
     Index count = 0, vertex = 0;
@@ -122,8 +122,8 @@ bool read_off_face(TextLines& lines, std::vector<Index>& corners, std::size_t ve
 
 }  // namespace
 
-/// Not by CGAL's read_OFF, which makes room for as many corners as a face says, and reads outside its arrays if a
-/// colour has two numbers; nor can it say which element is wrong.
+/// CGAL's read_OFF is not used: it makes room for as many corners as a face claims, reads outside its arrays if a
+/// colour has two numbers, and cannot tell which element is wrong.
 PolygonMesh read_off(std::string_view bytes)
 {
     const OffHeader header = off_header(bytes);
@@ -142,7 +142,7 @@ PolygonMesh read_off(std::string_view bytes)
     return mesh;
 }
 
-/// A fault is no matter here, as read_off has told it.
+/// Ignores faults, which read_off has reported.
 FileLosses off_contents(std::string_view bytes)
 {
     const OffHeader header = off_header(bytes);

@@ -36,7 +36,7 @@ std::optional<PlyType> type_of(const std::string& word)
 
 bool is_whole(PlyType type) { return type < PlyType::float32; }
 
-/// Nothing if it is none. Lengths of 32 bits are of no use: they could ask for any amount of memory.
+/// Returns nothing without a property, or for a list with 32-bit lengths, which could ask for any amount of memory.
 std::optional<PlyProperty> property_of(const Words& words, bool is_text)
 {
     const bool is_list = words.size() == 5 && words[1] == "list";
@@ -74,7 +74,7 @@ PlyElement element_of(const Words& words, std::size_t bytes)
     return element;
 }
 
-/// Takes a line of the header. @return false if it is none
+/// Takes a line of the header. @return false if it does not belong to a header
 bool take(PlyFile& file, const std::string& line, int number, bool& has_format, std::size_t bytes)
 {
     std::istringstream stream(line);
@@ -139,7 +139,7 @@ bool is_ply_uv(const PlyElement& element, const PlyProperty& property)
     };
     if (element.is_face()) return is({"texcoord"});
     if (!element.is_vertex()) return false;
-    // u or v alone may be anything.
+    // u or v alone can mean anything.
     return is({"s", "t", "texture_u", "texture_v", "texture_s", "texture_t"}) ||
            (is({"u", "v"}) && element.find("u") && element.find("v"));
 }
@@ -193,14 +193,14 @@ bool PlyValues::read(PlyType type, double& number)
     return with_number(type, [&](auto value) { number = static_cast<double>(value); });
 }
 
-/// A number of 32 bits without a sign that is too large for an index becomes a negative one, which is out of range.
+/// An unsigned 32-bit number that is too large for an index becomes negative, which is out of range.
 bool PlyValues::read(PlyType type, Index& number)
 {
     if (encoding_ == PlyEncoding::text) return to_number(take_word(data_), number);
     return is_whole(type) && with_number(type, [&](auto value) { number = static_cast<Index>(value); });
 }
 
-/// Calls use(type) for each value of the property, the length of a list first; it takes the value.
+/// Calls use(type), which takes a value, for each value of the property; the length of a list comes first.
 template <class Use>
 bool PlyValues::with_items(const PlyProperty& property, const Use& use)
 {
@@ -219,7 +219,7 @@ bool PlyValues::skip(const PlyProperty& property)
         if (encoding_ != PlyEncoding::text) return with_number(type, [](auto) {});
         std::string_view word = take_word(data_);
         if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
-        double number = 0.0;  // or none, as colours and qualities may be
+        double number = 0.0;  // or not a number, in colours and qualities
         const auto [end, error] = fast_float::from_chars(word.data(), word.data() + word.size(), number);
         return !word.empty() && error != std::errc::invalid_argument && end == word.data() + word.size();
     });

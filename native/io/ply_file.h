@@ -1,4 +1,4 @@
-// A PLY file: its header, and the values behind it one after the other, text and binary of both byte orders.
+// A PLY file: its header and its values in order, text and binary of both byte orders.
 #pragma once
 
 #include "core/types.h"
@@ -19,15 +19,15 @@ std::size_t bytes_of(PlyType type);
 
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::float64;     ///< of a list: of its items
-    std::optional<PlyType> length = {};  ///< of a list: of its number of items
-    std::string line = {};               ///< of the header, without blanks at its end
+    PlyType type = PlyType::float64;     ///< of a value, or of a list's items
+    std::optional<PlyType> length = {};  ///< of a list's number of items
+    std::string line = {};               ///< in the header, without blanks at its end
 
     bool is_list() const { return length.has_value(); }
     bool is_real() const { return !length && (type == PlyType::float32 || type == PlyType::float64); }
 };
 
-/// What a property's values are to the mesh.
+/// The meaning of a property for the mesh.
 enum class PlyRole { x, y, z, corners, other };
 
 struct PlyElement {
@@ -35,7 +35,7 @@ struct PlyElement {
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// The first of that name, or none.
+    /// The first property of that name, or null.
     const PlyProperty* find(std::string_view wanted) const;
     bool is_vertex() const { return name == "vertex"; }
     bool is_face() const { return name == "face"; }
@@ -48,32 +48,32 @@ struct PlyFile {
     PlyEncoding encoding = PlyEncoding::text;
     std::vector<std::string> comments;  ///< lines of comment and obj_info
     std::vector<PlyElement> elements;
-    std::string_view data;  ///< what follows the header
+    std::string_view data;  ///< the bytes after the header
 };
 
-/// @return the header of the bytes, which must outlive it; vertex_index, the other name in use, is vertex_indices
-/// @throws InputError a line that is not one of a PLY header; a type or an encoding that no reader knows; a list of a
-///         binary file whose lengths have 32 bits; a count that does not fit the file
+/// @return the header of the bytes, which must outlive it; the name vertex_index is changed to vertex_indices
+/// @throws InputError a line that does not belong to a PLY header; an unknown type or encoding; a list of a binary file
+/// with 32-bit lengths; a count that does not fit the file
 PlyFile parse_ply(std::string_view bytes);
 
-/// Whether the property is one of texture coordinates: of vertices under the names that programs give them, of faces
+/// Whether the property holds texture coordinates: for vertices under the names that programs use, for faces
 /// `texcoord`.
 bool is_ply_uv(const PlyElement& element, const PlyProperty& property);
 bool is_ply_normal(const PlyProperty& property);
 
-/// Goes over the values of a file. Every call returns false, and nothing is of use then, if the next one is missing or
-/// is no number of its type; in a text all types but those of lengths and corners are any number.
+/// Reads the values of a file in order. Every call returns false, and its result is unusable, if the next value is
+/// missing or not a number of its type. In text all types except those of lengths and corners accept any number.
 class PlyValues {
 public:
     explicit PlyValues(const PlyFile& file) : data_(file.data), encoding_(file.encoding) {}
 
     bool read(PlyType type, double& number);
     bool read(PlyType type, Index& number);
-    /// The value, or the length and the items of a list.
+    /// Skips the value, or the length and the items of a list.
     bool skip(const PlyProperty& property);
     bool skip_item(const PlyElement& element);
-    /// Adds them as text, a blank before each but perhaps the first: of a text its words, of a binary the shortest that
-    /// read back to the same number.
+    /// Adds the values as text, each after a blank except perhaps the first: the words of a text, or for a binary file
+    /// the shortest ones that read back to the same number.
     bool copy(const PlyProperty& property, TextWriter& text, bool blank_first);
 
 private:

@@ -12,7 +12,7 @@
 namespace koebe::io {
 namespace {
 
-/// In a text the types of coordinates say nothing: all have 64 bits.
+/// In text, coordinates of every type are read with 64 bits.
 void require_ply_properties(const PlyElement& element, bool is_text)
 {
     for (const char* axis : {"x", "y", "z"})
@@ -86,8 +86,8 @@ bool is_among(const std::string& name, std::initializer_list<const char*> names)
 
 }  // namespace
 
-/// Not by CGAL's read_PLY, which follows a null pointer if x, red or source has another type than it expects, makes
-/// room for a list before it reads it and cannot say which element is wrong.
+/// CGAL's read_PLY is not used: it follows a null pointer if x, red or source has an unexpected type, makes room for a
+/// list before it reads it, and cannot tell which element is wrong.
 PolygonMesh read_ply(std::string_view bytes)
 {
     const PlyFile file = parse_ply(bytes);

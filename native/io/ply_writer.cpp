@@ -16,7 +16,7 @@ namespace {
 
 using io::TextWriter;
 
-/// The smallest type that all numbers of corners fit; nearly all readers expect the first.
+/// The smallest type for the numbers of all corners; nearly all readers expect the smallest one.
 std::string_view count_type(const PolygonMesh& mesh, std::size_t numbers_of_corner)
 {
     std::size_t most = 0;
@@ -27,13 +27,13 @@ std::string_view count_type(const PolygonMesh& mesh, std::size_t numbers_of_corn
 
 constexpr std::string_view own_comment = "comment Koebe UV ";
 
-/// What is written behind the values that vertices and faces have in the file.
+/// The properties added after a file's own properties of vertices and faces.
 struct Added {
     std::string of_vertices, of_faces;                           // lines of the header
-    std::function<void(TextWriter&, Index)> to_vertex, to_face;  // each value behind a blank
+    std::function<void(TextWriter&, Index)> to_vertex, to_face;  // each value after a blank
 };
 
-/// The header of the mesh alone.
+/// The header for a mesh without a file.
 io::PlyFile file_of(const PolygonMesh& mesh)
 {
     io::PlyFile file;
@@ -46,7 +46,7 @@ io::PlyFile file_of(const PolygonMesh& mesh)
 struct Column {
     const io::PlyProperty* property;
     io::PlyRole role;
-    bool kept;  // written out of the file or the mesh
+    bool kept;  // written from the file or the mesh
     bool from_file() const { return kept && role == io::PlyRole::other; }
 };
 
@@ -106,8 +106,8 @@ private:
         text_.add('\n');
     }
 
-    /// On this thread's share of threads. Where values are of the file, it is gone through once before, to know where
-    /// the items of each thread begin.
+    /// Uses this thread's share of threads. If values come from the file, a first pass finds where the items of each
+    /// thread begin.
     void add_items(const io::PlyElement& element, const std::vector<Column>& columns)
     {
         const auto count = static_cast<Index>(element.count);
@@ -171,7 +171,7 @@ private:
     io::PlyValues values_;
     std::vector<std::vector<Column>> columns_;
     bool needs_values_ = false;
-    Index vertices_ = 0, faces_ = 0;  // written before
+    Index vertices_ = 0, faces_ = 0;  // number already written
 };
 
 void add_after_blank(TextWriter& text, double number)

@@ -1,4 +1,4 @@
-// A mesh as filed: polygons of any size over shared vertices.
+// A mesh as filed: polygons of any size with shared vertices.
 #pragma once
 
 #include "core/types.h"
@@ -8,7 +8,7 @@
 
 namespace koebe {
 
-/// What a mesh file holds and what is written back: same vertices, same faces, same order.
+/// The mesh of a file. It is written back with the same vertices and faces in the same order.
 struct PolygonMesh {
     Vertices vertices;                 ///< in the unit of the file, in 64 bits
     std::vector<Index> corners;        ///< vertex of each corner, face after face

@@ -23,9 +23,9 @@ using Triangle = std::array<Index, 3>;
 using Polygon = std::vector<Index>;
 using Positions = std::vector<Vector3d>;
 
-/// From this many corners on, CGAL's Delaunay search space beats the plain cubic method (measured: flat, 16 corners).
+/// From so many corners on, CGAL's Delaunay search space beats the cubic method (measured: flat, 16 corners).
 constexpr std::size_t delaunay_corners = 17;
-/// The cubic method as a last resort takes a second at this many corners.
+/// Largest number of corners for the cubic method, the last resort, which then takes a second.
 constexpr std::size_t cubic_corners = 500;
 
 /// The corners without immediate repetitions.
@@ -67,7 +67,7 @@ std::vector<Triangle> cut_quadrilateral(const Positions& p)
     return {{0, 1, 3}, {1, 2, 3}};
 }
 
-/// Whether the polygon goes from one vertex to the same next one twice: no slit does, and CGAL takes seconds to fail.
+/// Whether the polygon goes from one vertex to the same next one twice. No slit does, and CGAL takes seconds to fail.
 bool repeats_an_edge(const Polygon& polygon)
 {
     std::vector<std::array<Index, 2>> edges;
@@ -145,7 +145,7 @@ private:
     std::vector<Index> face_, collapsed_, uncut_;
 };
 
-/// A mesh of triangles alone, as they are.
+/// Keeps a mesh of triangles as it is.
 Triangulation as_it_is(const PolygonMesh& mesh)
 {
     Triangulation result;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t header_bytes = 84, facet_bytes = 50;  // the header ends with the number of facets
 constexpr std::size_t normal_bytes = 12;
 
-/// In its order -0 is 0, and a NaN is no other number.
+/// A point in an order where -0 is 0 and a NaN equals no number.
 struct Point : std::array<double, 3> {
     friend bool operator<(const Point& a, const Point& b)
     {
@@ -66,7 +66,7 @@ std::size_t facet_count(std::string_view bytes)
     return count;
 }
 
-/// Binary files, too, may start with "solid": the length is the better witness.
+/// Whether the length is that of a binary file. Binary files may start with "solid", too, so the length decides.
 bool has_length_of_binary(std::string_view bytes)
 {
     return bytes.size() == header_bytes + facet_bytes * facet_count(bytes);
@@ -78,8 +78,8 @@ bool is_text_stl(std::string_view bytes)
     return !has_length_of_binary(bytes) && bytes.substr(first).starts_with("solid");
 }
 
-/// What stands between "facet" and "endfacet": three times "vertex" and its coordinates, and other words.
-/// @return false if it is something else
+/// Takes the words between "facet" and "endfacet": three times "vertex" and its coordinates, and other words.
+/// @return false if they are different
 bool take_facet(std::string_view& text, std::array<Point, 3>& corners)
 {
     std::size_t count = 0;
@@ -134,7 +134,7 @@ PolygonMesh read_stl(std::string_view bytes)
     return read_binary_stl(bytes);
 }
 
-/// Normals follow from the corners. The two bytes behind each facet of a binary file are its colour for many programs.
+/// Normals follow from the corners. Many programs store a colour in the two bytes after each facet of a binary file.
 FileLosses stl_contents(std::string_view bytes)
 {
     if (is_text_stl(bytes)) return {};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-/// What each character is to words. A search among a few characters would be a call for each one of the text.
+/// The kind of each character. A search among a few characters would cost a call per character of the text.
 enum Kind : unsigned char { letter, blank, end_of_words };
 constexpr std::array<Kind, 256> kinds = [] {
     std::array<Kind, 256> result{};
@@ -36,7 +36,7 @@ const char* end_of_word(const char* here, const char* last)
     return here;
 }
 
-/// Neither from_chars takes a plus sign.
+/// from_chars accepts no plus sign.
 std::string_view without_plus(std::string_view word)
 {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
@@ -136,7 +136,7 @@ bool TextLines::next_plain(Index& number)
     if (error != std::errc()) return false;
     if (end != last && *end == '/') {
         end = end_of_word(end, last);
-        if (end[-1] == '\\') return false;  // which may join lines
+        if (end[-1] == '\\') return false;  // a backslash may join lines
     }
     if (end != last && kind_of(*end) == letter) return false;
     rest_ = {end, last};

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double millionths = 1e6;
 constexpr int decimals = 6;
-constexpr double least = 0.1;  // from here on a plain number is no longer than one with an exponent
-constexpr double most = 1e9;   // so that there are 15 digits at most
+constexpr double least = 0.1;  // from here on a plain number is at most as long as one with an exponent
+constexpr double most = 1e9;   // so that there are at most 15 digits
 
 /// The digits of a number of millionths, without zeros at the end.
 char* write_millionths(char* here, std::uint64_t count)
@@ -28,10 +28,10 @@ char* write_millionths(char* here, std::uint64_t count)
     return here;
 }
 
-/// Who writes next: the pieces of a text, made side by side, in their order.
+/// Lets threads write the pieces of a text in order.
 class Turns {
 public:
-    /// Calls write() when all before `begin` is written; not at all once another has failed.
+    /// Calls write() when all pieces before `begin` are written; not at all after another one has failed.
     template <class Write>
     void take(std::size_t begin, std::size_t end, const Write& write)
     {
@@ -60,7 +60,7 @@ private:
 
 }  // namespace
 
-/// Pieces are begun in their order, so that whose turn it is is always at work.
+/// Pieces are started in order, so the piece whose turn it is, is always being made.
 void TextWriter::add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add, std::size_t at_a_time)
 {
     if (ThreadShare::here() == 1 || static_cast<std::size_t>(count) <= at_a_time) {
@@ -81,8 +81,8 @@ void TextWriter::add_each(Index count, const std::function<void(TextWriter& text
     });
 }
 
-/// Of two different decimal numbers of 15 digits at most no two are the same double. So if a number of millionths is
-/// the value, there is no shorter text; and it is the value if its quotient is, which is rounded once, as a reader
+/// Two different decimal numbers of at most 15 digits are different doubles. So if a number of millionths equals the
+/// value, no other text is shorter. It equals the value if its quotient does, which is rounded once, as a reader
 /// rounds. Whole numbers are left to std::to_chars, which writes some with an exponent.
 char* write_number(char* here, double number)
 {

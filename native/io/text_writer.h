@@ -1,4 +1,4 @@
-// Text to a file, with numbers that read back to the same bits.
+// Writes text to a file, with numbers that read back to the same bits.
 #pragma once
 
 #include "core/types.h"
@@ -14,8 +14,8 @@
 
 namespace koebe::io {
 
-/// The shortest text that reads back to the same value, as std::to_chars writes it; three times as fast for what was a
-/// number of few decimals, as coordinates in files are.
+/// Writes the shortest text that reads back to the same value, as std::to_chars does; three times as fast for numbers
+/// of few decimals, as coordinates in files are.
 /// @param here room for 24 characters @return the end of the text
 char* write_number(char* here, double number);
 
@@ -33,7 +33,7 @@ public:
     void add(std::string_view word)
     {
         reserve(word.size());
-        if (word.size() > buffer_.size()) return file_->write(word);  // a piece's buffer has grown
+        if (word.size() > buffer_.size()) return file_->write(word);  // the buffer of a piece has grown
         if (!word.empty()) std::memcpy(buffer_.data() + used_, word.data(), word.size());
         used_ += word.size();
     }
@@ -47,7 +47,7 @@ public:
         else
             used_ += static_cast<std::size_t>(std::to_chars(here, here + longest_number, number).ptr - here);
     }
-    /// The same whole number twice, with a character between.
+    /// Adds the same whole number twice, with a character between.
     void add_twice(Index number, char between)
     {
         reserve(2 * longest_number + 1);
@@ -58,8 +58,8 @@ public:
         std::memcpy(buffer_.data() + used_ + 1, buffer_.data() + begin, length);
         used_ += length + 1;
     }
-    /// Calls add(text, i) once for each i < count, which adds what item i is, on this thread's share of threads, so
-    /// many at a time; the text is that of one after the other.
+    /// Calls add(text, i) for each i < count to add item i, on this thread's share of threads, in blocks. The text is
+    /// the same as one item after another would give.
     void add_each(Index count, const std::function<void(TextWriter& text, Index i)>& add, std::size_t at_a_time = 8192);
     /// @throws FileError
     void flush()
@@ -71,9 +71,9 @@ public:
 private:
     static constexpr std::size_t longest_number = 24;  // bytes: -1.2345678901234567e-308
 
-    /// Of a piece, which is kept until its turn.
+    /// For a piece, which is kept until its turn.
     TextWriter() : buffer_(std::size_t{1} << 18, '\0') {}
-    /// Room for so many characters; before a file, no more than the buffer holds.
+    /// Makes room for so many characters. With a file the buffer does not grow.
     void reserve(std::size_t count)
     {
         if (used_ + count <= buffer_.size()) return;

@@ -12,14 +12,14 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_known = 3;      // shapes: a parabola through them
+constexpr std::size_t most_known = 3;      // shapes: enough for a parabola
 constexpr Eigen::Index sampled = 2000;     // faces, about
 constexpr double shortest = 1e-12;         // edge, in units of the surface
-constexpr double independent = 1e-5;       // of what shapes differ by, not to be a multiple of other differences
-constexpr double most_left = 0.5;          // of the distance from the last shape that may be left
-constexpr double least = 0.5, most = 2.0;  // of a step along a loop, over the last one
+constexpr double independent = 1e-5;       // share of a shape's difference that must be new, or the shape adds nothing
+constexpr double most_left = 0.5;          // share of the distance from the last shape that a forecast may leave
+constexpr double least = 0.5, most = 2.0;  // ratio of a step along a loop to the last one
 
-/// Angles of a loop that begin within half a turn of others.
+/// Shifts a loop's angles by whole turns, so that they begin within half a turn of others.
 VectorXd beside(const VectorXd& angles, const VectorXd& others)
 {
     constexpr double turn = 2.0 * std::numbers::pi;

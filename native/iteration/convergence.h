@@ -1,4 +1,4 @@
-// When a Koebe iteration ends: how far its circles moved (paper, section 4.4).
+// Ends a Koebe iteration when its circles hardly move (paper, section 4.4).
 #pragma once
 
 #include "circles/circle_fit.h"
@@ -16,12 +16,12 @@ struct CircleState {
 /// The circle of each loop's image by least squares, and how round the images are.
 CircleState circle_state(const std::vector<VectorXcd>& images);
 
-/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), a length: the root of what the paper's termination test (section 4.4) takes. A
-/// first state is compared with circles of radius 0 at the origin.
+/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), a length: the root of the number in the paper's termination test (section 4.4).
+/// The first state is compared with circles of radius 0 at the origin.
 double circle_change(const CircleState& before, const CircleState& after);
 
-/// Whether the circles have moved by less than the tolerance in a sweep. With two loops one step is exact: it reads
-/// nothing of the state it replaces.
+/// Whether the circles moved by less than the tolerance in a sweep. With two loops one step is exact, as it does not
+/// depend on the state before.
 bool has_converged(const CircleState& before_sweep, const CircleState& after, double tolerance);
 
 }  // namespace koebe

@@ -39,7 +39,7 @@ struct Arc {
     double middle, width;
 };
 
-/// Values of clausen_cosine_3 at the differences of the arcs' ends, each computed when it is asked for first: each is
+/// Values of clausen_cosine_3 at the differences of the arcs' ends, computed when first asked for. Each value is used
 /// in four means.
 class EndDifferences {
 public:
@@ -57,14 +57,13 @@ public:
     }
 
 private:
-    static constexpr Eigen::Index most_kept = 512;  // of more, hardly any arcs are near and so far from equal
+    static constexpr Eigen::Index most_kept = 512;  // with more arcs, hardly any are near and of unequal width
     const VectorXd& angles_;
     bool kept_;
     MatrixXd value_;
 };
 
-/// From second antiderivatives of a kernel at the distances of the arcs' ends: its mean over two arcs of widths e and
-/// f.
+/// The mean of a kernel over two arcs of widths e and f, from its second antiderivative at the distances of their ends.
 double mean_of_second_differences(double ends_crossed, double starts, double ends, double crossed_starts, double e,
                                   double f)
 {
@@ -87,7 +86,7 @@ double near_mean(double t, double e, double f)
            t2 * t2 * t2 / 181440.0;
 }
 
-/// The same for arcs at least `far` widths apart: Taylor's series of the kernel in the widths, from the chord.
+/// The same mean for arcs at least `far` widths apart: Taylor's series of the kernel in the widths, from the chord.
 double far_mean(double chord_squared, double e, double f)
 {
     const double variance = (e * e + f * f) / 12.0;
@@ -157,10 +156,10 @@ MatrixXd of_hats(Arcs& arcs)
     return t;
 }
 
-constexpr double widest = 1.0;  // rad: what is added and taken off is that of arcs up to this width
+constexpr double widest = 1.0;  // rad: widest arc for which the corrections count in full
 
-/// S' T S. The row of S at a node: u - (d_- d_+ / 12) u'' by divided differences; at most 7/6 at the node itself, so
-/// that S is diagonally dominant.
+/// S' T S. Row of S at a node: u - (d_- d_+ / 12) u'' by divided differences. The diagonal is at most 7/6, so that S is
+/// diagonally dominant.
 MatrixXd of_sharpened(const MatrixXd& t, const Arcs& arcs)
 {
     const Eigen::Index m = arcs.count();
@@ -184,8 +183,8 @@ MatrixXd of_sharpened(const MatrixXd& t, const Arcs& arcs)
     return 0.5 * (result + result.transpose());
 }
 
-/// What the polygon lacks of the disk: over each arc a segment of mean height d^2 / 12, where |grad U|^2 has about
-/// twice the square of the slope along the arc. Up to `widest` that is at most 0.62 of what t has, so t stays positive.
+/// Subtracts the segments between circle and polygon. Over each arc a segment has mean height d^2 / 12, and |grad U|^2
+/// in it is about twice the squared slope along the arc. Up to `widest` that is at most 0.62 of t, so t stays positive.
 void take_off_segments(MatrixXd& t, const Arcs& arcs)
 {
     for (Eigen::Index a = 0; a < arcs.count(); ++a) {

@@ -1,19 +1,19 @@
-// The Dirichlet-to-Neumann matrix of a round disk with boundary nodes at given angles: a filled hole, in closed form.
+// The Dirichlet-to-Neumann matrix of a round disk that fills a hole, in closed form for nodes at given angles.
 #pragma once
 
 #include "core/types.h"
 
 namespace koebe {
 
-/// T(theta), (m, m), symmetric positive semidefinite, T 1 = 0: u' T u is the energy, the integral of |grad U|^2, of the
-/// harmonic function U with the values u_a at theta_a, as triangles between the nodes have it. Of m even nodes, d
-/// apart, the mode cos(k theta) has pi k (1 - k d^2 / 6) up to the fourth order.
+/// T(theta), (m, m), symmetric positive semidefinite, T 1 = 0. u' T u is the energy, the integral of |grad U|^2, of the
+/// harmonic function U with the values u_a at theta_a, as triangles between the nodes would give it. For m even nodes,
+/// d apart, the mode cos(k theta) has energy pi k (1 - k d^2 / 6) up to the fourth order.
 ///
 /// T = S' G S - P. G is the Galerkin matrix of |d/d theta| on periodic hat functions (docs/method.md, "The condensed
-/// engine"): G_ab = W_(a-1)(b-1) - W_(a-1)b - W_a(b-1) + W_ab with W_ef = -(1/pi) times the mean of
-/// ln |2 sin((s - t) / 2)| for s on arc e = [theta_e, theta_(e+1)] and t on arc f. S makes up for what a hat function
-/// lacks of a smooth one, k^2 d^2 / 6 of a mode, and P takes off the segments between the circle and the chords,
-/// d_e / 6 (u_e - u_(e+1))^2 for each (docs/numerics.md, "The angles").
+/// engine"): G_ab = W_(a-1)(b-1) - W_(a-1)b - W_a(b-1) + W_ab with W_ef = -(1/pi) times the mean of ln |2 sin((s - t) /
+/// 2)| for s on arc e = [theta_e, theta_(e+1)] and t on arc f. S corrects the error of hat functions, k^2 d^2 / 6 of a
+/// mode. P subtracts the segments between the circle and the chords, d_e / 6 (u_e - u_(e+1))^2 for each
+/// (docs/numerics.md, "The angles").
 ///
 /// @param angles (m >= 2) radians, strictly increasing, spanning less than 2 pi
 MatrixXd disk_dirichlet_to_neumann(const VectorXd& angles);

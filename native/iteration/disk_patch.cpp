@@ -16,7 +16,7 @@ namespace {
 
 constexpr double fan_margin = 1e-6;  // of the mean edge length
 
-/// Smallest angle of all triangles, radians; negative where one is flipped.
+/// Smallest angle of all triangles, radians; negative if a triangle is flipped.
 double smallest_angle(const VectorXcd& z, const Triangles& triangles)
 {
     double smallest = std::numbers::pi;
@@ -30,8 +30,8 @@ double smallest_angle(const VectorXcd& z, const Triangles& triangles)
     return smallest;
 }
 
-/// Coordinates to 26 binary digits. Which triangles a mesh gets hangs on the last bits of its points, those of a circle
-/// most of all; so meshing starts from points without last bits, or the unit of length would show in the result.
+/// Rounds coordinates to 26 binary digits. The triangles of a mesh depend on the last bits of its points, most of all
+/// for points of a circle. Without rounding, the unit of length would show in the result.
 VectorXcd on_grid(const VectorXcd& points)
 {
     constexpr double digits = 1 << 26;
@@ -61,7 +61,7 @@ DiskPatch::DiskPatch(const Vertices& loop, const DiskPatchOptions& options)
 {
     SurfacePatch fan = fill_on_surface(loop);
     lengths_ = edge_lengths(fan.vertices, fan.triangles);
-    // Vertices of a loop may lie on one line or one point: some margin in every triangle inequality (Sharp and Crane
+    // Vertices of a loop may lie on one line or at one point. A margin in every triangle inequality (Sharp and Crane
     // 2020) keeps the weights finite.
     const double mean = lengths_.mean();
     lengths_.array() += mean > 0.0 ? fan_margin * mean : 1.0;

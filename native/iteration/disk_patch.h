@@ -7,27 +7,27 @@
 namespace koebe {
 
 struct DiskPatchOptions {
-    /// In mean edges of the rim. 1 keeps second order (the paper says nothing of it): the disk of loop 0 may then
-    /// have more faces than the surface. With 1.5 the error is up to ten times larger, with 3 it stops falling.
+    /// In mean edges of the rim. 1 keeps second order (the paper gives no value); the disk of loop 0 may then have more
+    /// faces than the surface. With 1.5 the error is up to ten times larger, with 3 it stops falling.
     double longest_edge = 1.0;
     double gradation = 0.25;   ///< growth of the edge length per distance from the rim, dimensionless
-    double worst_angle = 0.5;  ///< a mesh whose smallest angle falls below this part of what it was is made anew
+    double worst_angle = 0.5;  ///< a mesh is made anew when its smallest angle falls below this share of its first one
 };
 
-/// A disk of triangles. Its first vertices are the loop's, in the loop's order.
+/// A disk of triangles. Its first vertices are the loop's vertices in the loop's order.
 class DiskPatch {
 public:
-    /// The fan around the mean of the loop's vertices, on the surface. @param loop (m, 3), the surface on the left
+    /// Makes the fan around the mean of the loop's vertices. @param loop (m, 3) positions, the surface on the left
     explicit DiskPatch(const Vertices& loop, const DiskPatchOptions& options = {});
 
-    /// Makes it the flat disk inside a polygon. A fan gives way to a Delaunay mesh of the polygon, which then follows
-    /// new polygons by the harmonic map of its present metric, as long as its triangles stay good.
+    /// Fills a polygon with flat triangles. A fan is replaced by a Delaunay mesh of the polygon. Later polygons get the
+    /// harmonic image of that mesh in its present metric, as long as its triangles stay good.
     /// @param rim (m) points of the unit circle, clockwise, as the loop runs seen from the disk
-    /// @param radius the disk's, by which the lengths are scaled
+    /// @param radius of the disk; it scales the lengths
     /// @throws InputError the polygon is not simple
     void refill(const VectorXcd& rim, double radius = 1.0);
 
-    /// Another metric on the same triangles.
+    /// Sets another metric on the same triangles.
     void set_lengths(const EdgeLengths& lengths) { lengths_ = lengths; }
 
     const Triangles& triangles() const { return triangles_; }

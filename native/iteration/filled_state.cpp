@@ -11,7 +11,7 @@
 namespace koebe {
 namespace {
 
-constexpr double worth_sharing = 10000.0;  // entries; fewer take less time than a thread to begin
+constexpr double worth_sharing = 10000.0;  // entries; fewer take less time than the start of a thread
 
 }  // namespace
 

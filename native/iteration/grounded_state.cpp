@@ -71,7 +71,7 @@ std::vector<VectorXd> DenseGroundedState::fluxes_against_outer()
     return result;
 }
 
-/// L' u = (0, L_11' 1) is 1 on the first inner loop and harmonic on the others.
+/// The solution of L' u = (0, L_11' 1) is 1 on the first inner loop and harmonic on the others.
 VectorXd DenseGroundedState::outer_flux()
 {
     VectorXd u = VectorXd::Zero(factor().rows());

@@ -1,4 +1,4 @@
-// The filled surface on its inner loops alone, the outer one held at 0: dense matrices.
+// The filled surface on its inner loops, the outer one held at 0, as dense matrices.
 #pragma once
 
 #include "iteration/filled_state.h"
@@ -8,15 +8,15 @@
 
 namespace koebe {
 
-/// A = Sigma + sum T_k, the loops in falling order, so that the first inner one is last. One factor A = L L' gives the
-/// images and the fluxes: with N = A^-1, N_kk = |L^-1 E_k|^2.
+/// A = Sigma + sum T_k with the loops in reverse order, so that the first inner loop is last. One factor A = L L' gives
+/// the images and the fluxes: with N = A^-1, N_kk = |L^-1 E_k|^2.
 class DenseGroundedState final : public GroundedState {
 public:
-    /// The first angles are those of the flux through each inner loop with all others open and at one voltage.
-    /// @param surface its boundary the concatenation of the loops, the outer one first, grounded or not; must outlive
-    /// this
-    /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive this
-    /// @param first_angles the first angles instead, if there are any
+    /// The first angles of an inner loop come from the flux through it with all other loops open and at one voltage.
+    /// @param surface its boundary is the concatenation of the loops, the outer one first, grounded or not; must
+    /// outlive the state
+    /// @param edges per loop: length on the surface of the edge from each vertex to the next; must outlive the state
+    /// @param first_angles the first angles instead, if not empty
     DenseGroundedState(const CondensedLaplacian& surface, const std::vector<VertexLoop>& loops,
                        const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles = {});
 
@@ -29,11 +29,11 @@ private:
     const MatrixXd& factor();
 
     const CondensedLaplacian& surface_;
-    std::vector<Index> begin_;  // of each inner loop among the rows
-    std::vector<Index> given_;  // for each row its number among the inner boundary vertices as given
+    std::vector<Index> begin_;  // first row of each inner loop
+    std::vector<Index> given_;  // for each row the given number among the inner boundary vertices
     MatrixXd sigma_, filled_;   // Sigma and A
-    MatrixXd coupling_;         // Sigma_R0, rows as given, unless the surface is grounded
-    MatrixXd factor_;           // L, where it is not stale
+    MatrixXd coupling_;         // Sigma_R0, rows in the given order, unless the surface is grounded
+    MatrixXd factor_;           // L, unless it is stale
     bool stale_ = true;
 };
 

@@ -19,23 +19,24 @@
 namespace koebe {
 namespace {
 
-constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and one on the way
+constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and a temporary
 
-constexpr std::size_t few_loops = 8;  // up to which CK and the first algorithm go step after step
+constexpr std::size_t few_loops = 8;  // up to here CK and the first algorithm take one step after another
 
 bool goes_in_turn(const std::vector<VertexLoop>& loops, const IterationOptions& options)
 {
-    if (loops.size() <= 2) return false;  // one or two leave no choice
+    if (loops.size() <= 2) return false;  // with one or two loops there is one order
     return options.in_turn || (options.method != Method::gk && loops.size() <= few_loops);
 }
 
 constexpr double longest = 3000.0;  // a Sigma of 72 MB
 
-/// Up to how many boundary vertices a Sigma is cheaper than the sparse matrix. A separator of the surface has some
-/// sqrt(V) vertices; a Sigma of 5 times as many costs as much as what the disks reach of the sparse factor.
+/// The largest number of boundary vertices for which a Sigma is cheaper than the sparse matrix. A separator of the
+/// surface has about sqrt(V) vertices; a Sigma of 5 times as many costs as much as the sparse factor's rows that the
+/// disks reach.
 double most_kept(double vertex_count) { return std::min(longest, 5.0 * std::sqrt(vertex_count)); }
 
-/// A third of the boundary costs more in Sigma than a substitution in each sweep, unless Sigma costs next to nothing.
+/// A third of the boundary in Sigma costs more than a substitution in each sweep, unless Sigma is small.
 bool grounds_outer_loop(const std::vector<VertexLoop>& loops, std::size_t boundary_size, double vertex_count)
 {
     const bool cheap = loops.size() > 2 && static_cast<double>(boundary_size) < 3.5 * std::sqrt(vertex_count);
@@ -63,7 +64,7 @@ std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, Boundary
     return std::make_unique<CondensedState>(condensed, loops, edges, flux_of_source, first);
 }
 
-/// The angles to begin with, none unless there is one for each vertex.
+/// The first angles from the last outcome; empty unless there is one angle per loop vertex.
 std::vector<VectorXd> first_angles(const KoebeOutcome* last, const std::vector<VertexLoop>& loops)
 {
     if (!last || last->angles.size() != loops.size()) return {};
@@ -72,7 +73,7 @@ std::vector<VectorXd> first_angles(const KoebeOutcome* last, const std::vector<V
     return last->angles;
 }
 
-/// How much of a sweep's change the next one has, at most; as long as rounding tells of it.
+/// The largest ratio of a sweep's change to the change before, as long as rounding does not hide it.
 class Contraction {
 public:
     explicit Contraction(double known) : known_(known) {}
@@ -126,7 +127,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surf
     const std::unique_ptr<FilledState> state =
         first_state(laplacian, surface, loops, edges, at_once, flux_of_source, first);
     const Sweep sweep = fixed_sweep(loop_count, options.method);
-    std::vector<Sweep> order;  // what a sweep takes together, and after it the next such
+    std::vector<Sweep> order;  // the steps that a sweep takes together, one set after another
     if (state->opens_at_once())
         order.push_back(sweep);
     else
@@ -136,7 +137,7 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surf
         state->start(outcome.raised_angles);
         now = circle_state(state->images());
     }
-    // Steps that take effect together share the change and the roundness they lead to.
+    // Steps that take effect together share the resulting change and roundness.
     const auto record = [&](const Sweep& together) {
         outcome.loops = state->images();
         CircleState next = circle_state(outcome.loops);

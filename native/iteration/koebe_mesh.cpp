@@ -26,10 +26,10 @@ struct FilledMesh {
     Triangles triangles;
     EdgeLengths lengths;
     Index vertex_count = 0;
-    std::vector<Index> offset;  // per disk: what its inner vertices' numbers are raised by; -1 if it is removed
+    std::vector<Index> offset;  // per disk: added to the numbers of its inner vertices; -1 if the disk is removed
 };
 
-/// The vertex deepest inside the surface, all of its loops taken as boundary; -1 without inner vertices.
+/// The vertex deepest inside the surface, with all loops as boundary; -1 without inner vertices.
 Index deepest_inside(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                      const std::vector<VertexLoop>& loops)
 {
@@ -39,7 +39,7 @@ Index deepest_inside(const Triangles& triangles, const EdgeLengths& lengths, Ind
     return deepest_vertex(triangles, lengths, outer);
 }
 
-/// The reflection tau in the unit circle around a point, moved there: z -> 1 / conj(z - center).
+/// The reflection tau in the unit circle around a point, with that point moved to 0: z -> 1 / conj(z - center).
 struct Reflection {
     Complex center;
 
@@ -56,7 +56,7 @@ struct Reflection {
     }
 };
 
-/// The picture that a step draws: positions of what it has mapped, and the circles of the loops it has opened.
+/// The picture that a step draws: positions of the vertices that it maps, and circles of the loops that it opens.
 struct StepImage {
     VectorXcd positions;
     std::vector<Circle> circles;
@@ -83,8 +83,8 @@ public:
         }
     }
 
-    /// One step: the disks of the open loops removed, the rest mapped with the first of them on the unit circle, their
-    /// circles filled. @param next the loops that the next step opens @return the image of S, (V)
+    /// Takes one step: removes the disks of the open loops, maps the rest with the first of these loops on the unit
+    /// circle, fills their circles. @param next the loops that the next step opens @return the image of S, (V)
     VectorXcd step(const OpenedLoops& open, const OpenedLoops& next)
     {
         const FilledMesh mesh = assemble(open);
@@ -107,10 +107,10 @@ public:
         return of_surface;
     }
 
-    /// Steps of angles raised since the last call.
+    /// Number of angle steps raised since the last call.
     int take_raised() { return std::exchange(raised_, 0); }
 
-    /// With one loop: no disk is left to fill.
+    /// The step with one loop, which leaves no disk to fill.
     void open_disk()
     {
         const DiskMap map = disk_map(triangles_, lengths_, vertex_count_, loops_[0], {.inside = false});
@@ -143,15 +143,15 @@ private:
         return {map.positions, {Circle{}, Circle{0.0, map.inner_radius}}};
     }
 
-    /// The surface with all disks but those, the ones whose rim has moved filled again.
+    /// The surface with all disks except the removed ones. Fills disks again whose rim has moved.
     FilledMesh assemble(const std::vector<int>& removed)
     {
         FilledMesh mesh{triangles_, lengths_, vertex_count_, std::vector<Index>(loops_.size(), -1)};
         Eigen::Index row = triangles_.rows(), face_count = row;
         for (std::size_t k = 0; k < loops_.size(); ++k)
             if (std::find(removed.begin(), removed.end(), static_cast<int>(k)) == removed.end()) {
-                // The disk outside a circle is brought in by the reflection in that circle, which keeps the rim. So
-                // each rim is that of a disk, and clockwise where its angles are counter-clockwise.
+                // The reflection in a circle brings in the disk outside it, and keeps the rim. So each rim bounds a
+                // disk, and runs clockwise where its angles are counter-clockwise.
                 if (std::exchange(stale_[k], 0))
                     patches_[k].refill(unit_circle_points(angles_[k]).conjugate(), radius_[k]);
                 mesh.offset[k] = mesh.vertex_count - patches_[k].rim_size();
@@ -172,7 +172,7 @@ private:
         return mesh;
     }
 
-    /// @param opened_next its disk, where the reflection's centre lies, is refilled before it is used; -1: none
+    /// @param opened_next this disk, which holds the reflection's centre, is refilled before it is used; -1: none
     void take_planar_metric(const FilledMesh& mesh, const VectorXcd& z, int opened_next)
     {
         const EdgeLengths lengths = planar_lengths(z, mesh.triangles);
@@ -186,8 +186,8 @@ private:
         }
     }
 
-    /// The angles at which a loop runs round 0, counter-clockwise: one that runs clockwise is seen in a mirror. Steps
-    /// that are no steps forward are raised to small ones.
+    /// Sets the angles at which a loop runs round 0, counter-clockwise. A clockwise loop is mirrored first. Steps that
+    /// do not go forward are raised to small ones.
     void set_angles(int k, const VectorXcd& circle)
     {
         const Eigen::Index m = circle.size();
@@ -213,13 +213,13 @@ private:
     const Triangles& triangles_;
     EdgeLengths lengths_;
     Index vertex_count_;
-    std::optional<Index> center_;    // p of the Riemann map (section 4.3), from the first step that takes one
+    std::optional<Index> center_;    // p of the Riemann map (section 4.3), once a step has chosen it
     std::vector<VectorXd> weights_;  // per loop: share of each vertex in its length
-    std::vector<VectorXd> angles_;   // per loop: where its vertices are on the rim of D_k, counter-clockwise
-    std::vector<double> radius_;     // per loop: of D_k, in the unit of the surface's lengths
+    std::vector<VectorXd> angles_;   // per loop: angles of its vertices on the rim of D_k, counter-clockwise
+    std::vector<double> radius_;     // per loop: radius of D_k, in the unit of the surface's lengths
     std::vector<DiskPatch> patches_;
     int raised_ = 0;
-    std::vector<char> stale_;  // per loop: its disk has not been filled since the angles changed
+    std::vector<char> stale_;  // per loop: whether its disk must be filled again, as the angles have changed
 };
 
 /// The images of the loops.

@@ -1,4 +1,4 @@
-// What a Koebe iteration of either engine gives.
+// The result of a Koebe iteration with either engine.
 #pragma once
 
 #include "circles/circle_fit.h"
@@ -9,17 +9,17 @@
 
 namespace koebe {
 
-/// One step of the Koebe iteration. The condensed engine's steps of one sweep take effect together, unless in turn:
-/// they share the sweep's change, and its roundness stands in the last of them, the one before in the others.
+/// One step of the Koebe iteration. In the condensed engine the steps of a sweep take effect together, unless in turn.
+/// They share the sweep's change; the last of them has its roundness, the others have the roundness before.
 struct KoebeStep {
     int step = 0;
-    std::pair<int, int> pair{0, 0};  ///< the two loops left open; (k, k) where it is one
+    std::pair<int, int> pair{0, 0};  ///< the two loops left open; (k, k) for one loop
     double change = 0.0;             ///< (sum |c' - c|^2 + |r' - r|^2)^(1/2) over all circles (paper, section 4.4)
     MeanRoundness mean_roundness;
-    std::vector<Circle> circles;  ///< of the loops after the step, or after those that take effect together
+    std::vector<Circle> circles;  ///< after the step, or after all steps that take effect together
 };
 
-/// What a Koebe iteration of either engine hands to the finish.
+/// The part of the result that the rest of the pipeline needs.
 struct KoebeOutcome {
     std::vector<VectorXcd> loops;  ///< image of each loop in the unit disk: the first on the unit circle, the others
                                    ///< round up to the resolution of the mesh
@@ -27,10 +27,11 @@ struct KoebeOutcome {
     int sweeps = 0, steps = 0;
     bool converged = false;
     int raised_angles = 0;  ///< boundary nodes whose flux vanished in the last sweep
-    /// Where a run on a surface of nearly the same shape can begin (koebe_condensed).
-    std::vector<VectorXd> angles;  ///< of the vertices of each loop
-    double contraction = 1.0;      ///< the largest share of a sweep's change that the next sweep had
-    /// (V) per step, if asked for: where its map takes the surface, the first loop that it opened on the unit circle.
+    /// The start for a run on a surface of nearly the same shape (koebe_condensed).
+    std::vector<VectorXd> angles;  ///< of each loop's vertices
+    double contraction = 1.0;      ///< the largest ratio of a sweep's change to the change before
+    /// If asked for: per step (V), the step's image of the surface, with the first loop that it opened on the unit
+    /// circle.
     std::vector<VectorXcd> step_images;
 };
 

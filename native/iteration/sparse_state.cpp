@@ -21,7 +21,7 @@ SparseState::SparseState(const SparseMatrix& laplacian, FilledLaplacian& surface
     if (!begun()) take_arc_lengths(inner_loops());
 }
 
-/// K between the outer loop and the vertices beside it.
+/// Takes the block of K between the outer loop and its neighbours.
 void SparseState::couple(const SparseMatrix& laplacian, const VertexLoop& outer)
 {
     std::vector<Index> row(laplacian.rows(), -1);
@@ -53,7 +53,7 @@ const SparseCholesky& SparseState::factor()
     return *factor_;
 }
 
-/// A z = -K z_0, z_0 the outer loop alone, wanted on the inner loops.
+/// Solves A z = -K z_0 on the inner loops, z_0 on the outer loop alone.
 std::vector<VectorXcd> SparseState::images()
 {
     const VectorXcd outer = rim();

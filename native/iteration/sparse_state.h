@@ -1,4 +1,4 @@
-// The filled surface as one sparse matrix: for boundaries too long for dense matrices of all their vertices.
+// The filled surface as one sparse matrix, for boundaries too long for dense matrices.
 #pragma once
 
 #include "iteration/filled_state.h"
@@ -9,13 +9,13 @@
 
 namespace koebe {
 
-/// A = K + sum T_k over all vertices but those of the outer loop, the disks as small dense blocks. Of its factor only
-/// what the disks reach is computed anew in a sweep, and from it come the images and the blocks N_kk of N = A^-1.
+/// A = K + sum T_k over all vertices but the outer loop's, with the disks as small dense blocks. A sweep recomputes
+/// only the part of the factor that the disks reach. The factor gives the images and the blocks N_kk of N = A^-1.
 class SparseState final : public GroundedState {
 public:
-    /// The first angles are those that one sweep makes of the arc length.
-    /// @param first_angles these instead, if there are any
-    /// @param surface of the same Laplacian, its loops these; must outlive this
+    /// The first angles come from one sweep that starts at arc lengths.
+    /// @param first_angles the first angles instead, if not empty
+    /// @param surface of the same Laplacian and these loops; must outlive the state
     /// @param laplacian (V, V) both triangles stored
     SparseState(const SparseMatrix& laplacian, FilledLaplacian& surface, const std::vector<VertexLoop>& loops,
                 const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles = {});
@@ -37,11 +37,11 @@ private:
     Index vertex_count_;
     FilledLaplacian& surface_;
     std::vector<VertexLoop> inner_loops_;
-    std::vector<Index> inner_;                // all their vertices
+    std::vector<Index> inner_;                // all vertices of the inner loops
     std::vector<Index> beside_outer_;         // the outer loop's neighbours
     SparseMatrix coupling_;                   // K, (neighbours, outer loop)
     std::vector<MatrixXd> disks_;             // T_k of the inner loops
-    const SparseCholesky* factor_ = nullptr;  // of A, nullptr after a change of the disks
+    const SparseCholesky* factor_ = nullptr;  // of A; nullptr after a change of the disks
 };
 
 }  // namespace koebe

@@ -25,7 +25,7 @@ Sweep fixed_sweep(int loop_count, Method method)
 
 std::vector<Sweep> round_of_changing_pairs(int loop_count)
 {
-    const int seats = loop_count + loop_count % 2;  // an empty one with an odd number
+    const int seats = loop_count + loop_count % 2;  // one seat is empty for an odd number
     std::vector<int> seat(seats);
     std::iota(seat.begin(), seat.end(), 0);
     std::vector<Sweep> round;

@@ -1,4 +1,4 @@
-// Dirichlet problems on a surface whose boundary is given.
+// Dirichlet problems on a surface with given boundary.
 #pragma once
 
 #include "core/types.h"
@@ -10,10 +10,10 @@ namespace koebe {
 /// u with K u = f inside and u = 0 on the boundary, and the flux of f that arrives at each boundary vertex.
 struct InteriorSolution {
     VectorXd values;         ///< (V)
-    VectorXd boundary_flux;  ///< (m), of the same sum as f
+    VectorXd boundary_flux;  ///< (m), with the same sum as f
 };
 
-/// A factorization of a surface's Laplacian K that solves for the interior. The boundary's order is that in which it
+/// A factorization of a surface's Laplacian K that solves for the interior. The boundary keeps the order in which it
 /// was given.
 class BoundarySolver {
 public:
@@ -22,13 +22,13 @@ public:
     BoundarySolver& operator=(BoundarySolver&&) noexcept = default;
     virtual ~BoundarySolver() = default;
 
-    /// The same of another Laplacian with the same pattern: of the surface with its vertices elsewhere.
-    /// @throws SolverError as the constructor; then this cannot be used any more
+    /// Factors the Laplacian of the same surface with moved vertices; it has the same pattern.
+    /// @throws SolverError as the constructor; the solver is unusable afterwards
     virtual void renew(const SparseMatrix& laplacian) = 0;
 
-    /// Takes the boundary in another order from now on: what is given and returned goes by it.
+    /// Takes the boundary vertices in another order from now on, for arguments and results.
     /// @param boundary the same vertices
-    /// @return false, and nothing has changed, if it cannot
+    /// @return false if the solver cannot change the order; then nothing has changed
     virtual bool reorder_boundary(const std::vector<Index>& boundary) = 0;
 
     virtual Index boundary_size() const = 0;

@@ -14,7 +14,7 @@
 
 namespace koebe::detail {
 
-/// A started workspace; settings are CHOLMOD's own but for supernodal L L' and silence.
+/// A started workspace with CHOLMOD's defaults, except for a supernodal L L' and no output.
 class CholmodCommon : NotCopied {
 public:
     CholmodCommon()
@@ -50,7 +50,7 @@ inline Factor own(cholmod_factor* factor, CholmodCommon& common)
     return {factor, [&common](cholmod_factor* f) { cholmod_free_factor(&f, common.get()); }};
 }
 
-/// A view without copying; CHOLMOD takes it as const in all but type.
+/// A view without copying. CHOLMOD does not write to it, though its type is not const.
 inline cholmod_sparse view(const SparseMatrix& matrix, int symmetry)
 {
     cholmod_sparse result{};

@@ -7,10 +7,10 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t columns_at_a_time = 32768;  // columns of a thread
+constexpr std::size_t columns_at_a_time = 32768;  // columns per thread
 
-/// K on the interior, the unit matrix where something is cut off, nothing between them; 1 more on the diagonal of what
-/// is kept to the end. The pattern does not depend on the values.
+/// K on the interior, the unit matrix on cut vertices, nothing between them; 1 more on the diagonal of kept vertices.
+/// The pattern does not depend on the values.
 SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<char>& is_cut,
                              const std::vector<Index>& kept)
 {
@@ -66,7 +66,7 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
 {
 }
 
-/// What is factored.
+/// The matrix that is factored.
 SparseMatrix CondensedLaplacian::shifted(const SparseMatrix& laplacian) const
 {
     std::vector<char> is_cut(laplacian.rows(), 0);

@@ -1,4 +1,4 @@
-// The dense kernels by their names in BLAS and LAPACK. For the .cpp files of this folder only.
+// The dense kernels under their BLAS and LAPACK names. For the .cpp files of this folder only.
 #pragma once
 
 #include "bundle/kernels/dense_kernels.h"
@@ -10,7 +10,7 @@ namespace koebe::detail {
 KOEBE_DENSE_KERNELS(KOEBE_FORWARD)
 #undef KOEBE_FORWARD
 
-/// C = beta C + alpha A B', the lower trapezoid alone: the first n rows of A and C are a lower triangle.
+/// C = beta C + alpha A B', for the lower trapezoid alone: the first n rows of A and C form a lower triangle.
 /// @param a (m, k) @param b (n, k), the first rows of A @param c (m, n)
 inline void lower_product(int m, int n, int k, double alpha, const double* a, int a_stride, double beta, double* c,
                           int c_stride)

@@ -81,9 +81,9 @@ MatrixXd lower_times_transpose(const MatrixXd& lower)
 {
     const int m = static_cast<int>(lower.rows());
     MatrixXd product(m, m);
-    // A block of columns of L touches only the rows from its own down, so the zeros above cost nothing. The first one
-    // reaches all rows and begins with beta = 0: zeros written beforehand would be pages that are read before they are
-    // written, and each costs an interrupt of all cores that run this program.
+    // A block of columns of L touches only the rows from its own down, so the zeros above cost nothing. The first block
+    // reaches all rows and has beta = 0. Zeros written beforehand would be pages read before they are written, and each
+    // such page interrupts all cores that run this program.
     const int block = 256;
     const double zero = 0.0, one = 1.0;
     for (int k = 0; k < m; k += block) {

@@ -6,11 +6,11 @@
 
 namespace koebe {
 
-/// The factor L of matrix = L L', in the lower triangle; what stands above it is not zero.
+/// The factor L of matrix = L L', in the lower triangle. Entries above the diagonal are not zero.
 /// @throws SolverError if the matrix is not positive definite
 MatrixXd spd_factor(MatrixXd matrix);
 
-/// The inverse of a lower triangular matrix, zero above the diagonal; what stands there is not read.
+/// The inverse of a lower triangular matrix, zero above the diagonal. Entries above the diagonal are not read.
 MatrixXd lower_inverse(MatrixXd lower);
 
 /// Solution of matrix * x = right_hand_side. @throws SolverError if the matrix is not positive definite
@@ -19,11 +19,11 @@ MatrixXd spd_solve(MatrixXd matrix, MatrixXd right_hand_side);
 /// The product A' A.
 MatrixXd gram(const Eigen::Ref<const MatrixXd>& a);
 
-/// The product L L' of a lower triangular matrix (its strict upper part is not read).
+/// The product L L' of a lower triangular matrix. Entries above the diagonal are not read.
 MatrixXd lower_times_transpose(const MatrixXd& lower);
 
-/// Eigen's products in blocks of one size from now on, which it takes from the processor's caches else: sums would have
-/// another order on another processor. Every call that computes begins with it.
+/// Makes Eigen's products use blocks of one size. Eigen takes the size from the processor's caches otherwise, and sums
+/// would have another order on another processor. Every call that computes starts with this.
 KOEBE_API void fix_product_blocks();
 
 }  // namespace koebe

@@ -10,9 +10,9 @@
 namespace koebe {
 namespace {
 
-constexpr double stiffness = 1e20;  // over the largest diagonal entry: 1 over it is nothing beside rounding
+constexpr double stiffness = 1e20;  // over the largest diagonal entry: its inverse vanishes beside rounding
 
-/// The lower triangle of K cut off at the first loop, with an entry between any two vertices of each other loop.
+/// The lower triangle of K without the first loop, with an entry between any two vertices of each other loop.
 SparseMatrix with_room_for_disks(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
 {
     constexpr Index none = -1, first = 0;
@@ -88,7 +88,7 @@ const SparseCholesky& FilledLaplacian::fill(const std::vector<MatrixXd>& disks)
     return cholesky_;
 }
 
-/// Solves K_II u_I = f_I; what comes on the boundary is not to be read. NaN if K_II is not positive definite.
+/// Solves K_II u_I = f_I. Boundary entries are undefined. Returns NaN if K_II is not positive definite.
 MatrixXd FilledLaplacian::solve_inside(MatrixXd load)
 {
     load(boundary_.vertices(), Eigen::all).setZero();

@@ -1,4 +1,4 @@
-// The sparse factor of a surface with disks in its loops, which change.
+// The sparse factor of a surface with disks in its loops; the disks change.
 #pragma once
 
 #include "core/types.h"
@@ -10,15 +10,15 @@
 
 namespace koebe {
 
-/// For long boundaries, of which nothing dense is kept: the factor of K with disks in the loops, the first one
-/// grounded, the others where AMD puts them. fill() takes other disks, and only what they reach is computed anew; for
-/// K_II a large number takes the place of the disks.
+/// For long boundaries, where no dense matrix is kept: factors K with disks in the loops, the first loop grounded, the
+/// others in AMD's order. fill() takes other disks and recomputes only the rows that they reach. To factor K_II, a
+/// large number replaces the disks.
 class FilledLaplacian final : public BoundarySolver {
 public:
     /// @param laplacian (V, V) cotan Laplacian, both triangles stored
     /// @param loops the whole boundary, two loops or more; it keeps its order
-    /// @throws SolverError if K is not positive definite where no disk reaches; if K_II is not elsewhere, extend() and
-    /// solve_interior() give NaN
+    /// @throws SolverError if K is not positive definite on rows that no disk reaches. If K_II is not positive definite
+    /// on other rows, extend() and solve_interior() return NaN
     FilledLaplacian(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops);
 
     void renew(const SparseMatrix& laplacian) override;
@@ -27,10 +27,10 @@ public:
     MatrixXd extend(const MatrixXd& boundary_values) override;
     InteriorSolution solve_interior(const VectorXd& load) override;
 
-    /// The factor of K with these symmetric blocks on all loops but the first, that one grounded and each entry of a
-    /// block where its loop's vertices stand in the constructor's order; 1 in the place of what is grounded. Its last
-    /// rows are the second loop's. Good until the next call of any other function.
-    /// @throws SolverError if that is not positive definite
+    /// Factors K plus one symmetric block for each loop after the first, its rows in the constructor's order. The first
+    /// loop is grounded, with 1 on the diagonal. The last rows of the factor are the second loop's. Any other call
+    /// invalidates it.
+    /// @throws SolverError if the sum is not positive definite
     const SparseCholesky& fill(const std::vector<MatrixXd>& disks);
 
 private:
@@ -40,8 +40,8 @@ private:
     std::vector<std::vector<Index>> loops_;
     GroundColumns boundary_;
     SparseCholesky cholesky_;
-    std::vector<MatrixXd> stiff_;  // in place of the disks they hold the loops at 0
-    bool is_filled_ = true;        // the factor is of disks
+    std::vector<MatrixXd> stiff_;  // replace the disks, to hold the loops at 0
+    bool is_filled_ = true;        // whether the factor is of disks
 };
 
 }  // namespace koebe

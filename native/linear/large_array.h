@@ -1,4 +1,4 @@
-// Memory for the numbers of a factor. For the .cpp files of this folder only.
+// Memory for the values of a factor. For the .cpp files of this folder only.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace koebe::detail {
 
-/// Numbers that nobody has set yet: the thread that sets them pays for their pages.
+/// An uninitialized array: the thread that sets a value first pays for its page.
 class LargeArray {
 public:
     LargeArray() = default;

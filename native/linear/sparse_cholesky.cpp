@@ -19,10 +19,10 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t solved_at_a_time = 32768;  // rows of a thread
-constexpr Index pieces_of_large = 10;            // at least: more of them take longer to find than they save
+constexpr std::size_t solved_at_a_time = 32768;  // rows per thread
+constexpr Index pieces_of_large = 10;            // at least; more pieces take longer to find than they save
 
-/// @param room for the upper triangle, where it is missing
+/// @param room memory for the matrix with its upper triangle, if that is missing
 const SparseMatrix& both_triangles(const SparseMatrix& matrix, SparseMatrix& room)
 {
     for (Index c = 0; c < static_cast<Index>(matrix.cols()); ++c)
@@ -39,7 +39,7 @@ struct SparseCholesky::Impl {
     SupernodalFactor l;
     std::vector<Index> last;
     MatrixXd trailing;                           // L_BB in the factor's own order
-    std::unique_ptr<MultifrontalFactor> fronts;  // of a matrix that changes in a few rows
+    std::unique_ptr<MultifrontalFactor> fronts;  // for a matrix that changes in a few rows
 
     /// @throws OutOfMemory where the factor would not fit
     static std::unique_ptr<Impl> of(Analysis analysis, const std::vector<Index>& last)

@@ -1,4 +1,4 @@
-// Sparse Cholesky factorization on CHOLMOD (Chen, Davis, Hager, Rajamanickam 2008), and a Dirichlet solve on it.
+// Sparse Cholesky factorization on CHOLMOD (Chen, Davis, Hager, Rajamanickam 2008), and a Dirichlet solver on it.
 #pragma once
 
 #include "core/types.h"
@@ -9,7 +9,7 @@
 
 namespace koebe {
 
-/// Factor A = L L' of a symmetric positive definite matrix; supernodal, so that dense kernels do the work.
+/// Factor A = L L' of a symmetric positive definite matrix. It is supernodal: dense kernels do the work.
 ///
 /// Some rows B can be kept to the end. Then the trailing block gives the Schur complement A_BB - A_BI A_II^-1 A_IB =
 /// L_BB L_BB', and the leading part is the factor of A_II, I all other rows.
@@ -17,23 +17,23 @@ class SparseCholesky {
 public:
     /// @param matrix symmetric: the lower triangle, or both
     /// @param last the rows B
-    /// @param split_rows a larger matrix is cut into pieces that are factored side by side (factor/analysis.h)
+    /// @param split_rows a matrix with more rows is cut into pieces that are factored side by side (factor/analysis.h)
     /// @throws SolverError if the matrix is not positive definite
     explicit SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last = {}, Index split_rows = 50000);
 
-    /// Prepares the factors of A + blocks on some sets of rows, A = matrix; there is none before refactorize(blocks).
-    /// @param changing the sets; A has an entry, if only an explicit 0, between any two rows of one
+    /// Prepares factors of A + blocks on some sets of rows, A = matrix. refactorize(blocks) makes the first factor.
+    /// @param changing the sets; A has an entry, if only an explicit 0, between any two rows of a set
     SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last,
                    const std::vector<std::vector<Index>>& changing);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-    /// Factor of another matrix with the same pattern; of A + blocks there is none then before refactorize(blocks).
+    /// Factors another matrix with the same pattern. With changing blocks there is no factor until refactorize(blocks).
     void refactorize(const SparseMatrix& matrix);
 
-    /// Factor of A + symmetric blocks, one on each set that changes: only what they reach is computed anew.
-    /// @throws SolverError if that is not positive definite
+    /// Factors A + symmetric blocks, one for each set that changes. Only the supernodes that they reach are recomputed.
+    /// @throws SolverError if the sum is not positive definite
     void refactorize(const std::vector<MatrixXd>& blocks);
 
     /// Rows of the matrix.
@@ -48,10 +48,10 @@ public:
     /// x with the given values on B, (b, C), and (A x)_I = f_I: (n, C). @param f (n, C), not read on B; empty: 0
     MatrixXd extend(const MatrixXd& last_values, const MatrixXd& f = {}) const;
 
-    /// The rows of A^-1 f that are wanted, (wanted, C): the fewer those and the fewer f is not 0 on, the cheaper.
+    /// The wanted rows of A^-1 f, (wanted, C). Fewer wanted rows and fewer nonzero rows of f take less time.
     MatrixXd solve_for(const std::vector<Index>& wanted, const MatrixXd& f) const;
 
-    /// The rows of extend(last_values) that are wanted.
+    /// The wanted rows of extend(last_values).
     MatrixXd extend_to(const std::vector<Index>& wanted, const MatrixXd& last_values) const;
 
     /// -A_BI A_II^-1 f_I, in the order of B: (b, C). @param f (n, C), not read on B
@@ -60,8 +60,8 @@ public:
     /// x with (A x)_I = f_I and x = 0 on B, and -(A x)_B, in the order of B. @param f (n), not read on B
     std::pair<VectorXd, VectorXd> solve_inner(const VectorXd& f) const;
 
-    /// The blocks of A^-1 of sets of rows between any two of which A has an entry, if only an explicit 0: by selected
-    /// inversion, at about twice the cost of the factorization.
+    /// The blocks of A^-1 for sets of rows. A has an entry, if only an explicit 0, between any two rows of a set.
+    /// Selected inversion takes about twice as long as the factorization.
     std::vector<MatrixXd> inverse_blocks(const std::vector<std::vector<Index>>& sets) const;
 
 private:
@@ -81,7 +81,7 @@ public:
     MatrixXd solve(const MatrixXd& values) const;
 
 private:
-    std::vector<Index> free_;  // vertices solved for
+    std::vector<Index> free_;  // vertices that are solved for
     std::vector<Index> fixed_;
     SparseMatrix coupling_;  // K_IB
     std::unique_ptr<SparseCholesky> cholesky_;

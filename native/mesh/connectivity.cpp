@@ -23,7 +23,7 @@ struct Entry {
     }
 };
 
-/// Buckets hold one fan at most, so nearly all are short.
+/// A bucket holds one fan at most, so nearly all buckets are short.
 void sort_bucket(Entry* first, Entry* last)
 {
     constexpr std::ptrdiff_t few = 24;
@@ -42,7 +42,7 @@ std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count
 {
     const Index halfedge_count = static_cast<Index>(triangles.size());
 
-    // Bucket the half-edges by their smaller vertex; a bucket holds at most one fan, so it is short.
+    // Bucket the half-edges by their smaller vertex.
     std::vector<Index> bucket_begin(vertex_count + 1, 0);
     const auto each_edge_of = [&](std::size_t begin, std::size_t end, const auto& work) {
         for (Index f = 0; f < halfedge_count; f += 3)

@@ -16,7 +16,7 @@ inline Index previous_halfedge(Index halfedge) { return halfedge % 3 == 0 ? half
 inline Index origin(const Triangles& triangles, Index halfedge) { return triangles.data()[halfedge]; }
 inline Index target(const Triangles& triangles, Index halfedge) { return triangles.data()[next_halfedge(halfedge)]; }
 
-/// Pairs the half-edges of each edge, whatever the orientation of its faces.
+/// Pairs the half-edges of each edge. Faces may have any orientation.
 /// @return (3F) the other half-edge on the same edge, or no_twin on the boundary
 /// @throws TopologyError nonmanifold_edge where an edge has three or more faces
 std::vector<Index> pair_halfedges(const Triangles& triangles, Index vertex_count);

@@ -8,7 +8,7 @@
 namespace koebe {
 namespace {
 
-/// OpenMesh reports what it refuses on its error stream; the library never prints.
+/// OpenMesh prints errors on its error stream. The library never prints.
 struct OpenMeshErrorsDisabled {
     OpenMeshErrorsDisabled() { omerr().disable(); }
     ~OpenMeshErrorsDisabled() { omerr().enable(); }

@@ -25,7 +25,7 @@ struct Orientation {
     Index component_count = 0;
 };
 
-/// Whether the first face's component is all there is.
+/// Whether the first face's component holds all faces.
 bool is_connected(const std::vector<Index>& twin)
 {
     std::vector<bool> is_met(twin.size() / 3, false);
@@ -43,7 +43,7 @@ bool is_connected(const std::vector<Index>& twin)
     return queue.size() == is_met.size();
 }
 
-/// What nearly all meshes are: in one piece, all faces of one orientation.
+/// Whether the mesh is connected and all faces have one orientation, as in nearly all meshes.
 bool is_in_order(const Triangles& triangles, const std::vector<Index>& twin)
 {
     return found_in_pieces(static_cast<Index>(twin.size()),
@@ -100,7 +100,7 @@ void require_one_component(const Orientation& orientation)
                         outside);
 }
 
-/// Reverses the minority, and renumbers the half-edges that this moves.
+/// Reverses the minority of the faces, and renumbers the half-edges that this moves.
 void apply_orientation(Surface& surface, std::vector<char> reversed)
 {
     const auto reversed_count = std::count(reversed.begin(), reversed.end(), char{1});
@@ -125,7 +125,7 @@ void require_manifold_vertices(const Surface& surface)
             const Index v = origin(surface.triangles, h);
             if (v < static_cast<Index>(begin) || v >= static_cast<Index>(end)) continue;
             ++face_count[v];
-            // Clockwise from a boundary half-edge one meets the whole fan.
+            // A clockwise walk from a boundary half-edge meets the whole fan.
             if (outgoing[v] == no_twin || surface.twin[h] == no_twin) outgoing[v] = h;
         }
     });

@@ -67,7 +67,7 @@ void Sheet::turn_back(std::size_t piece, const Circle& place, MappedPiece& mappe
         if (v >= 0) held.push_back(v);
     auto rows = points_.middleRows(first_vertex_[piece], own.vertices.rows());
     PlanarPoints points = rows;
-    // In units of the piece: lengths only count in proportion.
+    // In units of the piece: only proportions of lengths count.
     const Vertices vertices = own.vertices / std::max(own.vertices.cwiseAbs().maxCoeff(), 1e-300);
     const UntangleReport report =
         untangle(vertices, surface, loops, circles, off_circle, points, context, {.held = held});

@@ -1,4 +1,4 @@
-// All pieces of a cut surface as one mesh, to judge them where they lie.
+// All pieces of a cut surface as one mesh, to judge them in their final places.
 #pragma once
 
 #include "circles/circle.h"
@@ -16,17 +16,17 @@ public:
     /// Puts each piece's unit disk onto its circle in [-1, 1]^2.
     void place(const std::vector<MappedPiece>& mapped, const std::vector<Circle>& places);
 
-    /// Pieces with flips above resolution, rising: rounding is another where a disk is small.
+    /// Pieces with flips above resolution, ascending. Rounding differs where a disk is small.
     std::vector<std::size_t> flipped_pieces() const;
 
-    /// Turns flipped faces of a piece back where it lies (untangle), and the UVs of its own disk with them.
+    /// Turns flipped faces of a piece back in place (untangle), and changes the UVs of its own disk likewise.
     /// @param mapped still in the piece's own numbers
     void turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context);
 
-    /// Of all pieces as one.
+    /// The distortion of all pieces together.
     ComputedDistortion distortion() const { return measure_distortion(vertices_, triangles_, points_); }
 
-    /// (3F, 2) u and v of the corners of the input's faces; NaN where a face is in no piece.
+    /// (3F, 2) u and v of the corners of the input's faces; NaN for faces in no piece.
     PlanarPoints corners(Index face_count) const;
 
 private:

@@ -29,14 +29,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double opening_share = 0.1;  // of the progress
-constexpr double small_share = 0.1;    // of all faces: smaller pieces are mapped side by side
-constexpr double least_share = 0.1;    // dimensionless: no disk is smaller than this part of the mean one
-constexpr int most_packings = 5;  // pieces with flips, which come from rounding, are drawn twice as large each time
+constexpr double opening_share = 0.1;  // share of the progress
+constexpr double small_share = 0.1;    // share of all faces: smaller pieces are mapped side by side
+constexpr double least_share = 0.1;    // dimensionless: least radius of a disk over the mean one
+constexpr int most_packings = 5;       // pieces flipped by rounding are drawn twice as large each time
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// Which piece a vertex that the options name is given to, and its number there.
+/// The piece that gets a vertex named in the options, and the vertex's number there.
 struct NamedVertex {
     Index vertex = -1;
     std::size_t piece = 0;
@@ -87,7 +87,7 @@ public:
         } catch (const SolverError& error) {
             fail(piece, error, mapped);
             if (!failure) failure = std::current_exception();
-        } catch (const InputError& error) {  // without any extent
+        } catch (const InputError& error) {  // a piece without any extent
             if (own.outer == OuterLoop::vertex || own.center >= 0 || own.point >= 0) throw;
             fail(piece, error, mapped);
             if (!failure) failure = std::current_exception();
@@ -95,7 +95,7 @@ public:
         return mapped;
     }
 
-    /// Numbers of the piece to those of the input.
+    /// Replaces the piece's numbers by the input's.
     static void rename(const SurfacePiece& piece, UniformizeResult& map)
     {
         const auto rename_all = [](std::vector<Index>& numbers, const std::vector<Index>& names) {
@@ -115,7 +115,7 @@ private:
     UniformizeOptions options_for(std::size_t i) const
     {
         UniformizeOptions own = options_;
-        own.most_lost = 1.0;  // the verdict is on all pieces where they lie
+        own.most_lost = 1.0;  // the verdict is about all pieces in their final places
         own.center = center_.piece == i ? center_.local : -1;
         own.point = point_.piece == i ? point_.local : -1;
         if (own.outer == OuterLoop::vertex) {
@@ -163,7 +163,7 @@ double area_of(const SurfacePiece& piece, double unit, const VectorXd& importanc
     return area;
 }
 
-/// Radii of disks with the areas of the pieces, what is important larger, and the least of them larger.
+/// Radii of disks with the areas of the pieces. Important pieces and the smallest pieces get larger disks.
 /// @param importance (V) of the mesh, or empty
 std::vector<double> radii_by_area(const std::vector<SurfacePiece>& pieces, const std::vector<double>& importance)
 {
@@ -189,7 +189,7 @@ std::vector<double> radii_by_area(const std::vector<SurfacePiece>& pieces, const
     return radii;
 }
 
-/// Disks in the square [-1, 1]^2.
+/// Packs disks into the square [-1, 1]^2.
 std::vector<Circle> packed(const std::vector<double>& radii)
 {
     std::vector<Circle> disks = pack_disks(radii);
@@ -216,7 +216,7 @@ void draw_left_out(const std::vector<LeftOutFace>& left_out, const Triangles& tr
     }
 }
 
-/// @param polygon, options with the numbers of the canonical mesh
+/// @param polygon, options in the numbers of the canonical mesh
 CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vector<Index>& polygon,
                                      const UniformizeOptions& options, ExecutionContext& context)
 {

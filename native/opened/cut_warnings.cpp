@@ -21,7 +21,7 @@ std::vector<Index> sorted(std::vector<Index> numbers)
     return numbers;
 }
 
-/// "2 loops through handles", of so many cuts of a kind.
+/// "2 loops through handles", for all cuts of a kind.
 std::string of_kind(CutKind kind, const std::vector<const SurfaceCut*>& cuts)
 {
     switch (kind) {
@@ -69,7 +69,7 @@ Warning left_out_warning(const std::vector<LeftOutFace>& left_out)
     return warning;
 }
 
-/// Those of one kind together; the places of loops mean something in their piece alone.
+/// Merges warnings of one kind. Places of loops make sense only within their piece.
 std::vector<Warning> merged(const std::vector<MappedPiece>& pieces)
 {
     std::map<WarningKind, std::vector<const Warning*>> by_kind;

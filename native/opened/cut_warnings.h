@@ -9,10 +9,10 @@
 
 namespace koebe {
 
-/// What was done in the UVs: "a loop through a handle, 13 vertices".
+/// Describes a cut in the UVs: "a loop through a handle, 13 vertices".
 KOEBE_API std::string cut_text(const SurfaceCut& cut);
 
-/// What cutting did, and the warnings of all pieces, those of one kind as one.
+/// The warnings about cuts and of all pieces, merged by kind.
 std::vector<Warning> cut_warnings(const CutUniformizeResult& result);
 
 }  // namespace koebe

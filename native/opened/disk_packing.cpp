@@ -11,11 +11,11 @@
 namespace koebe {
 namespace {
 
-constexpr int size_digits = 12;          // binary: the size is so near to the largest that is found
-constexpr int most_halvings = 2000;      // of the size: no double is left then
-constexpr std::size_t most_nested = 16;  // all places of all pairs of more are slow to try, and rows waste little then
-constexpr double touching = 1e-12;       // units of the square: rounding of places that touch
-constexpr double next_width = 0.99;      // widths of rows that are tried, each so many times the last
+constexpr int size_digits = 12;          // binary digits to which the largest size is found
+constexpr int most_halvings = 2000;      // of the size: then no double is left
+constexpr std::size_t most_nested = 16;  // more disks are slow to nest, and rows waste little space then
+constexpr double touching = 1e-12;       // units of the square: rounding error of a touching place
+constexpr double next_width = 0.99;      // ratio of a row width to the one tried before
 constexpr double least_width = 0.8;      // of the square
 
 using Centers = std::vector<Complex>;  // none: the disks do not fit
@@ -49,7 +49,7 @@ Centers touching_places(const Centers& centers, const std::vector<double>& radii
     return places;
 }
 
-/// Disks of falling radius, each in the lowest place where it touches two things.
+/// Disks of falling radius, each in the lowest place where it touches two walls or disks.
 Centers nested(const std::vector<double>& radii)
 {
     Centers centers;
@@ -70,7 +70,7 @@ Centers nested(const std::vector<double>& radii)
     return centers;
 }
 
-/// Disks of falling radius in rows of some width, from the bottom.
+/// Disks of falling radius in rows of a given width, from the bottom.
 Centers in_rows(const std::vector<double>& radii, double width)
 {
     Centers centers;

@@ -1,4 +1,4 @@
-// Disks side by side in a square.
+// Packs disks side by side in a square.
 #pragma once
 
 #include "circles/circle.h"
@@ -8,12 +8,12 @@
 
 namespace koebe {
 
-/// Disks of the given relative sizes, as large as they are found to fit the square [0, 1]^2: up to 16 are nested, each
-/// in the lowest place where it touches two other things; more lie in rows, the largest first. The size is found by
-/// bisection. One disk fills the square.
+/// Disks of the given relative sizes, as large as found to fit the square [0, 1]^2. Up to 16 disks are nested, each in
+/// the lowest place where it touches two walls or disks. More disks lie in rows, the largest first. Bisection finds the
+/// size. One disk fills the square.
 /// @param radii positive, any unit
-/// @param margin between two disks, and half of it to the border, in units of the square; of many disks less, such that
-/// they have room
+/// @param margin between two disks, half of it at the border, in units of the square; less for many disks, so that they
+/// have room
 KOEBE_API std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin = 0.02);
 
 }  // namespace koebe

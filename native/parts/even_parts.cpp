@@ -2,6 +2,7 @@
 
 #include "circles/circle_fit.h"
 #include "execution/side_by_side.h"
+#include "parts/dart_rounds.h"
 #include "relax/even_map.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: 
 constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
 constexpr int search_steps = 12, most_steps = 60;        // Newton steps for one, and for one that was asked for
 constexpr double step = 1.5;                             // from one to the next
+constexpr double even_with_darts = 0.1;                  // E, unless it is asked for
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -57,24 +59,35 @@ std::vector<RoundLoop> round_loops(const FlatPart& flat)
     return loops;
 }
 
+/// What a dart as long as the root of the surface's area costs, in energy.
+double dart_price(double darts) { return 1e-4 / darts; }
+
 class PartRelaxation {
 public:
-    PartRelaxation(std::vector<FlatPart>& flats, LoopForm loops, int threads, ExecutionContext& context)
-        : flats_(flats), round_(flats.size()), threads_(threads), context_(context)
+    PartRelaxation(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
+        : flats_(flats), options_(options), context_(context)
     {
-        if (loops == LoopForm::round)
-            for (std::size_t k = 0; k < flats.size(); ++k) round_[k] = round_loops(flats[k]);
+        for (FlatPart& flat : flats) {
+            std::vector<RoundLoop> round;
+            if (options.loops == LoopForm::round) round = round_loops(flat);
+            parts_.push_back({std::move(flat), std::move(round)});
+        }
     }
+    ~PartRelaxation()
+    {
+        for (std::size_t k = 0; k < parts_.size(); ++k) flats_[k] = std::move(parts_[k].flat);
+    }
+    PartRelaxation(const PartRelaxation&) = delete;
+    PartRelaxation& operator=(const PartRelaxation&) = delete;
 
     /// @return the parts that could not be moved
     std::vector<std::size_t> relax(double even, int most_steps)
     {
-        std::vector<char> moved(flats_.size(), 0);
-        side_by_side(flats_.size(), threads_, context_, [&](std::size_t k, ExecutionContext& own) {
-            FlatPart& flat = flats_[k];
-            moved[k] = make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round_[k]},
-                                 even, packed_side, own, most_steps)
-                           .moved;
+        std::vector<char> moved(parts_.size(), 0);
+        side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
+            auto& [flat, round] = parts_[k];
+            const FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round};
+            moved[k] = make_even(surface, even, packed_side, own, {.most_steps = most_steps}).moved;
         });
         std::vector<std::size_t> left;
         for (std::size_t k = 0; k < moved.size(); ++k)
@@ -82,19 +95,40 @@ public:
         return left;
     }
 
-    /// From one E to the next, as long as angles are no worse than at 0.
+    /// @return the parts that could not be moved
+    std::vector<std::size_t> relax_with_darts(double even, int most_steps)
+    {
+        std::vector<std::size_t> left = relax(even, most_steps);
+        if (!(options_.darts > 0.0)) return left;
+        const std::vector<HeldPart> uncut = parts_;
+        cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
+        const auto has_darts = [](const HeldPart& part) { return !part.flat.tips.empty(); };
+        if (std::ranges::none_of(parts_, has_darts)) return left;
+        relax(even, most_steps);
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            if (has_darts(parts_[k]) && !survives_storing(parts_[k].flat)) parts_[k] = uncut[k];
+        return left;
+    }
+
+    /// With darts first; if these do not serve, from one E to the next, as long as angles are no worse than at 0.
     double relax_freely()
     {
-        const double conformal = angle_error(flats_);
+        const double conformal = angles();
+        const std::vector<HeldPart> before = parts_;
+        if (options_.darts > 0.0) {
+            relax_with_darts(even_with_darts, search_steps);
+            if (angles() <= conformal) return even_with_darts;
+            parts_ = before;
+        }
         double even = 0.0;
         for (double next = first_even; next >= least_even && next <= 1.0;) {
-            const State before = state();
+            const std::vector<HeldPart> last = parts_;
             relax(next, search_steps);
-            if (angle_error(flats_) <= conformal) {
+            if (angles() <= conformal) {
                 even = next;
                 next *= step;
             } else {
-                restore(before);
+                parts_ = last;
                 if (even > 0.0) break;
                 next *= 0.25;
             }
@@ -103,38 +137,27 @@ public:
     }
 
 private:
-    struct State {
-        std::vector<PlanarPoints> points;
-        std::vector<std::vector<RoundLoop>> round;
-    };
-
-    State state() const
+    double angles() const
     {
-        State state{{}, round_};
-        for (const FlatPart& flat : flats_) state.points.push_back(flat.points);
-        return state;
-    }
-    void restore(const State& state)
-    {
-        round_ = state.round;
-        for (std::size_t k = 0; k < flats_.size(); ++k) flats_[k].points = state.points[k];
+        double sum = 0.0;
+        for (const HeldPart& part : parts_) sum += sum_of_angle_errors(part.flat);
+        return sum;
     }
 
     std::vector<FlatPart>& flats_;
-    std::vector<std::vector<RoundLoop>> round_;
-    int threads_;
+    std::vector<HeldPart> parts_;
+    EvenOptions options_;
     ExecutionContext& context_;
 };
 
 }  // namespace
 
-EvenParts make_parts_even(std::vector<FlatPart>& flats, std::optional<double> even, LoopForm loops, int threads,
-                          ExecutionContext& context)
+EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
 {
-    PartRelaxation parts(flats, loops, threads, context);
-    if (!even) return {parts.relax_freely(), {}};
-    if (*even == 0.0) return {};
-    return {*even, parts.relax(*even, most_steps)};
+    PartRelaxation parts(flats, options, context);
+    if (!options.even) return {parts.relax_freely(), {}};
+    if (*options.even == 0.0) return {};
+    return {*options.even, parts.relax_with_darts(*options.even, most_steps)};
 }
 
 }  // namespace koebe

@@ -175,6 +175,7 @@ FlatPart unopened(const PartMesh& mesh)
     flat.original = mesh.original;
     flat.vertices = mesh.vertices;
     flat.surface = mesh.surface;
+    flat.polygon = mesh.polygon;
     return flat;
 }
 
@@ -196,6 +197,7 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
 {
     FlatPart flat;
     flat.faces = part.mesh.faces;
+    flat.polygon = part.mesh.polygon;
     flat.kind = PartKind::tube;
     const TubeSlit slit = tube_slit(part);
     if (slit.lift.empty()) return flat;
@@ -230,13 +232,18 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
 
 }  // namespace
 
+double sum_of_angle_errors(const FlatPart& part)
+{
+    return static_cast<double>(part.faces.size()) *
+           measure_distortion(part.vertices, part.surface.triangles, part.points).angle_error_deg.mean;
+}
+
 double angle_error(const std::vector<FlatPart>& parts)
 {
     double sum = 0.0, faces = 0.0;
     for (const FlatPart& part : parts) {
-        const auto count = static_cast<double>(part.faces.size());
-        sum += count * measure_distortion(part.vertices, part.surface.triangles, part.points).angle_error_deg.mean;
-        faces += count;
+        sum += sum_of_angle_errors(part);
+        faces += static_cast<double>(part.faces.size());
     }
     return sum / faces;
 }

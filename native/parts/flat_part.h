@@ -11,7 +11,8 @@ namespace koebe {
 /// A part with its slit open, a disk or a disk with holes, in UVs of its own unit.
 struct FlatPart {
     std::vector<Index> faces;     ///< of the whole, in the order of the triangles
-    std::vector<Index> original;  ///< vertex of the whole, for each vertex
+    std::vector<Index> original;  ///< vertex of the whole, for each vertex,
+    std::vector<Index> image;     ///< and its mirror image; empty: the whole is no mirror image of itself
     Vertices vertices;            ///< (V, 3) with area 1 for the whole surface
     Surface surface;              ///< opened
     PlanarPoints points;          ///< (V, 2) with UV area as area in the mean, of the even window alone
@@ -19,7 +20,10 @@ struct FlatPart {
     std::vector<VertexLoop> loops;         ///< of the part before it is opened, by vertices of the whole
     std::vector<std::vector<Index>> rims;  ///< vertices that those loops have become
     std::vector<char> held;                ///< (V) 1 for vertices that stay on the circle or line of their rim
+    std::vector<Index> polygon;            ///< (F) faces of one number are not cut apart; empty: each is one by itself
     double slit = 0.0;                     ///< length
+    std::vector<Index> tips;               ///< of its darts (darts.h),
+    double dart_length = 0.0;              ///< and the length of all
     bool one_to_one = true;                ///< false: its boundary crosses itself
 };
 
@@ -34,6 +38,9 @@ struct FlatOptions {
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
 
 constexpr double packed_side = 1.25;  ///< of the square that parts of area 1 are packed into, about
+
+/// The sum of its faces' angle errors, in degrees.
+double sum_of_angle_errors(const FlatPart& part);
 
 /// Mean angle error of the parts' faces, in degrees.
 double angle_error(const std::vector<FlatPart>& parts);

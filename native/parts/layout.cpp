@@ -284,6 +284,8 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
     for (FlatPart& part : flat.parts) {
         for (Index& f : part.faces) f = piece.source_face[f];
+        if (!mirror.vertex.empty())
+            for (const Index v : part.original) part.image.push_back(piece.source_vertex[mirror.vertex[v]]);
         for (Index& v : part.original) v = piece.source_vertex[v];
         for (VertexLoop& loop : part.loops)
             for (Index& v : loop) v = piece.source_vertex[v];
@@ -366,11 +368,16 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
         }
     }
     context.begin_stage("even", 0.8, 0.9);
-    const EvenParts even = make_parts_even(flats, options.even, options.loops, options.threads, context);
+    const EvenOptions evening{options.even, options.loops, options.darts, options.threads};
+    const EvenParts even = make_parts_even(flats, evening, context);
     layout.even = even.even;
     for (const std::size_t k : even.left)
         layout.not_even.insert(layout.not_even.end(), flats[k].faces.begin(), flats[k].faces.end());
     std::ranges::sort(layout.not_even);
+    for (const FlatPart& flat : flats) {
+        layout.darts += static_cast<Index>(flat.tips.size());
+        layout.dart_length += flat.dart_length;
+    }
     context.begin_stage("pack", 0.9, 1.0);
     const std::vector<PlanarPoints> placed = packed(flats, options.threads, context);
     for (std::size_t k = 0; k < flats.size(); ++k) {

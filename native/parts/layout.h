@@ -18,7 +18,8 @@ struct PartsLayout {
     std::vector<Index> reoriented;  ///< faces that were turned
     Index overlaps = 0;             ///< parts whose boundary crosses itself,
     std::vector<Index> crossing;    ///< and their faces
-    double slit_length = 0.0;
+    double slit_length = 0.0, dart_length = 0.0;
+    Index darts = 0;
     int handles_cut = 0;
     double even = 0.0;            ///< as the parts were made,
     std::vector<Index> not_even;  ///< but for these faces

@@ -141,6 +141,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     const auto begin = std::chrono::steady_clock::now();
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
     if (options.even) require_even(*options.even);
+    if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     PartsLayout layout = parts_layout(vertices, triangles, options, context);
@@ -165,6 +166,8 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     report_density(layout, uv, mapped, result);
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
+    result.dart_length = layout.dart_length;
+    result.darts = layout.darts;
     result.handles_cut = layout.handles_cut;
     result.maps = layout.maps;
     result.even = layout.even;

@@ -30,6 +30,9 @@ struct PartsOptions : MapOptions {
     /// error is no worse than at 0.
     std::optional<double> even = {};
     LoopForm loops = LoopForm::round;  ///< of the surface's own loops, with `even`; rims at cuts are free
+    /// Cuts from a rim at a cut into a part (darts.h), where the energy that they release pays for their length at a
+    /// price of 1e-4 / darts for the root of the area: from 0, none, to 1, many. There are none where even is 0.
+    double darts = 0.2;
     int threads = 0;  ///< at most; 0: as many as the machine has. The result is the same for any number
 
     template <typename Visit>
@@ -38,6 +41,7 @@ struct PartsOptions : MapOptions {
         visit("price", &PartsOptions::price);
         visit("even", &PartsOptions::even);
         visit("loops", &PartsOptions::loops);
+        visit("darts", &PartsOptions::darts);
         visit("round_cuts", &PartsOptions::round_cuts);
         MapOptions::each_option(visit);
         visit("cut", &PartsOptions::cut);
@@ -62,7 +66,9 @@ struct PartsResult : CornerMapReport {
     std::vector<Index> part;  ///< (F) of each face; -1: in none, as it is degenerate or the double of another
     std::vector<PartReport> parts;
     double cut_length = 0.0;   ///< of cuts and slits, over the root of the area
-    double slit_length = 0.0;  ///< of the slits among them
+    double slit_length = 0.0;  ///< of the slits among them,
+    double dart_length = 0.0;  ///< and of the darts
+    Index darts = 0;
     int handles_cut = 0;
     double density_ratio_5_95 = 1.0;  ///< texel density, 95 % over 5 % of the area
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density

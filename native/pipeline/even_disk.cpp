@@ -15,7 +15,7 @@
 namespace koebe {
 namespace {
 
-constexpr double shortest_drawn = 1e-7;  // disk units: a narrower loop tells nothing of its turn
+constexpr double shortest_drawn = 1e-7;  // disk units: a smaller loop is too small to tell which way it turns
 
 Complex at(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
@@ -38,14 +38,14 @@ VectorXcd image_of(const VertexLoop& loop, const PlanarPoints& points)
     return image;
 }
 
-/// The circle round all points about the middle of their box.
+/// The circle round all points, about the middle of their bounding box.
 Circle circle_round(const PlanarPoints& points)
 {
     const Eigen::RowVector2d middle = 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
     return {{middle[0], middle[1]}, (points.rowwise() - middle).rowwise().norm().maxCoeff()};
 }
 
-/// What comes to lie in the unit disk when a circle becomes the unit circle.
+/// Moves and scales points so that the outer circle becomes the unit circle.
 void bring_home(const Circle& outer, PlanarPoints& points)
 {
     points.rowwise() -= Eigen::RowVector2d(outer.center.real(), outer.center.imag());
@@ -96,7 +96,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     put_in_place(whole, relaxed);
     if (loops == LoopForm::round) remove_flips(whole, relaxed, context);
     MapFaults faults = find_faults(triangles, whole.loops, relaxed.uv, relaxed.circles);
-    faults.bad_circles.clear();  // that of a coarse loop may meet another, though the loops are apart
+    faults.bad_circles.clear();  // the circle of a coarse loop may meet another, though the loops are apart
     if (faults.any() || !turned_loops(whole.loops, relaxed.uv, shortest_drawn).empty()) return false;
     map = std::move(relaxed);
     return true;

@@ -11,7 +11,7 @@
 namespace koebe {
 namespace {
 
-constexpr double disk_tolerance = 1e-12;  // disk units: some roundings of a point of the unit circle
+constexpr double disk_tolerance = 1e-12;  // disk units: some rounding errors of a point of the unit circle
 
 double longest_loop_edge(const VertexLoop& loop, const PlanarPoints& uv)
 {

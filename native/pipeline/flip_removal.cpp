@@ -12,10 +12,10 @@ namespace {
 
 constexpr double room_factor = 0.8;  // of a circle's radius
 constexpr int most_rooms = 4;
-constexpr std::size_t few_flips = 4;  // more come of worse than two circles too near
+constexpr std::size_t few_flips = 4;  // more flips have a worse cause than two circles too near
 
-/// Makes the inner circles smaller that faces still flipped have a vertex on: where less than an edge is between two
-/// circles, no place on them leaves those faces upright. @return whether there are any
+/// Shrinks the inner circles at which faces are still flipped: between two circles less than an edge apart, such faces
+/// have no upright place. @return whether there are such circles
 bool make_room(const MapInput& whole, const std::vector<Index>& flipped, CircleMap& map)
 {
     std::set<Index> corners, loops;

@@ -1,4 +1,4 @@
-// From the map of the core to one of the whole surface, without flips.
+// Extends the map of the core to the whole surface, and removes flips.
 #pragma once
 
 #include "circles/circle_map.h"
@@ -9,12 +9,12 @@
 
 namespace koebe {
 
-/// Hangs the flaps back (hang_flaps), flips left as they are.
-/// @param map of the core's vertices; of the surface's own if there are no flaps
+/// Hangs the flaps back (hang_flaps). Leaves flips as they are.
+/// @param map of the core's vertices; without flaps, of the surface's own vertices
 CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
 
-/// Turns flipped faces back (untangle); the surface's centre and point stay where they are. Circles between which no
-/// place leaves them upright are made smaller. @param map of the whole surface, changed in place
+/// Turns flipped faces back (untangle). The surface's centre and point do not move. Circles shrink where the faces
+/// between them find no place to be upright. @param map of the whole surface, changed in place
 UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionContext& context);
 
 }  // namespace koebe

@@ -24,7 +24,7 @@ std::vector<Index> boundary_of(const MapInput& input)
     return boundary;
 }
 
-/// A disk without inner vertices has no harmonic function to speak of: its loop, evenly by length.
+/// The outcome for a disk without inner vertices, where no harmonic function exists: its loop, spaced by length.
 KoebeOutcome polygon_outcome(const MapInput& input)
 {
     KoebeOutcome outcome;
@@ -162,7 +162,7 @@ KoebeOutcome loop_images(const MapInput& input, const AssembledInput& assembled,
         if (!finite(finer) || (wanting && sound(outcome))) continue;
         for (VectorXcd& image : finer.step_images) image.conservativeResize(input.surface.vertex_count);
         for (VectorXcd& loop : finer.loops) loop = VectorXcd(loop(Eigen::seqN(0, loop.size() / stride, stride)));
-        finer.angles.clear();  // of more vertices than the loops have
+        finer.angles.clear();  // they are for more vertices than the loops have
         outcome = std::move(finer);
     }
     return finite(outcome) ? outcome : KoebeOutcome{};

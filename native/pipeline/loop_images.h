@@ -1,4 +1,4 @@
-// Where the Koebe iteration puts the loops of a surface, on more triangles where its own are too coarse.
+// Computes the images of a surface's loops by the Koebe iteration, on a refined mesh where its own is too coarse.
 #pragma once
 
 #include "execution/execution.h"
@@ -14,37 +14,37 @@
 
 namespace koebe {
 
-/// What is assembled once for a surface, in two steps; once more where its vertices have moved.
+/// The matrices of a surface, assembled in two steps, and again when its vertices have moved.
 struct AssembledInput {
     IntrinsicMetric metric;
     SparseMatrix laplacian;                    ///< cotan weights of the metric
-    int uses = 0;                              ///< metrics that there were on its triangles, up to two
+    int uses = 0;                              ///< metrics so far on its triangles, counted up to two
     std::optional<LaplacianPlaces> places;     ///< of these triangles, from the third metric on them
-    std::unique_ptr<BoundarySolver> boundary;  ///< its factor
-    bool factored = false;                     ///< whether that is of this Laplacian
+    std::unique_ptr<BoundarySolver> boundary;  ///< the Laplacian's factor
+    bool factored = false;                     ///< whether the factor is of the present Laplacian
 
-    bool moved = false;  ///< whether move_metric has done what take_metric would
+    bool moved = false;  ///< whether move_metric has replaced take_metric
 
     void take_metric(const MapInput& input);
-    /// The same of a surface with its vertices elsewhere, on the triangles of the last metric, so that its factor can
-    /// be renewed. @return false where these are far from Delaunay
+    /// Takes the metric of the surface with moved vertices on the triangles of the last metric, so that the factor can
+    /// be renewed. @return false where these triangles are far from Delaunay
     bool move_metric(const MapInput& input);
     /// @throws SolverError
     void factorize(const MapInput& input, const IterationOptions& options);
-    /// Of the same surface with its loops in another order: the factor is kept where that can be.
+    /// Takes the loops of the surface in another order. Keeps the factor where possible.
     void reorder(const MapInput& input);
 
 private:
     void take_laplacian(const EdgeLengths& halves, const MapInput& input);
 };
 
-/// Runs the engine that the options name. Where the loops' images cannot be right (a circle that leaves the disk or
-/// meets another, a boundary vertex without flux, more boundary vertices than inner ones) it runs again on a refined
-/// surface (refined_input), up to three times, as long as that has at most 20,000 faces. The mesh engine, which is
-/// slow, does so for unsound images alone, up to 4,000 faces.
+/// Runs the engine that the options name. Runs it again on a refined surface (refined_input) where the loops' images
+/// cannot be right: a circle leaves the disk or meets another, a boundary vertex has no flux, or there are more
+/// boundary vertices than inner ones. Refines up to three times, to at most 20,000 faces. The slow mesh engine refines
+/// for unsound images alone, up to 4,000 faces.
 /// @param assembled without a factor if the surface's matrix is singular
-/// @param last of the same surface with its vertices elsewhere, if there is one (koebe_condensed)
-/// @return the images of the surface's own loop vertices; no loops if nothing came of it
+/// @param last outcome for the same surface with other positions, if any (koebe_condensed)
+/// @return the images of the surface's own loop vertices; no loops if the iteration failed
 KoebeOutcome loop_images(const MapInput& input, const AssembledInput& assembled, const UniformizeOptions& options,
                          ExecutionContext& context, const KoebeOutcome* last = nullptr);
 

@@ -1,4 +1,4 @@
-// Warnings of a map to the disk for a map that has the same loops in another order.
+// Renumbers the loops in a disk map's warnings, for a map with the same loops in another order.
 #pragma once
 
 #include "pipeline/result.h"

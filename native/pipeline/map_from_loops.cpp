@@ -15,16 +15,16 @@
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index balance_sample = 20000;  // faces to balance by
+constexpr Eigen::Index balance_sample = 20000;  // number of faces used to balance
 
-/// The automorphism that puts the map into normal position: two loops concentric, else nothing.
+/// The automorphism that makes two loops concentric; the identity otherwise.
 Moebius normal_position(const std::vector<Circle>& circles)
 {
     return circles.size() == 2 ? center_circle(circles[1]) : Moebius{};
 }
 
-/// Whether the image of a loop is so small, or so far from round, that its circle tells nothing of the surface: what
-/// rounding leaves at the end of a limb, or the image of a loop without faces enough around it.
+/// Whether a loop's image is too small or too far from round for its circle to mean anything. Rounding leaves such
+/// images at the end of a limb, and a loop with too few faces around it has one.
 bool is_lost(const Circle& circle, const VectorXcd& image)
 {
     constexpr double least_radius = 1e-18, least_share = 4.0 * std::numeric_limits<double>::epsilon();
@@ -33,7 +33,7 @@ bool is_lost(const Circle& circle, const VectorXcd& image)
            !(deviation_from(circle, image) < no_circle);
 }
 
-/// The images put on their circles: (m, 2), loop after loop. Takes their roundness.
+/// Puts the images on their circles: (m, 2), loop after loop. Notes their roundness.
 MatrixXd points_on_circles(const MapInput& input, const FlapCut& cut, const std::vector<VectorXcd>& images,
                            CircleMap& map)
 {
@@ -53,7 +53,7 @@ MatrixXd points_on_circles(const MapInput& input, const FlapCut& cut, const std:
     return boundary;
 }
 
-/// The interior, small circles moved to where it wants them. @return whether map has become one
+/// Computes the interior, and moves small circles to where it wants them. @return whether the map exists
 bool extend(const MapSolver& solver, MatrixXd& boundary, AnnulusPosition annulus, CircleMap& map)
 {
     map.uv = balance_flux(solver.boundary, solver.laplacian, solver.input.loops, map.circles, boundary, annulus);

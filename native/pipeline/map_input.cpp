@@ -19,7 +19,7 @@ InputError no_place_for(Index vertex, const std::string& place, const std::strin
                       ElementKind::vertices, {vertex});
 }
 
-/// The loop that a vertex of the input lies on, in the surface's own order.
+/// The number of the loop with a vertex of the input, in the surface's own order.
 std::size_t loop_with(const MapInput& input, Index vertex)
 {
     const auto& loops = input.surface.loops;
@@ -29,7 +29,7 @@ std::size_t loop_with(const MapInput& input, Index vertex)
     throw InputError("vertex " + std::to_string(vertex) + " lies on no boundary loop", ElementKind::vertices, {vertex});
 }
 
-/// The loop that the options name, in the surface's own order.
+/// The number of the loop that the options name, in the surface's own order.
 std::size_t choose_outer_loop(const MapInput& input, const UniformizeOptions& options)
 {
     const auto& loops = input.surface.loops;
@@ -71,7 +71,7 @@ Index find_center(const MapInput& input, const UniformizeOptions& options, Index
     return center;
 }
 
-/// Of the surface's vertices, the least one 0; empty where all are alike.
+/// The importance of the surface's vertices, the least one 0; empty where all are alike.
 VectorXd find_importance(const MapInput& input, const UniformizeOptions& options, Index vertex_count)
 {
     require_importance(options, vertex_count);

@@ -1,4 +1,4 @@
-// What is reported of a map: its points in the input's numbering, its loops, its distortion.
+// Reports a map: its points in the input's numbering, its loops, its distortion.
 #pragma once
 
 #include "circles/circle_map.h"
@@ -7,9 +7,9 @@
 
 namespace koebe {
 
-/// Fills uv, loops and distortion of the result. A loop vertex is off its circle if the map says so or if it lies
-/// farther from it than circle_tolerance.
-/// @param vertices, triangles of the input: as a reader of the result has them @param map of the surface
+/// Fills uv, loops and distortion of the result. A loop vertex is off its circle if the map says so, or if it lies
+/// farther from the circle than circle_tolerance.
+/// @param vertices, triangles of the input, as a reader of the result has them @param map of the surface
 /// @param result of a mesh of result.vertex_count vertices
 void report_map(const Vertices& vertices, const Triangles& triangles, const MapInput& whole, const CircleMap& map,
                 UniformizeResult& result);

@@ -12,8 +12,8 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t limb = 12;  // faces: fewer are a corner where hardly any flux runs, not a limb
-constexpr double delicate = 1e4;  // least height of a face in steps of the grid, for the grid not to show
+constexpr std::size_t limb = 12;  // faces; a smaller region is a corner with hardly any flux, not a limb
+constexpr double delicate = 1e4;  // least height of a face, in steps of the grid, for the grid not to show
 constexpr double coarse = 0.25;   // inner vertices over loop vertices: with fewer, faces reach from loop to loop
 
 std::string figure(double value)
@@ -23,7 +23,7 @@ std::string figure(double value)
     return text;
 }
 
-/// Some faces in the input's numbering, rising.
+/// The faces in the input's numbering, ascending.
 std::vector<Index> input_faces(const MapInput& whole, const std::vector<Index>& faces)
 {
     std::vector<Index> result;
@@ -53,12 +53,12 @@ Warning flap_warning(const MapInput& whole, const std::vector<Flap>& flaps)
     return {WarningKind::flaps, text, input_faces(whole, faces)};
 }
 
-/// Connected faces that are too small to be stored, with a flipped one among them.
+/// Connected faces that are too small to be stored, at least one of them flipped.
 struct LostRegion {
     std::vector<Index> faces;
     std::size_t flipped = 0;
     Index tip = -1;         // corner of the face that is smallest in UV
-    int loop = 0;           // the one with a vertex nearest to the tip on the surface
+    int loop = 0;           // the loop with the vertex nearest to the tip on the surface
     double extent = 0.0;    // longest stored edge
     double shortest = 0.0;  // longest edge of the smallest face, in UV units and 64 bits
 };

@@ -1,4 +1,4 @@
-// What to tell the user: everything out of the ordinary that a map's warnings say, in words.
+// Writes the warnings about a map as sentences.
 #pragma once
 
 #include "circles/circle_map.h"
@@ -13,18 +13,18 @@
 
 namespace koebe {
 
-/// Circles that are not the surface's.
+/// Warns of circles that are not the surface's own.
 std::vector<Warning> circle_warnings(const CircleMap& map);
 
-/// What the input brought along: vertices of no face, faces that were turned, faces too thin.
+/// Warns of the input's unused vertices, reoriented faces and thin faces.
 std::vector<Warning> input_warnings(const MapInput& whole);
 
-/// An iteration that did not find what it should. @param no_circles whether it led to no map at all
+/// Warns of an iteration that failed. @param no_circles whether it led to no map at all
 std::vector<Warning> iteration_warnings(const KoebeOutcome& outcome, bool no_circles);
 
-/// Coarse meshes, flaps, freed vertices, flips and limbs that shrank too far. One sentence for each, with its number,
-/// the input's first element and, for what shrank below the resolution of 32-bit UVs, each region's place: its tip, the
-/// nearest loop and its size.
+/// Warns of coarse meshes, flaps, vertices off their circle, flips and limbs that shrank too far. Each sentence has a
+/// number and the input's first element. For regions below the resolution of 32-bit UVs it names the tip of each
+/// region, the nearest loop and the size.
 std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
                                    const UntangleReport& untangled, const Distortion& distortion);
 

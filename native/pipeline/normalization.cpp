@@ -11,14 +11,14 @@ namespace koebe {
 namespace {
 
 constexpr int most_centering_rounds = 12;
-constexpr double settled = 1e-10;   // disk units: what is left is moved vertex by vertex
-constexpr double worthwhile = 0.5;  // of the distance from 0 that a round may leave
+constexpr double settled = 1e-10;   // disk units: the remaining distance is moved vertex by vertex
+constexpr double worthwhile = 0.5;  // share of the distance from 0 that a round may leave
 constexpr double on_circle = 1e-9;  // disk units: off the unit circle by rounding alone
 
 Complex at(const PlanarPoints& uv, Index vertex) { return {uv(vertex, 0), uv(vertex, 1)}; }
 
-/// The image of a circle inside the disk. Its radius is no difference of points, which are too few digits apart where
-/// the circle is tiny.
+/// The image of a circle inside the disk. Its radius is not computed as a difference of points: for a tiny circle that
+/// would lose too many digits.
 Circle image_of(const Circle& circle, const Moebius& moebius)
 {
     const double a = std::abs(moebius.a), pole = std::abs(1.0 - std::conj(moebius.a) * circle.center);
@@ -26,7 +26,7 @@ Circle image_of(const Circle& circle, const Moebius& moebius)
     return {moebius(circle).center, radius};
 }
 
-/// Where the centre lies in a map of the solver's surface, drawn with its flap if it lies in one.
+/// The centre's place in a map of the solver's surface. If it lies in a flap, the flap is drawn first.
 Complex center_of(const MapInput& whole, const FlapCut& cut, const CircleMap& map, ExecutionContext& context)
 {
     if (cut.flaps.empty()) return at(map.uv, whole.center);
@@ -45,7 +45,7 @@ CircleMap with_center_moved(const MapSolver& solver, const MapInput& whole, cons
     Moebius total;
     for (int round = 0; round < most_centering_rounds && std::abs(center) > settled; ++round) {
         context.checkpoint();
-        // As one automorphism without a turn, and from the map as it was: rounding does not add up.
+        // One automorphism without a turn, applied to the first map, so that rounding does not add up.
         const Moebius next{total.inverse()(center)};
         if (!(std::abs(next.a) < 1.0)) break;
         std::optional<CircleMap> moved = moved_by(solver, map, next);

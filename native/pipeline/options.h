@@ -1,4 +1,4 @@
-// What a uniformization is asked for.
+// The options of a uniformization.
 #pragma once
 
 #include "core/types.h"
@@ -9,8 +9,8 @@
 
 namespace koebe {
 
-enum class Engine { condensed, mesh };  ///< docs/method.md: eliminated once, or patches as real triangles
-/// automatic: the longest, but with Balance::area the one with the least area distortion.
+enum class Engine { condensed, mesh };  ///< docs/method.md: eliminated once, or disks as real triangles
+/// automatic: the longest loop, with Balance::area the loop with the least area distortion.
 enum class OuterLoop { automatic, longest, vertex };
 enum class Balance { none, area };  ///< area: the disk automorphism with the least area distortion
 
@@ -18,22 +18,22 @@ struct UniformizeOptions : IterationOptions {
     Engine engine = Engine::condensed;
     KoebeMeshOptions mesh;  ///< with Engine::mesh
     OuterLoop outer = OuterLoop::automatic;
-    Index outer_vertex = -1;  ///< with OuterLoop::vertex: a vertex of the loop to put on the unit circle
+    Index outer_vertex = -1;  ///< with OuterLoop::vertex: a vertex of the outer loop
     Balance balance = Balance::none;
-    Index center = -1, point = -1;  ///< vertices, one inside that goes to 0, one of the outer loop to 1; -1: none
-    /// With Balance::area, of each vertex, 0 to 1: the balance takes the surface there for most_important^w times as
-    /// large in length, so that it gets more texels; empty: all alike. Equal ones change nothing.
+    Index center = -1, point = -1;  ///< an inner vertex to put at 0, a vertex of the outer loop to put at 1; -1: none
+    /// With Balance::area: importance of each vertex, 0 to 1. The balance counts lengths around a vertex of importance
+    /// w most_important^w times, so that it gets more texels. Empty or all equal: no effect.
     std::vector<double> importance = {};
-    bool polish = false;               ///< least angle error with the circles as they are, at the end (angle_polish.h)
+    bool polish = false;               ///< at the end, least angle error with the circles kept (angle_polish.h)
     double even = 0.0;                 ///< 0: conformal, 1: true to size (pipeline/even_disk.h)
     LoopForm loops = LoopForm::round;  ///< with `even`
-    bool repair = true;  ///< false: as the iteration leaves it, faces may be turned over; for maps that are only judged
-    /// What warnings call vertices and faces, where the surface is a piece of another one; empty: their own numbers.
+    bool repair = true;                ///< false: leave flipped faces as they are; for maps that are only judged
+    /// Names of vertices and faces in warnings, where the surface is a piece of another; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh
-                      ///< go side by side; the result is the same for any number
+                      ///< side by side. Any number gives the same result
 
-    /// Without those of the mesh engine, which has its own.
+    /// Without the mesh engine's options, which have a visitor of their own.
     template <typename Visit>
     static void each_option(Visit&& visit)
     {

@@ -8,8 +8,8 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t most_candidates = 8;  // the longest loops
-constexpr double worth_changing = 0.8;  // of the distortion with the present outer loop: it turns the map inside out
-constexpr Eigen::Index sample = 2000;   // faces to judge by
+constexpr double worth_changing = 0.8;      // ratio of distortions, as a change turns the map inside out
+constexpr Eigen::Index sample = 2000;       // number of faces used to judge
 
 template <typename T>
 void move_to_front(std::vector<T>& list, int place)

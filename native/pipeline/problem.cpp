@@ -14,7 +14,7 @@
 namespace koebe {
 namespace {
 
-/// A polygon without inner vertices goes round the circle whole: of equal halves none is the flap.
+/// A polygon without inner vertices stays whole on the circle: of two equal halves neither is a flap.
 FlapCut flaps_of(const MapInput& whole)
 {
     return is_polygon(whole) ? FlapCut{} : cut_flaps(whole.vertices, whole.surface, whole.loops);
@@ -25,7 +25,7 @@ VectorXd shape_of(const Problem& problem)
     return AngleForecast::shape_of(problem.input().vertices, problem.input().surface.triangles);
 }
 
-/// Whether the inner loops still go by falling length.
+/// Whether the inner loops are still sorted by falling length.
 bool goes_by_length(const MapInput& input)
 {
     for (std::size_t k = 2; k < input.edges.size(); ++k)
@@ -33,7 +33,7 @@ bool goes_by_length(const MapInput& input)
     return true;
 }
 
-/// The map moved by an automorphism; the interior is harmonic again only where faces would turn over.
+/// Moves the map by an automorphism. The interior is made harmonic again only where faces would turn over.
 void move_as_one(const Problem& problem, CircleMap& map, Moebius automorphism)
 {
     const MapInput& input = problem.input();

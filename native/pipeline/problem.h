@@ -1,4 +1,4 @@
-// A surface on its way to a map, and what of it stays when its vertices move.
+// A surface being mapped, and the data that stays when its vertices move.
 #pragma once
 
 #include "execution/execution.h"
@@ -14,16 +14,16 @@
 
 namespace koebe {
 
-/// The surface of a run, and what it is mapped with.
+/// The surface of a run, its matrices and the last outcome.
 struct Problem {
     MapInput whole;
     FlapCut cut;
     std::optional<MapInput> core;  ///< without the flaps, if there are flaps
     AssembledInput assembled;      ///< of input()
-    KoebeOutcome outcome;          ///< of the last run on it: where the next one begins
-    AngleForecast forecast;        ///< of the runs on it: with which angles
+    KoebeOutcome outcome;          ///< of the last run; the next one starts from it
+    AngleForecast forecast;        ///< of the first angles, from the last runs
     Index vertex_count = 0;        ///< of the input
-    VectorXcd first_places;  ///< of the input's vertices: where lay_over_first is to bring them, NaN inside, or none
+    VectorXcd first_places;        ///< where lay_over_first is to bring the input's vertices, NaN inside; or empty
 
     const MapInput& input() const { return core ? *core : whole; }
     MapSolver solver() const { return {*assembled.boundary, assembled.laplacian, input()}; }
@@ -32,30 +32,29 @@ struct Problem {
 /// @throws InputError, TopologyError, OutOfMemory
 Problem prepare_problem(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options);
 
-/// Whether the first map is to choose the outer loop: with Balance::area, unless something else does.
+/// Whether the first map chooses the outer loop: with Balance::area, unless the options choose it.
 bool chooses_outer_loop(const UniformizeOptions& options, const MapInput& input);
 
-/// The same surface with its vertices elsewhere. Topology, outer loop, triangulation and order of elimination stay, and
-/// the angles of the last maps.
+/// Moves the vertices of the surface. Topology, outer loop, triangulation, order of elimination and the angles of the
+/// last maps stay.
 /// @param vertices (V, 3) as many as before
-/// @return false, with nothing left of use, where the problem must be prepared anew to be the same as without a last
-/// map: other flaps hang on it, its holes are in another order of length, its triangulation is far from Delaunay
+/// @return false, and the problem is unusable, where it must be prepared anew to give the same map as a new problem:
+/// other flaps, another order of the holes' lengths, or a triangulation far from Delaunay
 /// @throws InputError
 bool move_problem(Problem& problem, const Vertices& vertices);
 
-/// What forecast is to know of the last run, if it converged.
+/// Adds the last run's angles to the forecast, if it converged.
 void remember_angles(Problem& problem);
 
-/// Where the last run took the vertices of the loops, as first_places.
+/// The places of the loops' vertices in the last run, as first_places.
 VectorXcd places_of_loops(const Problem& problem);
 
 /// Moves a map of the last run by the automorphism of the disk that brings its loops nearest to first_places, if there
-/// are any: circles are fitted before that, so that they do not depend on it. The run's images of loops are the map's
-/// then.
+/// are any. Circles are fitted before, so they do not depend on it. Afterwards the run's images of loops are the map's.
 void lay_over_first(Problem& problem, CircleMap& map);
 
-/// The map of a problem, and its report. @param vertices, triangles of the input, which the report is on
-/// @param prepare makes the problem ready; its time counts as topology
+/// Maps the problem and reports on the map. @param vertices, triangles of the input, for the report
+/// @param prepare prepares the problem; its time counts as topology
 UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangles,
                              const std::function<Problem&()>& prepare, const UniformizeOptions& options,
                              ExecutionContext& context);

@@ -20,7 +20,7 @@ MapInput refined_input(const MapInput& input)
     fine.outer_rank = input.outer_rank;
     fine.vertices.resize(vertex_count, 3);
     fine.vertices.topRows(coarse.vertex_count) = input.vertices;
-    std::vector<Index> middle_after(coarse.vertex_count, -1);  // on the boundary edge that leaves a loop vertex
+    std::vector<Index> middle_after(coarse.vertex_count, -1);  // of the boundary edge that leaves a loop vertex
     for (Index h = 0; h < 3 * face_count; ++h) {
         const Index a = origin(coarse.triangles, h), b = target(coarse.triangles, h);
         fine.vertices.row(middle[h]) = 0.5 * (input.vertices.row(a) + input.vertices.row(b));

@@ -12,9 +12,9 @@ namespace koebe {
 
 struct SurfaceSolver::Impl {
     std::shared_ptr<const Triangles> triangles;
-    UniformizeOptions options;  ///< with the outer loop by one of its vertices, once it is known
+    UniformizeOptions options;  ///< once the outer loop is known, they name it by a vertex
     Index vertex_count = 0;
-    std::shared_ptr<Problem> kept;  ///< none while a map is made, and after an error
+    std::shared_ptr<Problem> kept;  ///< null while a map is made, and after an error
     VectorXcd first_places;         ///< of the first map (Problem)
 
     void keep(std::shared_ptr<Problem> problem)
@@ -53,7 +53,7 @@ UniformizeResult SurfaceSolver::uniformize(const Vertices& vertices, ExecutionCo
         throw InputError("the surface has " + std::to_string(impl_->vertex_count) + " vertices, not " +
                          std::to_string(vertices.rows()));
     require_finite(vertices);
-    // A run that is left ends later, on a problem of its own.
+    // An abandoned run ends later, on a problem of its own.
     std::shared_ptr<Problem> problem = std::move(impl_->kept);
     const bool begun = problem != nullptr;
     if (!begun) problem = std::make_shared<Problem>();

@@ -35,16 +35,16 @@
 namespace koebe {
 namespace {
 
-/// Least angles between the vertices of the outer loop: three neighbours s apart make a face s^2 / 2 high, which 32-bit
-/// UVs must tell from none.
+/// Least angles between the vertices of the outer loop. Three neighbours s apart make a face s^2 / 2 high, which 32-bit
+/// UVs must tell from 0.
 VectorXd least_steps(Eigen::Index count)
 {
     constexpr double drawable = 2e-3;  // radians
     return VectorXd::Constant(count, std::min(drawable, 0.3 * 2.0 * std::numbers::pi / static_cast<double>(count)));
 }
 
-/// Factor, iteration and the map they lead to, if any.
-/// @param from, until of the progress
+/// Factors, iterates and makes the map, if there is one.
+/// @param from, until the range of the progress
 std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& options, double from, double until,
                                  ExecutionContext& context, Stopwatch& stage, StageSeconds& seconds)
 {
@@ -55,7 +55,7 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
             problem.assembled.factorize(problem.input(), options);
         } catch (const OutOfMemory&) {
             throw;
-        } catch (const SolverError&) {  // the map is made without it, and says so
+        } catch (const SolverError&) {  // the map is made without a factor, and warns
         }
     }
     seconds.factor += stage.lap();
@@ -69,8 +69,8 @@ std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& opti
     return map;
 }
 
-/// The map that is one to one from the start (embedded_map), on the circles of the iteration if it has found any.
-/// @param failed the map that the iteration led to, if it led to one
+/// Makes the map that is one to one from the start (embedded_map), on the iteration's circles if it found any.
+/// @param failed the map from the iteration, if any
 CircleMap embed(const MapInput& whole, const FlapCut& cut, const std::optional<CircleMap>& failed, FixedPlaces places,
                 ExecutionContext& context)
 {
@@ -95,7 +95,7 @@ CircleMap embed(const MapInput& whole, const FlapCut& cut, const std::optional<C
     return map;
 }
 
-/// The map polished, unless that brings a fault, though the polish looks after faces, circles and loops itself.
+/// Polishes the map. Takes the polish back if the map then has a fault, though the polish checks its own steps.
 void polish(const MapInput& whole, CircleMap& map, MapFaults& faults, ExecutionContext& context)
 {
     PlanarPoints before = map.uv;
@@ -126,7 +126,7 @@ void append(std::vector<Warning>& warnings, std::vector<Warning> more)
     std::move(more.begin(), more.end(), std::back_inserter(warnings));
 }
 
-/// Numbers of a piece to those of the surface it is of.
+/// Replaces numbers in a piece by the whole surface's numbers.
 void rename(std::vector<Index>& numbers, const std::vector<Index>& names)
 {
     for (Index& number : numbers) number = names.at(static_cast<std::size_t>(number));
@@ -140,7 +140,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
 {
     UniformizeResult result;
     require_even_disk(options.even, options.center);
-    result.even = 0.0;  // unless it is made more even below
+    result.even = 0.0;  // a value for maps that are not made more even below
     result.method = options.method;
     result.engine = options.engine;
     result.center = options.center;
@@ -160,7 +160,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     problem.assembled.take_metric(problem.input());
     result.seconds.metric = stage.lap();
 
-    // With the outer loop to be chosen the map is perhaps made twice, first on the longest loop.
+    // If the outer loop must be chosen, the map may be made twice, first with the longest loop.
     const bool choose = chooses_outer_loop(options, whole);
     std::optional<CircleMap> map = iterate(problem, options, 0.15, choose ? 0.5 : 0.9, context, stage, result.seconds);
     if (map && options.balance == Balance::area)
@@ -202,7 +202,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
         put_in_place(whole, *map);
         untangled = {};
         faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
-        if (faults.any() && whole.center >= 0) {  // one to one comes first
+        if (faults.any() && whole.center >= 0) {  // one to one is more important
             CircleMap elsewhere = embed(whole, problem.cut, failed, {-1, whole.point}, context);
             if (MapFaults none = find_faults(whole.surface.triangles, whole.loops, elsewhere.uv, elsewhere.circles);
                 !none.any()) {

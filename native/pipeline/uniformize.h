@@ -1,4 +1,4 @@
-// The main entry: a surface with holes to a circle domain.
+// The main entry: maps a surface with holes to a circle domain.
 #pragma once
 
 #include "core/api.h"
@@ -9,9 +9,9 @@ namespace koebe {
 
 /// Maps a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 ///
-/// One loop gives the Riemann map (paper, section 4.3), two the annulus centred at 0 (section 4.2), three and more
-/// the Koebe iteration (section 4.4). The input is not changed. Faces keep their orientation: the signed UV area of
-/// each is positive where the map is not flipped, counter-clockwise faces being seen from outside.
+/// One loop gives the Riemann map (paper, section 4.3), two loops the annulus centred at 0 (section 4.2), three and
+/// more the Koebe iteration (section 4.4). The input is not changed. Faces keep their orientation: counter-clockwise
+/// faces seen from outside have positive UV area, unless they are flipped.
 ///
 /// @param vertices (V, 3) positions, any unit
 /// @param triangles (F, 3) vertex indices
@@ -19,11 +19,11 @@ namespace koebe {
 KOEBE_API UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles,
                                       const UniformizeOptions& options, ExecutionContext& context);
 
-/// The same on the calling thread: a cancel is answered at the next checkpoint, not at once.
+/// Maps on the calling thread: a cancel takes effect at the next checkpoint, not at once.
 UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
                                  ExecutionContext& context);
 
-/// The same without progress, never cancelled.
+/// Maps without progress reports or cancelling.
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles,
                             const UniformizeOptions& options = {});
 

@@ -64,7 +64,7 @@ std::vector<int> turned_loops(const std::vector<VertexLoop>& loops, const Planar
     std::vector<int> turned;
     if (areas.empty()) return turned;
     const double outer = *std::ranges::max_element(areas, {}, [](double area) { return std::abs(area); });
-    bool outer_seen = false;  // it is the first of its area
+    bool outer_seen = false;  // the outer loop is the first one of its area
     for (std::size_t k = 0; k < areas.size(); ++k)
         if (!outer_seen && areas[k] == outer)
             outer_seen = true;

@@ -1,4 +1,4 @@
-// Boundary loops of a planar map that cross themselves or each other.
+// Finds boundary loops of a planar map that cross themselves or each other.
 #pragma once
 
 #include "core/types.h"
@@ -8,18 +8,18 @@
 
 namespace koebe {
 
-/// Pairs of loop edges that meet without sharing a vertex, each edge named by the vertex it starts from. A map whose
-/// triangles are all upright, whose loops are simple and apart and of which none is turned is one to one: the winding
-/// numbers of its boundary count the preimages of a point, and they are 1 inside and 0 outside.
-/// @param points (V, 2) @param shortest edges shorter than this, in the unit of the points, are not looked at
+/// Pairs of loop edges that meet without sharing a vertex, each edge named by its first vertex. A map is one to one if
+/// all its triangles are upright, its loops are simple and apart, and no loop is turned: the winding numbers of its
+/// boundary count the preimages of a point, and they are 1 inside and 0 outside.
+/// @param points (V, 2) @param shortest edges shorter than this, in the unit of the points, are ignored
 std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<VertexLoop>& loops,
                                                              const PlanarPoints& points, double shortest);
 
-/// Of a loop that runs counter-clockwise positive.
+/// The enclosed area, positive for a counter-clockwise loop.
 double enclosed_area(const VertexLoop& loop, const PlanarPoints& points);
 
-/// Loops that run round their hole as the outer one runs round all: inside such a one the map covers the plane twice.
-/// @param loops boundary loops of one oriented surface @param shortest width of what encloses no area
+/// Holes whose loop runs round as the outer loop does: inside such a loop the map covers the plane twice.
+/// @param loops boundary loops of one oriented surface @param shortest a narrower loop encloses no area
 std::vector<int> turned_loops(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest);
 
 }  // namespace koebe

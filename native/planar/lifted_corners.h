@@ -1,4 +1,4 @@
-// The corners of a face of a planar map, in a periodic one beside each other.
+// The corners of a face of a planar map. In a periodic map they are brought side by side.
 #pragma once
 
 #include "core/types.h"
@@ -9,7 +9,7 @@
 
 namespace koebe {
 
-/// (F) how many of each period are added to the places of a face's corners.
+/// (F) numbers of periods to add to the places of a face's corners.
 using CornerLifts = std::vector<std::array<std::array<int, 2>, 3>>;
 
 using CornerPlaces = std::array<Complex, 3>;

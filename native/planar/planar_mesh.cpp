@@ -20,8 +20,8 @@ using detail::to_complex;
 using detail::to_point;
 using Cdt = PlanarRegion::Cdt;
 
-/// Circumradius over wanted edge length above which a triangle is split. An equilateral triangle of the wanted size
-/// has 0.577; splitting at 0.76 leaves edges whose mean is the wanted length.
+/// A triangle is split if its circumradius over the wanted edge length exceeds this. An equilateral triangle of the
+/// wanted size has 0.577; splitting at 0.76 leaves edges whose mean is the wanted length.
 constexpr double split_ratio = 0.76;
 
 struct Candidate {
@@ -29,7 +29,7 @@ struct Candidate {
     double excess;  ///< circumradius over wanted size
 };
 
-/// A point may go where it sees no boundary edge at an obtuse angle and no vertex closer than the wanted spacing.
+/// Whether a point may be inserted: it sees no boundary edge at an obtuse angle, and no vertex is too close.
 bool may_insert(const PlanarRegion& region, Complex z, double spacing, Cdt::Face_handle hint, Cdt::Face_handle& found)
 {
     const Cdt& cdt = region.cdt();
@@ -52,8 +52,8 @@ bool may_insert(const PlanarRegion& region, Complex z, double spacing, Cdt::Face
     return true;
 }
 
-/// Triangles that are too large, by their circumcentres, largest first; and last, by their centroids, for where the
-/// circumcentre may not go.
+/// Triangles that are too large, by their circumcentres, largest first. Then the same triangles by their centroids,
+/// where the circumcentre is not allowed.
 std::vector<Candidate> candidates(const PlanarRegion& region, const SizeField& size)
 {
     std::vector<Candidate> result;
@@ -74,7 +74,7 @@ std::vector<Candidate> candidates(const PlanarRegion& region, const SizeField& s
     return result;
 }
 
-/// Circumcentres until every triangle is small enough or protected by the boundary. Ends, since points keep their
+/// Inserts circumcentres until every triangle is small enough or protected by the boundary. This ends, as points keep a
 /// distance from each other.
 void refine(PlanarRegion& region, const SizeField& size, std::vector<Complex>& interior, Index next_index)
 {
@@ -91,7 +91,7 @@ void refine(PlanarRegion& region, const SizeField& size, std::vector<Complex>& i
             vertex->info() = next_index++;
             interior.push_back(candidate.place);
             inserted = true;
-            // The new faces fill the conflict zone, all of it inside.
+            // The new faces fill the conflict zone, which lies inside.
             auto face = cdt.incident_faces(vertex);
             const auto first = face;
             do face->info() = 1;
@@ -117,8 +117,8 @@ PlanarMesh planar_arrays(const PlanarRegion& region, const std::vector<VectorXcd
     return mesh;
 }
 
-/// Moves each interior point towards the centroid of its star, triangles weighted so that sizes stay as wanted, if
-/// no triangle of the star turns over.
+/// Moves each interior point towards the centroid of its star, with triangles weighted to keep the wanted sizes, if no
+/// triangle of the star turns over.
 void smooth(const PlanarMesh& mesh, const SizeField& size, std::vector<Complex>& interior)
 {
     const Index boundary_count = static_cast<Index>(mesh.points.size() - interior.size());
@@ -182,7 +182,7 @@ void split_chords(PlanarMesh& mesh, Index boundary_count)
         if (middle == middles.end()) {
             done.push_back(t);
         } else {
-            // k is one past the edge found: it runs from t[k - 1] to t[k % 3], opposite to t[(k + 1) % 3].
+            // The edge found runs from t[k - 1] to t[k % 3], opposite to t[(k + 1) % 3].
             pending.push_back({t[k - 1], middle->second, t[(k + 1) % 3]});
             pending.push_back({middle->second, t[k % 3], t[(k + 1) % 3]});
         }
@@ -220,8 +220,8 @@ PlanarMesh planar_mesh(const std::vector<VectorXcd>& polygons, const PlanarMeshO
         boundary_count += static_cast<Index>(polygon.size());
         largest = std::max({largest, polygon.real().cwiseAbs().maxCoeff(), polygon.imag().cwiseAbs().maxCoeff()});
     }
-    // By a power of two nothing is rounded, and no square over- or underflows: distances of 0 would let the refinement
-    // go on for ever.
+    // Scaling by a power of two does not round, and no square over- or underflows. Distances of 0 would let the
+    // refinement go on for ever.
     const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
     const auto scaled = [](const VectorXcd& points, int by) -> VectorXcd {
         return points.unaryExpr(

@@ -13,11 +13,10 @@ inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag(
 
 inline double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
 
-/// |a - b|, rounded alike everywhere. Of std::abs the last bit is another in every C library, and a mesh may hang on
-/// it.
+/// a - b|, rounded alike everywhere. The last bit of std::abs differs between C libraries, and a mesh may depend on it.
 inline double distance(Complex a, Complex b) { return std::sqrt(std::norm(a - b)); }
 
-/// Whether the closed segments a-b and c-d have a point in common, up to round-off.
+/// Whether the closed segments a-b and c-d have a common point, up to round-off.
 inline bool segments_meet(Complex a, Complex b, Complex c, Complex d)
 {
     const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
@@ -26,7 +25,7 @@ inline bool segments_meet(Complex a, Complex b, Complex c, Complex d)
     if ((a_side > 0.0 && b_side > 0.0) || (a_side < 0.0 && b_side < 0.0)) return false;
     if (c_side != 0.0 || d_side != 0.0 || a_side != 0.0 || b_side != 0.0) return true;
     const double u = ((c - a) * std::conj(b - a)).real(), v = ((d - a) * std::conj(b - a)).real();
-    const double length = std::norm(b - a);  // collinear: the intervals overlap
+    const double length = std::norm(b - a);  // collinear: test whether the intervals overlap
     return std::max(u, v) >= 0.0 && std::min(u, v) <= length;
 }
 

@@ -10,9 +10,9 @@
 namespace koebe::detail {
 namespace {
 
-/// Interior points in rows of cells, to and fro, so that the walk from each to the next is short. CGAL has an order of
-/// its own for this (spatial_sort), but another one with every C++ library, and four points on a circle may be joined
-/// in either way: the mesh would hang on the library.
+/// Orders interior points in rows of cells, to and fro, so that the walk from each to the next is short. CGAL's own
+/// order (spatial_sort) differs between C++ libraries. Four points on a circle may be joined in two ways, so the mesh
+/// would depend on the library.
 std::vector<std::size_t> to_and_fro(const std::vector<Complex>& points)
 {
     const double rows = std::max(1.0, std::floor(std::sqrt(0.5 * static_cast<double>(points.size()))));
@@ -45,7 +45,7 @@ PlanarRegion::PlanarRegion(const std::vector<VectorXcd>& polygons, const std::ve
         const auto count = cdt_.number_of_vertices();
         const Cdt::Vertex_handle vertex = cdt_.insert(to_point(z), near);
         near = vertex->face();
-        if (cdt_.number_of_vertices() == count) return Cdt::Vertex_handle();  // there is one at that place
+        if (cdt_.number_of_vertices() == count) return Cdt::Vertex_handle();  // another point is at that place
         vertex->info() = number;
         return vertex;
     };

@@ -12,7 +12,7 @@
 
 namespace koebe::detail {
 
-/// Vertices carry their index, faces 1 if they are inside the region, else 0. Predicates are exact.
+/// Vertices hold their index, faces hold 1 inside the region and 0 outside. Predicates are exact.
 class PlanarRegion {
 public:
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -34,7 +34,7 @@ public:
 
 private:
     void constrain(const std::vector<VectorXcd>& polygons, const std::vector<Cdt::Vertex_handle>& handles);
-    /// From the infinite face inwards; a constrained edge changes sides.
+    /// Goes from the infinite face inwards; each constrained edge changes sides.
     void mark_inside();
 
     Cdt cdt_;

@@ -21,7 +21,7 @@ double least_area(const std::vector<Complex>& polygon, Complex x)
     return least;
 }
 
-/// The mean corner of the kernel: the polygon's box, cut by the line of each edge.
+/// The mean corner of the kernel, computed as the polygon's box cut by the line of each edge.
 std::optional<Complex> kernel_point(const std::vector<Complex>& polygon)
 {
     double left = polygon[0].real(), right = left, low = polygon[0].imag(), high = low;
@@ -62,12 +62,12 @@ std::optional<Complex> star_centre(const std::vector<Complex>& polygon, const st
     const std::size_t n = polygon.size();
     const double lightest = *std::min_element(weights.begin(), weights.end());
     for (int step = 0; step < most_steps; ++step) {
-        // Of -sum w log area: gradient (gx, gy) and Hessian (xx, xy, yy).
+        // Gradient (gx, gy) and Hessian (xx, xy, yy) of -sum w log area.
         double gx = 0.0, gy = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
         for (std::size_t i = 0; i < n; ++i) {
             const Complex a = polygon[i] - x, b = polygon[(i + 1) % n] - x;
             const double area = cross(a, b);
-            // The area's gradient, over the area.
+            // The area's gradient divided by the area.
             const double sx = (a.imag() - b.imag()) / area, sy = (b.real() - a.real()) / area;
             gx -= weights[i] * sx;
             gy -= weights[i] * sy;
@@ -80,7 +80,7 @@ std::optional<Complex> star_centre(const std::vector<Complex>& polygon, const st
         const Complex direction(-(yy * gx - xy * gy) / determinant, -(xx * gy - xy * gx) / determinant);
         const double decrement = -(gx * direction.real() + gy * direction.imag());
         if (!(decrement > settled * lightest)) break;
-        double most = 1.0;  // as far as every face keeps a tenth of its area
+        double most = 1.0;  // largest step that leaves every face a tenth of its area
         for (std::size_t i = 0; i < n; ++i) {
             const Complex a = polygon[i] - x, b = polygon[(i + 1) % n] - x;
             const double change = cross(direction, b - a) / -cross(a, b);

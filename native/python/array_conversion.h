@@ -1,4 +1,4 @@
-// Plane points and lists of numbers as Python has them.
+// Converts plane points and lists of numbers for Python.
 #pragma once
 
 #include "circles/circle.h"

@@ -1,4 +1,4 @@
-// Maps to domains that are no disk, and to parts.
+// Maps to domains other than the disk, and to parts.
 #include "array_conversion.h"
 #include "bindings.h"
 #include "native_call.h"
@@ -22,7 +22,7 @@ namespace py = pybind11;
 namespace koebe::python {
 namespace {
 
-/// The result of a map whose UVs are of corners; more is added to it.
+/// Binds the common members of a map result with UVs per corner. The caller adds more.
 template <class Result>
 py::class_<Result, MapReport> bind_result(py::module_& m, const char* name)
 {

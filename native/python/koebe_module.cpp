@@ -1,4 +1,4 @@
-// The Python module. Arrays come checked from koebe/_arrays.py, and each call copies them.
+// The Python module. koebe/_arrays.py has checked all arrays, and each call copies them.
 #include "bindings.h"
 #include "error_translation.h"
 #include "native_call.h"

@@ -12,17 +12,17 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto between_polls = 20ms;
-constexpr auto patience = 2s;  // with a progress callback that does not come back
+constexpr auto patience = 2s;  // for a progress callback that does not return
 
 struct Calls {
     std::mutex mutex;
     std::condition_variable changed;
     int running = 0;
     bool ending = false;
-    std::atomic<unsigned long> main_thread = 0;  ///< as Python's get_ident has it
+    std::atomic<unsigned long> main_thread = 0;  ///< as from Python's get_ident
 };
 
-/// Never taken down: a thread may come late.
+/// Never destroyed: a thread may come late.
 Calls& calls()
 {
     static Calls* const all = new Calls;
@@ -35,21 +35,21 @@ bool is_ending()
     return calls().ending;
 }
 
-/// Ends a thread without a word where nothing catches it. To be called with the GIL.
+/// Ends a thread silently if nothing catches the exception. Call with the GIL.
 [[noreturn]] void leave_thread()
 {
     PyErr_SetString(PyExc_SystemExit, "the interpreter ends");
     throw py::error_already_set();
 }
 
-/// Kept, since to ask for it runs Python, which may let another thread end the interpreter meanwhile.
+/// Kept, since asking for it runs Python, which may let another thread end the interpreter meanwhile.
 void note_main_thread()
 {
     calls().main_thread = py::cast<unsigned long>(py::module_::import("threading").attr("main_thread")().attr("ident"));
 }
 
-/// Waits, at most 2 s, for the calls of all threads; no other begins. A thread whose call has ended may be in Python's
-/// hands only while it has the GIL: so the count is looked at with it.
+/// Waits at most 2 s for the calls of all threads; no new call starts. A thread whose call has ended uses Python only
+/// with the GIL, so the count is read with the GIL.
 void end_calls()
 {
     const auto end = Clock::now() + patience;

@@ -1,4 +1,4 @@
-// How Python calls the library: without the GIL, stopped by Ctrl-C, and over before the interpreter is.
+// Calls the library from Python: without the GIL, stopped by Ctrl-C, and finished before the interpreter ends.
 #pragma once
 
 #include "core/not_copied.h"
@@ -14,9 +14,9 @@
 
 namespace koebe::python {
 
-/// Runs what takes the GIL or runs Python. Once the interpreter has ended, Python ends a thread that asks for the GIL
-/// by an unwinding of its stack, which a destructor turns into std::terminate and a translator of errors swallows:
-/// there the thread stops here for good, as Python itself has it from 3.14 on. What `act` throws passes.
+/// Runs code that takes the GIL or runs Python. Once the interpreter has ended, Python ends a thread that asks for the
+/// GIL by unwinding its stack. A destructor turns that into std::terminate, and a translator of errors swallows it. So
+/// the thread stops here for good, as in Python from 3.14 on. Exceptions of `act` pass.
 template <class Act>
 auto in_python(Act act)
 {
@@ -29,19 +29,19 @@ auto in_python(Act act)
     }
 }
 
-/// A call from Python: gives the GIL up for its lifetime, and counts. Once the interpreter ends, calls of other threads
-/// than the main one leave by SystemExit, and it waits for them.
+/// A call from Python. Releases the GIL for its lifetime, and is counted. When the interpreter ends, it waits for
+/// calls; calls of threads other than the main one leave by SystemExit.
 class Call : NotCopied {
 public:
-    /// To be made with the GIL.
+    /// Call with the GIL.
     Call();
     ~Call();
 
-    /// To be called without the GIL, often: runs Python's signal handlers on the main thread, about every 20 ms, and
-    /// throws what they raise, KeyboardInterrupt for one.
+    /// Call often, without the GIL. Runs Python's signal handlers on the main thread, about every 20 ms, and throws
+    /// their exceptions, such as KeyboardInterrupt.
     void poll();
 
-    /// The GIL taken back for its lifetime, on the thread of the call.
+    /// Takes the GIL back for its lifetime, on the thread of the call.
     class WithGil : NotCopied {
     public:
         explicit WithGil(Call& call);
@@ -57,12 +57,11 @@ private:
     PyThreadState* state_;
 };
 
-/// To be called once, when the module is loaded: which thread is the main one, and what to do when the interpreter
-/// ends.
+/// Call once, when the module is loaded: notes the main thread, and prepares for the end of the interpreter.
 void watch_interpreter();
 
-/// Runs a computation that looks after its context without the GIL. Progress is called on this thread with it, and what
-/// it raises ends the computation.
+/// Runs a computation, which uses its context, without the GIL. Calls progress on this thread with the GIL; an
+/// exception of progress ends the computation.
 template <class Compute>
 auto without_gil(const pybind11::object& progress, const CancelToken& token, Compute compute)
 {
@@ -77,10 +76,10 @@ auto without_gil(const pybind11::object& progress, const CancelToken& token, Com
     return compute(context);
 }
 
-/// Faces of a mesh that takes a few milliseconds to go through: not worth a thread, which a busy machine lets wait.
+/// Number of faces of a mesh that takes a few milliseconds: not worth a thread, which a busy machine may delay.
 constexpr Index small_mesh = 5000;
 
-/// Runs any computation without the GIL, on a thread of its own unless it is short; what it reads must be its own.
+/// Runs any computation without the GIL, on a thread of its own unless it is short. It must own the data that it reads.
 template <class Compute>
 auto detached(Compute compute, bool is_short = false)
 {

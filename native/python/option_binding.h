@@ -1,4 +1,4 @@
-// The struct of a map's options as a Python class.
+// Binds the struct of a map's options as a Python class.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -6,7 +6,7 @@
 
 namespace koebe::python {
 
-/// Each option by its name.
+/// Binds each option by its name.
 template <typename Options>
 pybind11::class_<Options> bind_options(pybind11::module_& m, const char* name)
 {

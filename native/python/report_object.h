@@ -1,4 +1,4 @@
-// The report as Python objects.
+// Converts the report to Python objects.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 
 namespace koebe::python {
 
-/// Dicts, lists, strings, numbers and booleans; None for a number that is not finite, as in the text of the JSON.
+/// Dicts, lists, strings, numbers and booleans. A number that is not finite becomes None, as in the JSON text.
 pybind11::object to_object(const nlohmann::ordered_json& report);
 
 }  // namespace koebe::python

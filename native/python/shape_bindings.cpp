@@ -1,4 +1,4 @@
-// What circles and surfaces tell of shapes.
+// Numbers that circles and surfaces give about shapes.
 #include "array_conversion.h"
 #include "bindings.h"
 #include "native_call.h"

@@ -28,7 +28,7 @@ namespace py = pybind11;
 namespace koebe::python {
 namespace {
 
-/// The checked surface for a map that is made for so many boundary loops.
+/// The checked surface, for a map that needs this number of boundary loops.
 Surface surface_with_loops(const Vertices& vertices, const Triangles& triangles, std::size_t count)
 {
     validate_arrays(vertices, triangles);

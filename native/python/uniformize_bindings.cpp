@@ -1,4 +1,4 @@
-// Maps to circle domains, and what is cut for them.
+// Maps to circle domains, and cutting for them.
 #include "array_conversion.h"
 #include "bindings.h"
 #include "native_call.h"

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double degrees_of_a_radian = 180.0 / std::numbers::pi;
 constexpr double thin_face = 1e-10;  // twice the area over the squared longest edge, dimensionless
-constexpr int widest_unit = 1000;    // binary exponent: the unit and its inverse are doubles
+constexpr int widest_unit = 1000;    // binary exponent: the unit and its inverse must be doubles
 
-/// A corner between two sides, by its cosine and sine times the sides' lengths.
+/// A corner between two sides, by its cosine and sine, both times the sides' lengths.
 struct CornerAngle {
     double cosine, sine;
-    bool sides = true;  ///< whether both have a direction; else the angle is a right one
+    bool sides = true;  ///< whether both sides have a direction; else the angle is a right angle
 
     CornerAngle(double ax, double ay, double bx, double by)
         : cosine(ax * bx + ay * by), sine(std::abs(ax * by - ay * bx))
@@ -72,7 +72,7 @@ std::array<double, 3> angle_errors(const FlatTriangle& flat, double ax, double a
     const CornerAngle one(ax, ay, bx, by), two(-ax, -ay, bx - ax, by - ay);
     const double first = change({flat.p1x, 0.0, flat.p2x, flat.p2y}, one);
     const double second = change({-flat.p1x, 0.0, rest, flat.p2y}, two);
-    double third = first + second;  // what the others change
+    double third = first + second;  // the third angle changes by the sum of the others
     if (!one.sides || !two.sides)
         third = change({-flat.p2x, -flat.p2y, -rest, -flat.p2y}, {-bx, -by, ax - bx, ay - by});
     return {degrees_of_a_radian * std::abs(first), degrees_of_a_radian * std::abs(second),

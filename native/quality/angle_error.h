@@ -1,4 +1,4 @@
-// Angles of a triangle on the surface and of its image, whatever unit the surface has.
+// Angles of a triangle on the surface and of its image, for any unit of the surface.
 #pragma once
 
 #include "core/types.h"
@@ -16,16 +16,16 @@ struct FlatTriangle {
     double p1x = 0.0, p2x = 0.0, p2y = 0.0;
 
     double area() const { return 0.5 * p1x * p2y; }
-    /// Whether it has angles to speak of.
+    /// Whether the triangle is thick enough to have angles.
     bool has_angles() const;
 };
 
-/// The faces of a surface, laid flat one by one. Its unit is a power of 2, so that no area is out of a double's range.
+/// The faces of a surface, laid flat one by one, in a unit that is a power of 2, so that no area over- or underflows.
 class FlatFaces {
 public:
     FlatFaces(const Vertices& vertices, const Triangles& triangles);
 
-    /// @param corners the order in which they are taken
+    /// @param corners their order in the triangle
     FlatTriangle operator()(Eigen::Index f, const std::array<int, 3>& corners = {0, 1, 2}) const;
 
 private:
@@ -34,9 +34,9 @@ private:
     double unit_ = 1.0;
 };
 
-/// Degrees, |angle - angle of the image| at the three corners, all angles counted as positive. The image has the
-/// corners 0, a, b. Where two of these coincide, their side has no direction: the angles at its ends count as right
-/// ones, as those of the thinnest isosceles triangle.
+/// Degrees, |angle - angle of the image| at the three corners, with positive angles. The image has the corners 0, a, b.
+/// Where two of these coincide, their side has no direction: the angles at its ends count as right angles, as in the
+/// thinnest isosceles triangle.
 std::array<double, 3> angle_errors(const FlatTriangle& flat, double ax, double ay, double bx, double by);
 
 /// Errors of many corners.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double log_area_floor = 1e-300;
 
-/// What some faces add to the measures.
+/// Sums of the measures over some faces.
 struct FaceSums {
     AngleSums angles;
     double mu_sum = 0.0, mu_max = 0.0, surface_area = 0.0, log_sum = 0.0, log_squares = 0.0;
@@ -34,7 +34,7 @@ struct FaceSums {
     }
 };
 
-/// A face on the surface and in the plane, its first corner in 0.
+/// A face on the surface and in the plane, with its first corner at 0.
 struct FacePair {
     FacePair(const FlatFaces& faces, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index f)
         : flat(faces(f)),
@@ -53,7 +53,7 @@ struct FacePair {
     double ax, ay, bx, by, uv_area, area;
 };
 
-/// @param log_origin that the variance of the logarithms is taken about, free of cancellation
+/// @param log_origin the variance of the logarithms is taken about this, to avoid cancellation
 void add_face(const FacePair& face, double log_origin, FaceSums& sums)
 {
     const FlatTriangle& flat = face.flat;
@@ -63,7 +63,7 @@ void add_face(const FacePair& face, double log_origin, FaceSums& sums)
 
     sums.angles.add(angle_errors(flat, ax, ay, bx, by));
 
-    // Jacobian columns d/dx and d/dy; f_z and f_zbar from them.
+    // Jacobian columns d/dx and d/dy give f_z and f_zbar.
     const double fx_x = ax / flat.p1x, fx_y = ay / flat.p1x;
     const double fy_x = (bx - fx_x * flat.p2x) / flat.p2y, fy_y = (by - fx_y * flat.p2x) / flat.p2y;
     const Complex fz(0.5 * (fx_x + fy_y), 0.5 * (fx_y - fy_x)), fzbar(0.5 * (fx_x - fy_y), 0.5 * (fx_y + fy_x));
@@ -83,7 +83,7 @@ void add_face(const FacePair& face, double log_origin, FaceSums& sums)
 
 FaceSums sums_over_faces(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv)
 {
-    constexpr std::size_t at_a_time = 65536;  // up to which the sums are those of one pass
+    constexpr std::size_t at_a_time = 65536;  // up to here one pass gives the sums
     const std::size_t faces = static_cast<std::size_t>(triangles.rows());
     const FlatFaces flat(vertices, triangles);
     double log_origin = 0.0;  // the first ratio

@@ -1,4 +1,4 @@
-// The seconds that a map's stages take, and how a map ends.
+// Measures the seconds of a map's stages, and finishes its report.
 #pragma once
 
 #include "execution/execution.h"
@@ -10,16 +10,16 @@ namespace koebe {
 
 class MapClock {
 public:
-    /// What has passed since the last stage ended is of this one.
+    /// Adds the time since the last stage ended to this stage.
     void end(double StageSeconds::*stage) { seconds_.*stage += stage_.lap(); }
-    /// What others have measured since then.
+    /// Adds seconds that others measured since the last stage ended.
     void take(const StageSeconds& seconds)
     {
         seconds_ += seconds;
         stage_.lap();
     }
 
-    /// The last stage, the total, the memory; the progress is whole.
+    /// Ends the last stage; reports total and memory; completes the progress.
     void finish(MapReport& report, ExecutionContext& context)
     {
         end(&StageSeconds::finish);

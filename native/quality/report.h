@@ -1,4 +1,4 @@
-// What every map reports, whatever its domain: the report that every front end passes on.
+// The report that all maps share, for any domain. Every front end shows it.
 #pragma once
 
 #include "core/types.h"
@@ -30,16 +30,16 @@ struct StageSeconds {
 
 struct MapReport {
     Index vertex_count = 0, face_count = 0;
-    std::optional<double> even = {};  ///< of a map that can be made more even: how much it is (relax/even_map.h)
-    Index overlaps = 0;               ///< of such a map: pairs of boundary edges that cross, or parts with such
-    bool converged = false;           ///< false: the map is not done, and a warning says why
+    std::optional<double> even = {};  ///< of maps that can be made more even: how even the map is (relax/even_map.h)
+    Index overlaps = 0;               ///< of such maps: pairs of crossing boundary edges, or parts with such
+    bool converged = false;           ///< false: the map is not finished, and a warning tells why
     Distortion distortion;
     StageSeconds seconds;
     double peak_memory_mb = 0.0;
     std::vector<Warning> warnings;
 };
 
-/// A map of which each corner of a face has UVs of its own, so that the two sides of a cut can differ.
+/// A map with UVs for each corner, so that the two sides of a cut can differ.
 struct CornerMapReport : MapReport {
     PlanarPoints uv;            ///< (3F, 2) of corner 3 f + k of the input's face f
     std::vector<Index> turned;  ///< faces that were turned to the orientation of the others

@@ -13,7 +13,7 @@ struct StoredPoint {
     double u, v;
 };
 
-/// As a 32-bit float has it. Through memory: GCC 12 leaves the rounding out where it does that to two numbers at once.
+/// Rounds to a 32-bit float, through memory: GCC 12 leaves the rounding out where it rounds two numbers at once.
 inline double as_stored(double coordinate)
 {
     const volatile float stored = static_cast<float>(coordinate);
@@ -31,7 +31,7 @@ struct StoredFace {
         : a(first), b(second), c(third)
     {
     }
-    /// @param first the corner that the area is taken from: its last digits depend on that
+    /// @param first the corner where the area is computed from; its last digits depend on it
     StoredFace(const Triangles& triangles, const PlanarPoints& points, Eigen::Index f, int first = 0)
         : a(stored_point(points, triangles(f, first))),
           b(stored_point(points, triangles(f, (first + 1) % 3))),
@@ -45,9 +45,9 @@ struct StoredFace {
         return std::max(
             {std::hypot(a.u - b.u, a.v - b.v), std::hypot(b.u - c.u, b.v - c.v), std::hypot(c.u - a.u, c.v - a.v)});
     }
-    /// Seen from the first corner.
+    /// Whether the area is not positive, computed at the first corner.
     bool flipped() const { return !(area() > 0.0); }
-    /// Seen from some corner: what must not be, whatever corner a reader starts from.
+    /// Whether the area is not positive at any corner. No reader may see a flip, whichever corner it starts from.
     bool doubtful() const { return flipped() || !(area_from(b, c, a) > 0.0) || !(area_from(c, a, b) > 0.0); }
     bool below_resolution() const { return longest_edge() < uv_resolution; }
 

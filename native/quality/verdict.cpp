@@ -9,7 +9,7 @@
 namespace koebe {
 namespace {
 
-/// What some faces add to the verdict.
+/// Sums of the verdict over some faces.
 struct VerdictSums {
     AngleSums angles;
     double area = 0.0, lost = 0.0;

@@ -26,10 +26,10 @@ using Mobility = FoldoverProblem::Mobility;
 constexpr double longest_approach = 8.0;  // of a face's size to that of the surface, as areas,
 constexpr double few_far = 1e-3;          // until no more of the surface's area differs by more
 constexpr double nearer = 0.9;            // and as long as that, or the energy, becomes less by so much
+constexpr double much_less = 0.99;         // energy, for faces on their way to go on
 constexpr int steps_an_approach = 4;
-constexpr double settled = 5e-4;  // relative decrease of the energy
-constexpr int most_rounds = 20;   // with the void,
-constexpr int steps_a_round = 5;
+constexpr double settled = 5e-4;        // relative decrease of the energy
+constexpr int steps_a_round = 5;        // with the void,
 constexpr double settled_round = 1e-3;  // and the relative decrease of the energy at which they end
 constexpr double void_weight = 1e-3;    // of a face of the void, over a mean one of the surface
 constexpr double least_weight = 1e-3;   // of a face of the surface, over the mean
@@ -90,7 +90,10 @@ public:
             energy_before = now;
             if (relax_once(result, steps_an_approach)) return true;
         }
-        return relax_once(result, most_steps_);
+        for (double before = energy_before; true; before = energy()) {  // again while a face is still on its way
+            if (relax_once(result, most_steps_)) return true;
+            if (!(far_off() > 0.0) || !(energy() < much_less * before)) return false;
+        }
     }
 
     bool relax_once(EvenMap& result, int iterations)
@@ -101,7 +104,7 @@ public:
         return done.hindered;
     }
 
-    void relax_with_void(EvenMap& result)
+    void relax_with_void(EvenMap& result, int most_rounds)
     {
         double before = energy();
         for (int round = 0; round < most_rounds; ++round) {
@@ -306,12 +309,13 @@ double scale_to_size(const Vertices& vertices, const Triangles& triangles, doubl
 
 double area_weight(double even) { return even / (1.1 - even); }
 
-EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context, int most_steps)
+EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,
+                  const EvenEffort& effort)
 {
     EvenMap result;
-    EvenProblem problem(surface, even, extent, most_steps, context);
+    EvenProblem problem(surface, even, extent, effort.most_steps, context);
     if (!(even > 0.0) || !problem.one_to_one()) return result;
-    if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result);
+    if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result, effort.most_rounds);
     return result;
 }
 

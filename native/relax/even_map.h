@@ -38,6 +38,11 @@ struct FlatSurface {
     std::vector<Complex>* periods = nullptr;
 };
 
+struct EvenEffort {
+    int most_steps = 60;   ///< of Newton's method at the end, when all faces are near their size
+    int most_rounds = 20;  ///< with the void, where loops would cross
+};
+
 struct EvenMap {
     bool moved = false;
     int iterations = 0;  ///< Newton steps
@@ -52,9 +57,8 @@ struct EvenMap {
 ///
 /// A map that is not one to one to begin with is left as it is.
 /// @param extent of the square that the points are stored in as 32-bit floats, in their unit
-/// @param most_steps of Newton's method at the end, when all faces are near their size
 /// @throws Cancelled
 EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,
-                  int most_steps = 60);
+                  const EvenEffort& effort = {});
 
 }  // namespace koebe

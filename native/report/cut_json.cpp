@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the report of a piece has that the mesh's has not, or has as a whole.
+/// The entries of a piece's report that the mesh's report does not have, or has for the whole.
 Json piece_json(const MappedPiece& piece)
 {
     Json report{{"faces", piece.faces},

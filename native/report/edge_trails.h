@@ -1,4 +1,4 @@
-// Edges as few long strokes, so that a drawing of them is small.
+// Draws edges in few long strokes, so that a picture's file is small.
 #pragma once
 
 #include "core/types.h"
@@ -10,8 +10,8 @@ namespace koebe {
 
 using Edge = std::array<Index, 2>;
 
-/// Covers every edge once by walks over the graph, greedily from vertices of odd degree first.
-/// @param edges without duplicates and without loops
+/// Covers every edge once by walks over the graph, greedily, from vertices of odd degree first.
+/// @param edges without duplicates and loops
 std::vector<std::vector<Index>> edge_trails(const std::vector<Edge>& edges, Index vertex_count);
 
 }  // namespace koebe

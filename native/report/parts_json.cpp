@@ -18,6 +18,8 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"converged", result.converged},
                                        {"cut_length", result.cut_length},
                                        {"slit_length", result.slit_length},
+                                       {"darts", result.darts},
+                                       {"dart_length", result.dart_length},
                                        {"handles_cut", result.handles_cut},
                                        {"density_ratio_5_95", result.density_ratio_5_95},
                                        {"even_area", result.even_area},

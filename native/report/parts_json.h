@@ -1,4 +1,4 @@
-// The report of parts as JSON.
+// The JSON report of parts.
 #pragma once
 
 #include "core/api.h"
@@ -8,7 +8,7 @@
 
 namespace koebe {
 
-/// Everything but the UVs, as to_json of a uniformization. Lengths of cuts are over the root of the area.
+/// Everything but the UVs, as for a uniformization. Lengths of cuts are over the square root of the area.
 KOEBE_API nlohmann::ordered_json to_json(const PartsResult& result);
 
 }  // namespace koebe

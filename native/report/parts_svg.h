@@ -1,4 +1,4 @@
-// A picture of the parts in the unit square.
+// Draws parts in the unit square.
 #pragma once
 
 #include "core/types.h"
@@ -8,7 +8,7 @@
 
 namespace koebe {
 
-/// One path of triangles for each part, in a colour of its own; v points up.
+/// Draws one path of triangles for each part, each in its own colour; v points up.
 /// @param corner_uv (3F, 2) @param part (F), -1: not drawn
 std::string parts_svg(const PlanarPoints& corner_uv, const std::vector<Index>& part);
 

@@ -9,10 +9,10 @@
 namespace koebe {
 namespace {
 
-constexpr double disk_size = 10000.0;    // picture units to the radius
-constexpr std::size_t longest_word = 3;  // of the copies whose circles are drawn
+constexpr double disk_size = 10000.0;    // picture units per radius
+constexpr std::size_t longest_word = 3;  // of copies whose circles are drawn
 constexpr std::size_t most_circles = 5000;
-constexpr double least_radius = 2e-4;  // of circles that can be seen
+constexpr double least_radius = 2e-4;  // of circles large enough to be seen
 
 std::string place_of(double t) { return std::to_string(std::lround(disk_size * t)); }
 
@@ -22,7 +22,7 @@ std::string circle_element(const Circle& circle)
            place_of(circle.radius) + "\"/>\n";
 }
 
-/// Images of the handles' circles by longer and longer words, as far as they can be seen.
+/// Images of the handles' circles by longer and longer words, as long as they are large enough to be seen.
 std::string circles_of_copies(const SchottkyResult& result)
 {
     std::vector<LinearFractional> generators;
@@ -45,7 +45,7 @@ std::string circles_of_copies(const SchottkyResult& result)
         if (copy.word.size() == longest_word) continue;
         for (std::size_t j = 0; j < generators.size(); ++j)
             for (const int letter : {static_cast<int>(j) + 1, -static_cast<int>(j) - 1}) {
-                // Its first circle is inside the second one of the generator, and so on: those inside are new.
+                // Its first circle lies inside the generator's second one, and so on: only circles inside are new.
                 if (!copy.word.empty() && copy.word.front() == -letter) continue;
                 if (copy.word.empty() && copy.last == letter) continue;
                 GroupWord word = copy.word;

@@ -1,4 +1,4 @@
-// A picture of a fundamental domain of a Schottky group, and of the circles of its copies.
+// Draws a fundamental domain of a Schottky group, and the circles of its copies.
 #pragma once
 
 #include "schottky/schottky_map.h"
@@ -7,7 +7,7 @@
 
 namespace koebe {
 
-/// The faces in the unit square's scale, the handles' circles, and the images of these under words of up to three
+/// Draws the faces in the unit square's scale, the handles' circles, and the images of these under words of up to three
 /// generators, which bound the copies.
 std::string schottky_svg(const SchottkyResult& result);
 

@@ -1,4 +1,4 @@
-// The report of a map to the sphere.
+// The JSON report of a map to the sphere.
 #pragma once
 
 #include "core/api.h"

@@ -12,10 +12,10 @@
 namespace koebe {
 namespace {
 
-constexpr double ball_size = 10000.0;  // picture units to the radius
+constexpr double ball_size = 10000.0;  // picture units per radius
 constexpr int cap_corners = 180;
 
-/// Seen from the front, +y away from the eye and +x to the right, or from behind.
+/// A view from the front, with +y away from the eye and +x to the right, or from behind.
 struct BallView {
     double side;  // 1 in front, -1 behind
 
@@ -28,7 +28,7 @@ struct BallView {
     }
 };
 
-/// Edges with both ends on the side that is seen, as few strokes.
+/// Edges with both ends on the visible side, in few strokes.
 std::string seen_edges(const Triangles& triangles, const Vertices& points, const BallView& view)
 {
     std::vector<Edge> edges;
@@ -46,7 +46,7 @@ std::string seen_edges(const Triangles& triangles, const Vertices& points, const
     return path;
 }
 
-/// What is seen of a cap that is no more than half the sphere: corners behind go to the rim of the ball.
+/// The visible part of a cap of at most half the sphere: corners behind move to the rim of the ball.
 std::string seen_small_cap(const Cap& cap, const BallView& view)
 {
     const SpherePoint x = cap.center.unitOrthogonal(), y = cap.center.cross(x);
@@ -68,7 +68,7 @@ std::string seen_small_cap(const Cap& cap, const BallView& view)
     return seen ? path + "z" : "";
 }
 
-/// What is seen of a cap, to be filled by the even-odd rule: of a large one the ball without the rest.
+/// The visible part of a cap, for the even-odd rule: for a large cap the ball without the rest.
 std::string seen_cap(const Cap& cap, const BallView& view)
 {
     if (cap.radius <= 0.5 * std::numbers::pi) return seen_small_cap(cap, view);

@@ -1,4 +1,4 @@
-// A picture of a map to the sphere.
+// Draws a map to the sphere.
 #pragma once
 
 #include "core/types.h"
@@ -8,7 +8,7 @@
 
 namespace koebe {
 
-/// The sphere from the front, along y, and from behind, side by side: its edges, and its holes as caps.
+/// Draws the sphere from the front, along y, and from behind, side by side: its edges, and its holes as caps.
 /// @param triangles of the input
 std::string sphere_svg(const Triangles& triangles, const SphereResult& result);
 

@@ -13,7 +13,7 @@
 namespace koebe {
 namespace {
 
-constexpr double disk_radius = 4800.0;  // picture units: one is 1/9600 of the disk's width
+constexpr double disk_radius = 4800.0;  // picture units: a unit is 1/9600 of the disk's width
 constexpr double center = 5000.0;
 constexpr std::array<std::string_view, 6> loop_colors{"#c8553d", "#2a7f9e", "#d99a2b", "#5b8c5a", "#7d5ba6", "#b03a6b"};
 
@@ -71,7 +71,7 @@ std::vector<Edge> polygon_edges(const PolygonMesh& mesh)
     return edges;
 }
 
-/// One path: every trail as "M x y l dx dy …" in whole picture units, steps of no length left out.
+/// One path: every trail as "M x y l dx dy …" in whole picture units, without steps of length 0.
 void draw_trails(SvgText& svg, const std::vector<std::vector<Index>>& trails, const PlanarPoints& uv)
 {
     for (const auto& trail : trails) {
@@ -89,7 +89,7 @@ void draw_trails(SvgText& svg, const std::vector<std::vector<Index>>& trails, co
     }
 }
 
-/// Edges of like length share a stroke width, so that shrunken parts do not turn black.
+/// Edges of similar length share a stroke width, so that shrunken parts do not turn black.
 void draw_wireframe(SvgText& svg, const UniformizeResult& result, const PolygonMesh& mesh)
 {
     constexpr int class_count = 5;
@@ -149,7 +149,7 @@ std::string to_svg(const CutUniformizeResult& result, const PolygonMesh& mesh, c
     svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10000 10000\" width=\"1000\" height=\"1000\">\n"
         << "<title>" << static_cast<Index>(result.pieces.size()) << " pieces</title>\n"
         << "<rect width=\"10000\" height=\"10000\" fill=\"#ffffff\"/>\n";
-    UniformizeResult sheet;  // every corner a vertex
+    UniformizeResult sheet;  // with a vertex for each corner
     sheet.uv = 2.0 * corner_uvs.array() - 1.0;
     sheet.loops.emplace_back();
     svg << "<g class=\"disks\" fill=\"#f4efe6\" stroke=\"#1b2a41\" stroke-width=\"12\">\n";

@@ -1,4 +1,4 @@
-// A picture of the circle domain.
+// Draws a circle domain.
 #pragma once
 
 #include "io/polygon_mesh.h"
@@ -9,15 +9,15 @@
 
 namespace koebe {
 
-/// From this many faces on the picture leaves the wireframe out: it would be black, and megabytes.
+/// From this many faces on, the wireframe is left out: it would be black, and its file megabytes large.
 inline constexpr Index wireframe_face_limit = 50000;  // faces
 
-/// The unit disk with the loops' circles and, up to wireframe_face_limit faces, the edges of the mesh, drawn thinner
-/// where the map shrinks. The imaginary axis points up. Vertices that are off their loop's circle are marked.
-/// @param mesh the polygons whose vertices result.uv places
+/// Draws the unit disk with the loops' circles and, up to wireframe_face_limit faces, the edges of the mesh, thinner
+/// where the map shrinks. The imaginary axis points up. Vertices off their loop's circle are marked.
+/// @param mesh the polygons whose vertices are at result.uv
 std::string to_svg(const UniformizeResult& result, const PolygonMesh& mesh);
 
-/// The unit square with the pieces of a cut surface: their circles and, as above, their edges.
+/// Draws the unit square with the pieces of a cut surface: their circles and, as above, their edges.
 /// @param mesh the polygons @param corner_uvs (C, 2) of their corners
 std::string to_svg(const CutUniformizeResult& result, const PolygonMesh& mesh, const PlanarPoints& corner_uvs);
 

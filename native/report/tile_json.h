@@ -1,4 +1,4 @@
-// The report of a map to a torus or a cylinder.
+// The JSON report of a map to a torus or a cylinder.
 #pragma once
 
 #include "core/api.h"

@@ -1,4 +1,4 @@
-// A picture of a tile and its copies.
+// Draws a tile and its copies.
 #pragma once
 
 #include "tiles/tile_map.h"
@@ -7,7 +7,7 @@
 
 namespace koebe {
 
-/// The tile in the unit square's scale, and its copies by one period around it, paler.
+/// Draws the tile in the unit square's scale, and its copies by one period around it, paler.
 std::string tile_svg(const TileResult& result);
 
 }  // namespace koebe

@@ -11,16 +11,16 @@
 namespace koebe {
 namespace {
 
-constexpr double least_edge_share = 0.02;  // of an edge on either side of a cut: no needles
+constexpr double least_edge_share = 0.02;  // of an edge on either side of a cut, to avoid needles
 
-/// Where the segment between two points crosses a circle: the share of its length before.
+/// Share of a segment's length before it crosses a circle.
 double share_before(const Circle& circle, Complex from, Complex to)
 {
     const Complex step = to - from, away = from - circle.center;
     const double a = std::norm(step), b = (std::conj(step) * away).real();
     const double c = std::norm(away) - circle.radius * circle.radius;
     const double root = std::sqrt(std::max(0.0, b * b - a * c));
-    // The points lie on different sides: of the two crossings one is between them.
+    // The points lie on different sides, so one of the two crossings is between them.
     const double first = (-b - root) / a, second = (-b + root) / a;
     const double share = c > 0.0 ? first : second;
     return std::isfinite(share) ? std::clamp(share, least_edge_share, 1.0 - least_edge_share) : 0.5;
@@ -56,14 +56,14 @@ public:
     }
 
 private:
-    /// Of the input: its number here, and what brings it from where the map has it out of all circles.
+    /// A vertex of the input: its number here, and the word that moves it from the map's place out of all circles.
     struct Place {
         Index number = -1;
         Complex at;
         GroupWord out;
     };
 
-    /// All vertices of the input's faces, each once.
+    /// Takes all vertices of the input's faces, each once.
     void take_vertices()
     {
         for (const auto& corners : cut_.corners)
@@ -86,12 +86,12 @@ private:
         return static_cast<Index>(positions_.size()) - 1;
     }
 
-    /// One face of the input.
+    /// Divides one face of the input.
     bool divide(Index f)
     {
         const auto& corners = cut_.corners[f];
         std::array<const Place*, 3> place;
-        std::array<GroupWord, 3> chamber;  // what brings the face to where its corner is out of all circles
+        std::array<GroupWord, 3> chamber;  // the word that moves the face until this corner is out of all circles
         for (int k = 0; k < 3; ++k) {
             place[k] = &places_.at(cut_.original[origin(cut_.surface.triangles, corners[k])]);
             chamber[k] = product(place[k]->out, inverse_of(tiling_.corner_word(corners[k])));
@@ -107,7 +107,7 @@ private:
             own = {3 * begin, 3 * begin + 1, 3 * begin + 2};
             return true;
         }
-        int lone = 0;  // the corner alone on its side
+        int lone = 0;  // the corner that is alone on its side
         while (lone < 3 && chamber[(lone + 1) % 3] != chamber[(lone + 2) % 3]) ++lone;
         if (lone == 3) return false;
         const int next = (lone + 1) % 3, last = (lone + 2) % 3;
@@ -134,8 +134,8 @@ private:
         return true;
     }
 
-    /// The point of a circle on an edge: its copy on the first corner's side, and that on the other's.
-    /// @param over the letter that brings what is out of all circles at the other corner to the first one
+    /// The point where an edge crosses a circle: its copy on the first corner's side, and on the other's.
+    /// @param over the letter from the other corner's copy, out of all circles, to the first corner's
     std::optional<std::array<Index, 2>> crossing(const Place& from, const Place& to, Index from_corner, Index to_corner,
                                                  int over)
     {

@@ -14,8 +14,8 @@
 namespace koebe {
 namespace {
 
-constexpr Index balanced_faces = 20000;  // that are looked at for it
-constexpr double worst_spread = 1e3;     // worse than any where circles are apart
+constexpr Index balanced_faces = 20000;  // number of faces used to balance
+constexpr double worst_spread = 1e3;     // worse than all maps with circles apart
 constexpr int circle_cuts = 2;           // after the first along edges
 
 std::vector<Index> all_loop_vertices(const HandleCut& cut)
@@ -25,8 +25,8 @@ std::vector<Index> all_loop_vertices(const HandleCut& cut)
     return result;
 }
 
-/// The inside harmonic between the loops. These were moved a little, onto circles and to fit each other: without a
-/// shift a flux would run to the smallest of them, and be all that the map is near there.
+/// Makes the inside harmonic between the loops. First shifts the loops, which were moved a little onto circles and to
+/// fit each other: otherwise a flux would run to the smallest loop and dominate the map there.
 void fill_inside(CondensedLaplacian& surface, const GluedState& state, SchottkyPlane& plane)
 {
     plane.shift(state.shifts_without_flux(plane.images));
@@ -48,8 +48,8 @@ PlanarPoints as_points(const VectorXcd& z)
     return points;
 }
 
-/// With holes: the automorphism of the disk with the most even texels, or the nearest one with room for equal circles.
-/// The loops are solved for anew, not moved: where a handle's loops are tiny, a flux of the size of the mesh's errors
+/// With holes: applies the automorphism of the disk with the most even texels, or the nearest one with room for equal
+/// circles. The loops are solved for again, not moved: for a handle's tiny loops, a flux as large as the mesh's errors
 /// would draw all of them to one side.
 SchottkyPlane plane_in_disk(const HandleCut& cut, CondensedLaplacian& surface, const GluedState& state,
                             SchottkyNormalization normalization)
@@ -67,7 +67,7 @@ SchottkyPlane plane_in_disk(const HandleCut& cut, CondensedLaplacian& surface, c
     return plane;
 }
 
-/// Without holes: of the handles whose generator can be z -> lambda z the one with the most even texels.
+/// Without holes: of the handles whose generator can be z -> lambda z, takes the one with the most even texels.
 SchottkyPlane annular_plane(const HandleCut& cut, CondensedLaplacian& surface, const GluedState& state)
 {
     SchottkyPlane plane = schottky_plane(cut, state.images_round_infinity());

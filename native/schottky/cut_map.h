@@ -1,4 +1,4 @@
-// The map of a surface whose handles are cut open, before it is put together to UVs.
+// Maps a surface whose handles are cut open, before its faces are put together to UVs.
 #pragma once
 
 #include "execution/execution.h"
@@ -21,8 +21,8 @@ struct CutMap {
     std::vector<double> changes;
 };
 
-/// Maps of the surface cut along edges, and then along circles as long as there are some.
-/// @param seconds of their metrics, factors and iterations, added up
+/// Maps the surface cut along edges, and then cut along circles as long as there are such circles.
+/// @param seconds out: sum over their metrics, factors and iterations
 std::vector<CutMap> cut_maps(HandleCut cut, const FinerFaces& faces, const SchottkyOptions& options,
                              StageSeconds& seconds, ExecutionContext& context);
 

@@ -28,7 +28,7 @@ FinerFaces cut_in_four(const FinerFaces& faces)
         finer.triangles.row(4 * f + 3) << half[0], half[1], half[2];
         for (int k = 0; k < 4; ++k) finer.input_face.push_back(faces.input_face[f]);
     }
-    // Corner c of triangle t starts the triangle 4 t + c of four.
+    // Triangle t is split into 4 t to 4 t + 3; corner c of t is the first corner of triangle 4 t + c.
     finer.corners = faces.corners;
     for (auto& corners : finer.corners)
         for (Index& corner : corners) corner = 3 * (4 * (corner / 3) + corner % 3);

@@ -16,9 +16,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double dense_matrices = 5.0;  // Sigma, A, its factor, that one's inverse, and one on the way
+constexpr double dense_matrices = 5.0;  // Sigma, A, its factor, the factor's inverse, and a temporary
 
-/// Half the arcs to both neighbours: what a node's hat function has of the circle.
+/// Half the arcs to both neighbours: the part of the circle that belongs to each node.
 VectorXd arcs_around(const VectorXd& angles)
 {
     const Eigen::Index n = angles.size();
@@ -51,7 +51,7 @@ GluedState::GluedState(const CondensedLaplacian& surface, const std::vector<CutL
 double GluedState::sweep()
 {
     const Eigen::Index n = filled_.rows();
-    // On loads of sum 0 the inverse of A + alpha 1 1' is that of A, whatever alpha: their solutions have mean 0.
+    // For loads of sum 0, A + alpha 1 1' with any alpha has the solutions of A with mean 0.
     const double alpha = filled_.trace() / static_cast<double>(n) / static_cast<double>(n);
     const MatrixXd factor = spd_factor((filled_.array() + alpha).matrix());
     const MatrixXd inverse_factor = lower_inverse(factor);
@@ -84,17 +84,17 @@ std::vector<VectorXcd> GluedState::images_in_disk(const VectorXcd& rim) const
     return split(z);
 }
 
-/// Infinity in the middle of the first loop's disk: there w = exp(-i theta), as the loop runs clockwise round its
-/// hole, and z - 1 / w is regular. In the disk 1 / w - conj(w) is 0 on the circle and has the normal derivative
-/// -2 exp(i theta) there: that is the load.
+/// Puts infinity in the middle of the first loop's disk. There w = exp(-i theta), as the loop runs clockwise round its
+/// hole, and z - 1 / w is regular. In the disk 1 / w - conj(w) is 0 on the circle and has the normal derivative -2
+/// exp(i theta) there, which is the load.
 std::vector<VectorXcd> GluedState::images_round_infinity() const
 {
     const Eigen::Index n = filled_.rows();
     MatrixXd load = MatrixXd::Zero(n, 2);
     const VectorXd& angles = angles_[0];
     for (Eigen::Index b = 0; b < angles.size(); ++b) {
-        // Integrals over an arc of exp(i theta) times the hat functions of its ends. Their sum is 0 to the last
-        // bits, as it has to be: what is left over would run to the farthest loops, where the map hardly changes.
+        // Integrals over an arc of exp(i theta) times the hat functions of its ends. Their sum must be 0 to the last
+        // bits: any remainder would run to the farthest loops, where the map hardly changes.
         const Eigen::Index after = (b + 1) % angles.size();
         const double arc = angles[after] - angles[b] + (after == 0 ? 2.0 * pi : 0.0);
         const Complex begin = std::polar(1.0, angles[b]), end = begin * std::polar(1.0, arc);
@@ -135,7 +135,7 @@ void GluedState::fill(std::size_t k, VectorXd angles)
     filled_.block(at, at, n, n) = sigma_.block(at, at, n, n) + disks_[k];
 }
 
-/// With loop k at 0, from a source of 1 in the middle of the other side's disk, or of the next loop's.
+/// The flux with loop k at 0, from a source of 1 in the middle of the disk in the other side, or in the next loop.
 VectorXd GluedState::flux_through(std::size_t k, const MatrixXd& inverse_factor) const
 {
     auto from = static_cast<std::size_t>(loops_[k].partner);
@@ -151,7 +151,7 @@ VectorXd GluedState::flux_through(std::size_t k, const MatrixXd& inverse_factor)
     return both.col(0) + both.col(1) * ((1.0 - both.col(0).sum()) / both.col(1).sum());
 }
 
-/// Angles along a loop given along its other side, which runs the other way round: rising again.
+/// Ascending angles along a loop from those along its other side, which runs in reverse.
 VectorXd GluedState::seen_from_the_other_side(std::size_t k, const VectorXd& angles) const
 {
     const std::vector<Index>& matches = loops_[k].matches;

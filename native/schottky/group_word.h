@@ -1,4 +1,4 @@
-// Elements of the group that the generators of handles generate.
+// Words in the generators of handles, which generate a group.
 #pragma once
 
 #include "schottky/linear_fractional.h"
@@ -7,11 +7,11 @@
 
 namespace koebe {
 
-/// Generators j as j + 1, their inverses as -(j + 1); the last one is applied first. No letter stands beside its
-/// inverse, so that each element has one word: the group is free.
+/// Generator j is j + 1, its inverse -(j + 1); the last letter is applied first. No letter stands beside its inverse.
+/// The group is free, so each element has one word.
 using GroupWord = std::vector<int>;
 
-/// 0 is no letter.
+/// Appends a letter, which is not 0.
 void append_letter(GroupWord& word, int letter);
 GroupWord product(GroupWord left, const GroupWord& right);
 GroupWord inverse_of(GroupWord word);

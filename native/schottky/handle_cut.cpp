@@ -13,10 +13,10 @@
 namespace koebe {
 namespace {
 
-/// Steps along loops, by the names of their ends: the loop, and the place of the first end in it.
+/// Steps along loops, by the names of their ends. The value is the loop, and the first end's place in it.
 using LoopSteps = std::map<std::pair<Index, Index>, std::pair<std::size_t, Index>>;
 
-/// The other side of a loop, if some loop is that: of the same steps, the other way round.
+/// Finds the loop on the other side, if there is one: it has the same steps in reverse.
 void find_other_side(const HandleCut& cut, std::size_t own, const LoopSteps& steps, CutLoop& loop)
 {
     const auto n = static_cast<Index>(loop.vertices.size());
@@ -34,7 +34,7 @@ void find_other_side(const HandleCut& cut, std::size_t own, const LoopSteps& ste
     loop.matches = std::move(matches);
 }
 
-/// Holes by falling length, then pairs as they are numbered, or by falling length.
+/// The order of loops: holes by falling length, then pairs as numbered, or by falling length.
 std::vector<std::size_t> order_of(const std::vector<CutLoop>& loops, const std::vector<std::array<int, 2>>& handle_of)
 {
     std::vector<std::size_t> order(loops.size());
@@ -138,7 +138,7 @@ HandleCut cut_handles(const Vertices& vertices, const Triangles& triangles, Inde
     for (std::size_t f = 0; f < cut.input_face.size(); ++f)
         for (int k = 0; k < 3; ++k) cut.corners.at(cut.input_face[f])[k] = 3 * static_cast<Index>(f) + k;
     if (!take_loops(cut, piece.triangles, {})) throw_too_near(opened, vertex_count);
-    // A loop of edges with two faces each that has no other side is no hole: there cuts touch.
+    // A loop without another side, of edges with two faces each, is not a hole: cuts touch there.
     std::map<std::pair<Index, Index>, char> border;
     for (Index h = 0; h < static_cast<Index>(input.triangles.size()); ++h)
         if (input.twin[h] == no_twin) border[{origin(input.triangles, h), target(input.triangles, h)}] = 1;

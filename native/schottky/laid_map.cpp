@@ -6,7 +6,7 @@
 namespace koebe {
 namespace {
 
-/// All of it as large as fits into the unit square's scale, |x| and |y| up to 1, and then judged.
+/// Scales the tile until |x| and |y| are at most 1, and judges it.
 void fit_and_judge(LaidMap& map)
 {
     const double largest = map.tile.points.cwiseAbs().maxCoeff();
@@ -47,7 +47,7 @@ LaidMap laid_map(CutMap map, const FinerFaces& faces, const std::vector<Index>& 
             if (beside.apart) repair(tiling.by_circles(plane, beside));
         }
     if (!circles.apart || !result.faults.any()) return result;
-    // The boundary of the UVs may be wrong on one circle and right on another.
+    // The boundary of the UVs may have faults for one circle and none for another.
     for (const double factor : {1.6, 0.6, 2.5, 0.4}) {
         const FundamentalCircles beside = circles_beside(plane, circles, factor);
         if (!beside.apart) continue;

@@ -1,4 +1,4 @@
-// The map of a cut surface put together to UVs: along which circles or edges they are cut, and flips turned back.
+// Puts the map of a cut surface together to UVs: cuts along circles or edges, and turns flips back.
 #pragma once
 
 #include "execution/execution.h"
@@ -10,7 +10,7 @@
 
 namespace koebe {
 
-/// A map, put together to the UVs.
+/// A map and its UVs.
 struct LaidMap {
     CutMap map;
     SchottkyTile tile;
@@ -18,11 +18,11 @@ struct LaidMap {
     bool by_circles = false;
 
     bool tangled() const { return faults.flipped.size() > faults.below_resolution.size(); }
-    /// So many flips that repairs would take long and leave some.
+    /// Whether there are so many flips that repairs would take long and leave some.
     bool hopeless() const { return faults.flipped.size() > faults.below_resolution.size() + tile.triangles.rows() / 5; }
 };
 
-/// Flipped faces are turned back in tiles that are bounded elsewhere, too: their boundaries are held.
+/// Puts a map together. Flipped faces are turned back in tiles with other boundaries, too, as boundaries are held.
 /// @param polygon as in SchottkyOptions
 LaidMap laid_map(CutMap map, const FinerFaces& faces, const std::vector<Index>& polygon, ExecutionContext& context);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int fit_rounds = 4;
 
-/// z -> (z - center) / size of a set of points: fits are made where both are near the unit circle.
+/// z -> (z - center) / size of a set of points: fits are made in frames where both sets are near the unit circle.
 struct Frame {
     Complex center;
     double size;
@@ -48,7 +48,7 @@ VectorXcd LinearFractional::operator()(const VectorXcd& z) const
     return result;
 }
 
-/// The point that is mirrored in the circle to the pole goes to the center.
+/// The pole's mirror image in the circle goes to the new center.
 Circle LinearFractional::operator()(const Circle& circle) const
 {
     Complex center = (*this)(circle.center);
@@ -69,7 +69,7 @@ LinearFractional LinearFractional::operator*(const LinearFractional& first) cons
 
 Circle LinearFractional::isometric_circle() const { return {-d / c, 1.0 / std::abs(c)}; }
 
-/// The eigenvector of the larger eigenvalue: of the two rows the one that is farther from 0 tells it.
+/// The eigenvector of the larger eigenvalue, computed from the row that is farther from 0.
 std::array<Complex, 2> LinearFractional::attracting() const
 {
     const Complex value = large_eigenvalue(*this);

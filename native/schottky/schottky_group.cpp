@@ -17,7 +17,7 @@ constexpr int most_letters = 64;
 constexpr double some_room = 0.05;  // between circles, over the sum of their radii
 constexpr int rounds_of_choice = 2, tried_turns = 12;
 
-/// Fits the generator, and moves both sides by half of what it misses.
+/// Fits the generator, and moves each side by half of the misfit.
 void fit_sides(const CutLoop& first, VectorXcd& from, VectorXcd& to, SchottkyPlane& plane)
 {
     const VectorXcd goal = to(first.matches);
@@ -32,11 +32,11 @@ void fit_sides(const CutLoop& first, VectorXcd& from, VectorXcd& to, SchottkyPla
     plane.generators.push_back(map);
 }
 
-/// Which circles of a handle.
+/// The choice of circles for a handle.
 enum class PairKind {
     isometric,  ///< equally large
-    coaxial,    ///< round the fixed points, as far from one as the other: never meeting
-    fitted,     ///< the one of least squared distance to the cut, and its image
+    coaxial,    ///< round the fixed points, at equal distance; these never meet
+    fitted,     ///< the circle of least squared distance to the cut, and its image
 };
 
 std::array<Circle, 2> pair_of(const SchottkyPlane& plane, std::size_t handle, PairKind kind)
@@ -45,7 +45,7 @@ std::array<Circle, 2> pair_of(const SchottkyPlane& plane, std::size_t handle, Pa
     if (kind == PairKind::isometric) return {map.isometric_circle(), map.inverse().isometric_circle()};
     Circle first;
     if (kind == PairKind::coaxial) {
-        // In the coordinate w that is 0 at the attracting point and infinity at the other: |w|^2 = 1 / |lambda|.
+        // Let the coordinate w be 0 at the attracting point and infinity at the other: then |w|^2 = 1 / |lambda|.
         const auto [zero, zero_weight] = map.attracting();
         const auto [pole, pole_weight] = map.inverse().attracting();
         const LinearFractional to_plane = linear_fractional(zero_weight, -zero, pole_weight, -pole).inverse();
@@ -57,20 +57,20 @@ std::array<Circle, 2> pair_of(const SchottkyPlane& plane, std::size_t handle, Pa
     return {first, map(first)};
 }
 
-/// Circles of all handles, and how far they are apart.
+/// Circles of all handles, and how far apart they are.
 struct CirclesInPlace {
     std::vector<std::array<Circle, 2>> pairs;
     double room = -1.0;      // between circles, over the sum of their radii; positive if they are apart
     double log_scale = 0.0;  // of the outer circle's radius
 };
 
-/// The distance of two circles outside each other over the sum of their radii.
+/// The distance of two separate circles over the sum of their radii.
 double room_between(const Circle& a, const Circle& b)
 {
     return std::abs(a.center - b.center) / (a.radius + b.radius) - 1.0;
 }
 
-/// @param circles all that have to be apart, but for the outer one
+/// @param circles all circles that must be apart, except the outer one
 double room_among(const std::vector<Circle>& circles)
 {
     double room = std::numeric_limits<double>::infinity();
@@ -97,7 +97,7 @@ CirclesInPlace circles_of(const SchottkyPlane& plane, const std::vector<PairKind
     if (outer < 0) {
         FundamentalCircles own;
         own.pairs = result.pairs;
-        // A hole may lie in a circle that is cut out: then the copy counts that is brought out of it.
+        // If a hole lies in a circle that is cut out, its copy outside that circle counts.
         for (std::size_t k = 1; k < plane.holes.size(); ++k)
             circles.push_back(applied(way_out(plane.holes[k].center, plane, own), plane.generators, plane.holes[k]));
         result.room = room_among(circles);
@@ -106,7 +106,7 @@ CirclesInPlace circles_of(const SchottkyPlane& plane, const std::vector<PairKind
         return result;
     }
     result.room = room_among(circles);
-    // The outer circle where it has the most room: all others between it and its image.
+    // Put the outer circle where it has the most room: all others lie between it and its image.
     const double period = -std::log(std::abs(plane.generators[outer].multiplier()));
     double best = -period;
     for (int i = 0; i < tried_radii; ++i) {
@@ -126,7 +126,7 @@ CirclesInPlace circles_of(const SchottkyPlane& plane, const std::vector<PairKind
     return result;
 }
 
-/// Isometric circles; where these meet, one handle after the other gets those that make more room.
+/// Starts with isometric circles; where these meet, handles one after another get circles with more room.
 CirclesInPlace roomiest(const SchottkyPlane& plane)
 {
     const std::size_t handles = plane.generators.size();
@@ -147,7 +147,7 @@ CirclesInPlace roomiest(const SchottkyPlane& plane)
     return best;
 }
 
-/// Points of the disk, from its middle out.
+/// Points of the disk, from the middle outwards.
 std::vector<Complex> tried_centers()
 {
     std::vector<Complex> result{0.0};
@@ -157,7 +157,7 @@ std::vector<Complex> tried_centers()
     return result;
 }
 
-/// Without the inside of the surface.
+/// Moves the loops, without the inside of the surface.
 SchottkyPlane moved_loops(const SchottkyPlane& plane, const Moebius& map)
 {
     SchottkyPlane moved;
@@ -185,7 +185,7 @@ void SchottkyPlane::move(const LinearFractional& map)
 {
     z = map(z);
     for (VectorXcd& image : images) image = map(image);
-    // Not scaled to the determinant 1 again: a d - b c, of numbers as large as 1 over a radius, tells it worse.
+    // Do not scale to determinant 1 again: a d - b c, of numbers as large as 1 over a radius, is less accurate.
     for (LinearFractional& generator : generators) generator = map * generator * map.inverse();
     for (Circle& hole : holes) hole = map(hole);
 }
@@ -228,7 +228,7 @@ void make_annular(SchottkyPlane& plane, int handle)
     LinearFractional& annular = plane.generators[handle];
     annular = linear_fractional(annular.a, 0.0, 0.0, annular.d);
     plane.outer_handle = handle;
-    // The sides again exactly apart; the first one about as large as the unit circle.
+    // Make the sides fit exactly again; the first circle is about as large as the unit circle.
     double log_size = 0.0;
     const VectorXcd& outer = plane.images[2 * static_cast<std::size_t>(handle)];
     for (const Complex z : outer) log_size += std::log(std::abs(z)) / static_cast<double>(outer.size());
@@ -239,7 +239,7 @@ FundamentalCircles fundamental_circles(SchottkyPlane& plane)
 {
     CirclesInPlace best = roomiest(plane);
     if (plane.outer_handle < 0 && !(best.room > 0.0))
-        // Circles stay apart under automorphisms of the disk: perhaps there are some after one of these.
+        // Circles that are apart stay so under automorphisms of the disk: there may be such circles after one of these.
         for (const Complex center : tried_centers()) {
             const Moebius away{center, 1.0};
             CirclesInPlace circles = roomiest(moved_loops(plane, away));

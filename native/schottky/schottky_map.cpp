@@ -19,13 +19,13 @@
 namespace koebe {
 namespace {
 
-constexpr double least_circle = 1e-12;  // of a circle whose points 64-bit coordinates tell apart
+constexpr double least_circle = 1e-12;  // radius of a circle whose points 64-bit coordinates can tell apart
 constexpr double large_misfit = 0.5;
 constexpr double equal_radii = 1e-6;  // a smaller difference, over the radius, is rounding
-constexpr Index enough_faces = 6000;  // a surface of fewer is split finer, at most so many times:
+constexpr Index enough_faces = 6000;  // a surface with fewer faces is split, at most so often:
 constexpr int most_levels = 2;
 
-/// (3F, 2) by the input's faces: a turned one has its second and third corner the other way round.
+/// (3F, 2) in the input's order of faces; in a turned face the second and third corner are exchanged.
 PlanarPoints corner_uvs(const Triangles& triangles, const HandleCut& cut, const SchottkyTile& tile)
 {
     PlanarPoints uv(triangles.size(), 2);
@@ -91,7 +91,7 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
                         {faults.boundary ? "the boundary of the UVs crosses itself" : ""}, result.warnings);
 }
 
-/// @param finer how often coarse faces are split
+/// @param finer number of times to split coarse faces
 SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                          int finer, ExecutionContext& context)
 {
@@ -120,7 +120,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
 
     context.begin_stage("finish", 0.9, 1.0);
     LaidMap best;
-    for (std::size_t i = maps.size(); i-- > 0;) {  // the last one is the best, if it is one to one
+    for (std::size_t i = maps.size(); i-- > 0;) {  // the last one-to-one map is the best
         LaidMap tried = laid_map(std::move(maps[i]), faces, options.polygon, context);
         const bool better = i + 1 == maps.size() || !tried.faults.any();
         if (better) best = std::move(tried);
@@ -155,8 +155,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     return result;
 }
 
-/// Where a hole has few vertices, faces that were split leave no room for whole ones beside its chords: then they stay
-/// whole.
+/// At a hole of few vertices split faces may leave no room for whole faces beside its chords. Then faces are not split.
 SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                                  ExecutionContext& context)
 {
@@ -169,7 +168,7 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
             if (own.converged) result = std::move(own);
         } catch (const Cancelled&) {
             throw;
-        } catch (const KoebeError&) {  // too coarse to be cut: what there is has to do
+        } catch (const KoebeError&) {  // too coarse to be cut: use the maps so far
         }
     };
     if (triangles.rows() < enough_faces)

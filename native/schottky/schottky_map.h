@@ -1,4 +1,4 @@
-// A surface with handles in the plane, the two sides of each handle's cut Moebius maps apart: Schottky uniformization.
+// Schottky uniformization: a surface with handles in the plane; Moebius maps take one side of each cut to the other.
 #pragma once
 
 #include "circles/circle_fit.h"
@@ -14,19 +14,19 @@
 
 namespace koebe {
 
-/// Which of the maps that automorphisms of the disk lead to each other, where there are holes.
+/// Which of the maps to take that differ by automorphisms of the disk, for a surface with holes.
 enum class SchottkyNormalization {
-    area,     ///< that of the least area distortion
-    circles,  ///< the nearest one where equally large circles of each handle are apart, if there is such
+    area,     ///< the one of least area distortion
+    circles,  ///< the nearest one where equally large circles of each handle are apart, if any
 };
 
-/// As in the JSON report: the enumerator's name.
+/// The enumerator's name, as in the JSON report.
 KOEBE_API const char* to_string(SchottkyNormalization normalization) noexcept;
 
 /// The tolerance is on the relative change, in a sweep, of the matrices of the disks that fill the loops.
 struct SchottkyOptions : SweepOptions {
     SchottkyNormalization normalization = SchottkyNormalization::area;
-    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each face by itself
 
     template <typename Visit>
     static void each_option(Visit&& visit)
@@ -37,41 +37,41 @@ struct SchottkyOptions : SweepOptions {
     }
 };
 
-/// A handle: all in the plane of the unit disk, z = 2 (u + i v) - 1 - i.
+/// A handle, in the plane of the unit disk, z = 2 (u + i v) - 1 - i.
 struct SchottkyHandle {
-    std::vector<Index> cut;         ///< the input's vertices on the loop that it was cut along, in its order
-    LinearFractional generator;     ///< continues the pattern: from one circle, and side of the cut, to the other
-    std::array<Circle, 2> circles;  ///< paired by the generator, the outside of the first with the inside of the second
-    bool outer = false;             ///< the inside of the first with the outside of the second
-    double misfit = 0.0;            ///< of the sides of the cut before they were made to fit, over their radius
+    std::vector<Index> cut;         ///< the input's vertices on the loop along which it was cut, in order
+    LinearFractional generator;     ///< continues the pattern: takes one circle, and side of the cut, to the other
+    std::array<Circle, 2> circles;  ///< the generator takes the outside of the first to the inside of the second
+    bool outer = false;             ///< the generator takes the inside of the first to the outside of the second
+    double misfit = 0.0;            ///< of the cut's sides before they were fitted, over their radius
 };
 
 /// A hole of the surface.
 struct SchottkyHole {
-    VertexLoop vertices;  ///< in order, the surface on the left
-    Circle circle;        ///< where the UVs have it; of one that the cut of the UVs tears, where the map has it
-    Roundness roundness;  ///< of the image before it was put on its circle
-    std::vector<Index> off_circle;  ///< vertices that are not on the circle, rising
+    VertexLoop vertices;            ///< in order, the surface on the left
+    Circle circle;                  ///< in the UVs; in the map if the cut of the UVs tears it
+    Roundness roundness;            ///< of the image before it was put on its circle
+    std::vector<Index> off_circle;  ///< vertices off the circle, ascending
 };
 
-/// Its UVs lie in [0, 1]^2.
+/// The UVs lie in [0, 1]^2.
 struct SchottkyResult : CornerMapReport {
     std::vector<SchottkyHole> holes;      ///< by falling length, the first on the unit circle
     std::vector<SchottkyHandle> handles;  ///< by falling length of their cuts
-    bool by_circles = false;  ///< the UVs are cut along the pairs of circles, as exactly as faces can be; else along
-                              ///< the edges of the cuts, as the circles meet each other or a hole
+    bool by_circles = false;  ///< the UVs are cut along the pairs of circles, as closely as faces allow; else along the
+                              ///< edges of the cuts, as the circles meet each other or a hole
     int sweeps = 0;
     std::vector<double> changes;  ///< in each sweep
 };
 
-/// Maps a surface of genus 1 and more, with any number of holes, conformally to a fundamental domain of a Schottky
-/// group, its holes round: the copies of the UVs under the group fill the plane up to a set of no area, continuing the
-/// pattern. Handles are cut along short loops, which decide on the group; their sides differ by its generators
-/// [Koebe 1908; Maskit 1988, chapter X.H]. With holes the longest is the unit circle, and the map the one of its
-/// automorphisms with the least area distortion, or near it one with room for equal circles. Without holes one handle's
-/// generator is z -> lambda z: that for which texel density is most even.
-/// @throws InputError, TopologyError genus (no handle, or cuts that touch each other) and those of analyze_surface,
-/// SolverError, Cancelled; what is not one to one is reported as not converged
+/// Maps a surface of genus at least 1 with any number of holes conformally to a fundamental domain of a Schottky group,
+/// with round holes. Copies of the UVs under the group continue the pattern and fill the plane up to a set of no area.
+/// Handles are cut along short loops, which determine the group; generators take one side of a cut to the other [Koebe
+/// 1908; Maskit 1988, chapter X.H]. With holes the longest is the unit circle, and of the maps that differ by
+/// automorphisms the one of least area distortion is taken, or one near it with room for equal circles. Without holes
+/// one handle's generator is z -> lambda z; it is the handle that makes texel density most even.
+/// @throws InputError, TopologyError genus (no handle, or cuts that touch each other) and the errors of
+/// analyze_surface, SolverError, Cancelled; a map that is not one to one is reported as not converged
 KOEBE_API SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles,
                                       const SchottkyOptions& options, ExecutionContext& context);
 

@@ -41,7 +41,7 @@ private:
     SchottkyTile& tile_;
 };
 
-/// The boundary of a tile; where it touches itself in a vertex it goes on with the same fan of faces.
+/// The boundary of a tile. Where it touches itself in a vertex, it continues along the same fan of faces.
 std::vector<VertexLoop> tile_boundary(const Triangles& triangles)
 {
     std::map<std::pair<Index, Index>, Index> at;
@@ -66,7 +66,7 @@ std::vector<VertexLoop> tile_boundary(const Triangles& triangles)
     return loops;
 }
 
-/// The loop that encloses the most comes first.
+/// Puts the loop with the largest area first.
 void put_outer_first(std::vector<VertexLoop>& loops, const PlanarPoints& points)
 {
     const auto outer =
@@ -176,7 +176,7 @@ SchottkyTile SchottkyTiling::by_circles(const SchottkyPlane& plane, const Fundam
     return put_together(plane, joined(std::move(words)));
 }
 
-/// Words changed so that all units hang together by edges, the largest piece as it is.
+/// Changes words so that edges join all units. The largest piece does not move.
 std::vector<GroupWord> SchottkyTiling::joined(std::vector<GroupWord> words) const
 {
     const auto next_to = [&](Index face, Index h) {
@@ -240,7 +240,7 @@ void SchottkyTiling::turn_back(const SchottkyTile& tile, SchottkyPlane& plane, c
     try {
         surface = require_bordered_genus_zero(tile.triangles, static_cast<Index>(tile.vertex.size()));
     } catch (const TopologyError&) {
-        return;  // it touches itself in a vertex
+        return;  // the boundary touches itself in a vertex
     }
     std::vector<int> hole_at(cut_.original.size(), -1);
     for (std::size_t k = 0; k < cut_.holes; ++k)
@@ -275,7 +275,7 @@ void SchottkyTiling::turn_back(const SchottkyTile& tile, SchottkyPlane& plane, c
         if (points.row(i) == tile.points.row(i) || (boundary[i] && hole_at[v] < 0)) continue;
         plane.z[v] = applied(inverse_of(tile.word[i]), plane.generators, Complex(points(i, 0), points(i, 1)));
     }
-    for (const CutLoop& loop : cut_.loops)  // the second sides from the first ones
+    for (const CutLoop& loop : cut_.loops)  // compute the second sides from the first
         if (loop.handle >= 0)
             for (const Index v : loop.vertices)
                 if (letter_[v] != 0) plane.z[v] = applied({letter_[v]}, plane.generators, plane.z[first_side_[v]]);

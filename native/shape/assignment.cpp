@@ -18,10 +18,10 @@ using Price = std::int64_t;
 using Prices = Eigen::Matrix<Price, Eigen::Dynamic, Eigen::Dynamic>;
 using Graph = lemon::SmartDigraph;
 
-constexpr int few = 16;         // pairs that a row or a column starts with
+constexpr int few = 16;         // pairs of each row and column at the start
 constexpr int price_bits = 54;  // of a sum of n costs, so that no sum in the simplex method overflows
 
-/// The costs as whole numbers, the cheapest 0.
+/// The costs as whole numbers, with the least cost 0.
 Prices whole_costs(const MatrixXd& cost)
 {
     const double least = cost.minCoeff(), range = cost.maxCoeff() - least;
@@ -44,7 +44,7 @@ void mark_cheap(const Prices& cost, std::vector<std::vector<int>>& rows_of)
     }
 }
 
-/// For each column the rows it may go with: few, but for all to have one.
+/// For each column the rows it may go with at first: a few, among them a full assignment.
 std::vector<std::vector<int>> first_pairs(const Prices& cost)
 {
     const int n = static_cast<int>(cost.rows());
@@ -61,8 +61,8 @@ std::vector<std::vector<int>> first_pairs(const Prices& cost)
     return rows_of;
 }
 
-/// The best permutation over some of the pairs, and the prices that prove it: a cost is not below the difference of
-/// its column's price and its row's.
+/// The best permutation over some of the pairs, and the prices that prove it: no cost is below its column's price minus
+/// its row's.
 struct Solution {
     std::vector<int> column;
     Eigen::Matrix<Price, Eigen::Dynamic, 1> row_price, column_price;
@@ -89,7 +89,7 @@ Solution solve(const Prices& cost, const std::vector<std::vector<int>>& rows_of)
 
     lemon::NetworkSimplex<Graph, Price, Price> simplex(graph);
     if (simplex.costMap(price).supplyMap(supply).run() != simplex.OPTIMAL)
-        throw std::logic_error("an assignment without a solution");  // each row j may go with column j
+        throw std::logic_error("an assignment without a solution");  // cannot happen: row j may go with column j
     Solution solution{std::vector<int>(n), {}, {}};
     solution.row_price.resize(n);
     solution.column_price.resize(n);
@@ -102,7 +102,7 @@ Solution solve(const Prices& cost, const std::vector<std::vector<int>>& rows_of)
     return solution;
 }
 
-/// Adds the pairs that could lower the sum; false if there is none.
+/// Adds the pairs that could lower the sum. Returns false if there are none.
 bool add_cheaper(const Prices& cost, const Solution& solution, std::vector<std::vector<int>>& rows_of)
 {
     const int n = static_cast<int>(cost.rows());

@@ -10,9 +10,9 @@
 namespace koebe {
 namespace {
 
-constexpr double alike = 1e-2;              // separations this near are not told apart, dimensionless
+constexpr double alike = 1e-2;              // separations nearer than this count as equal, dimensionless
 constexpr std::size_t most_orders = 5040;   // 7!
-constexpr double least_radius = 1e-100;     // unit disk: squares of less vanish in rounding
+constexpr double least_radius = 1e-100;     // unit disk: smaller radii have squares that vanish in rounding
 constexpr double unit_circle_error = 1e-6;  // of the outer circle's centre and radius, a length in the unit disk
 
 std::vector<int> checked_order(std::size_t count, const std::vector<int>& order)
@@ -33,7 +33,7 @@ Circle inverted(const Circle& circle, const Circle& pole)
     return {pole.radius * std::conj(arm) / power, pole.radius * circle.radius / std::abs(power)};
 }
 
-/// The circles in this order, the first of them turned inside out onto the unit circle.
+/// The circles in this order, with the first one inverted onto the unit circle.
 std::vector<Circle> with_outer(const std::vector<Circle>& circles, const std::vector<int>& order)
 {
     std::vector<Circle> placed{Circle{}};
@@ -55,7 +55,7 @@ VectorXd module_of(const std::vector<Circle>& normalized)
     return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
 }
 
-/// Where the runs of alike numbers in an ascending list begin, and its length.
+/// First places of the runs of equal numbers in an ascending list, and its length.
 std::vector<std::size_t> runs_of_alike(const std::vector<double>& ascending)
 {
     std::vector<std::size_t> begin{0};

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int most_iterations = 100;
 constexpr double difference_step = 1e-6;  // for derivatives, dimensionless
-constexpr double least_step = 1e-13;      // parameters that move less have converged, dimensionless
+constexpr double least_step = 1e-13;      // smaller steps of the parameters have converged, dimensionless
 constexpr double first_damping = 1e-6, most_damping = 1e6;
-constexpr std::size_t starting_loops = 4;  // the first holes, each two of which give a start
+constexpr std::size_t starting_loops = 4;  // number of first holes whose pairs are starts
 
 using Parameters = Eigen::Vector3d;  ///< a small automorphism: re a, im a, angle
 
@@ -81,7 +81,7 @@ Fit improve(const std::vector<Circle>& source, const std::vector<Circle>& target
                 damping *= 10.0;
             }
         }
-        // No step lowers the sum any more, to the last digit.
+        // No step lowers the sum in its last digit.
         if (!better) fit.converged = true;
     }
     return fit;

@@ -15,10 +15,9 @@ namespace {
 constexpr std::size_t exhaustive_loops = 7;  // inner loops; 7! = 5040 correspondences
 constexpr std::size_t most_starts = 32;      // pairs of loops that are tried for one
 constexpr int most_refinements = 8;
-constexpr double no_distance = 1e-10;  // of equal shapes, but for rounding: nothing better is looked for
+constexpr double no_distance = 1e-10;  // of equal shapes up to rounding: the search ends there
 
-/// From so many loops on only the starts that promise most are followed up: each takes a time that grows with the
-/// square of their number.
+/// From so many loops on, only the most promising starts are followed. Each takes time with the square of their number.
 constexpr std::size_t many_loops = 250;
 
 std::size_t followed_starts(std::size_t loops)
@@ -31,7 +30,7 @@ struct View {
     const std::vector<Circle>& circles;
     int outer;
     std::vector<int> inner;          ///< by separation, nearest first
-    std::vector<double> separation;  ///< of every circle from the outer one
+    std::vector<double> separation;  ///< of every circle from the outer circle
 
     View(const std::vector<Circle>& all, int chosen) : circles(all), outer(chosen)
     {
@@ -44,7 +43,7 @@ struct View {
     }
 };
 
-/// Corresponding loops are inner[i] of one and partner[i] of the other.
+/// Orders in which inner[i] of one domain corresponds to partner[i] of the other.
 LoopMatch in_common_order(const View& a, const View& b, const std::vector<int>& inner, const std::vector<int>& partner)
 {
     std::vector<std::size_t> rank(inner.size());
@@ -76,7 +75,7 @@ LoopMatch try_all(const View& a, const View& b)
     return best;
 }
 
-constexpr Eigen::Index fixed = 3;  // loops that fix the position
+constexpr Eigen::Index fixed = 3;  // number of loops that fix the position
 
 /// Squared differences of the circles that do not fix the position, a's as rows.
 MatrixXd costs(const View& a, const View& b, const LoopMatch& given)
@@ -97,7 +96,7 @@ MatrixXd costs(const View& a, const View& b, const LoopMatch& given)
     return cost;
 }
 
-/// The orders with all but the first three loops assigned anew, in the position that these three fix.
+/// Assigns all but the first three loops again, in the position that these three fix.
 LoopMatch reassigned(const View& a, const View& b, const LoopMatch& given, const ExecutionContext& context)
 {
     std::vector<int> inner(given.order_a.begin() + 1, given.order_a.end());
@@ -106,8 +105,8 @@ LoopMatch reassigned(const View& a, const View& b, const LoopMatch& given, const
     return in_common_order(a, b, inner, partner);
 }
 
-/// Orders that begin with the outer loops and a pair of inner ones, and what no assignment of the others can cost less
-/// than: each goes with its nearest.
+/// Orders that begin with the outer loops and a pair of inner ones, and a lower bound of their cost: every other loop
+/// goes with its nearest.
 struct Start {
     LoopMatch match;
     double least_cost = 0.0;
@@ -182,8 +181,8 @@ LoopMatch match_views(const View& a, const View& b, const ExecutionContext& cont
     return match;
 }
 
-/// The loops of `circles` that may be outside where the first of the other domain is, the likeliest first: whose
-/// separations from the others are like those there.
+/// The loops of `circles` that may correspond to the other domain's outer loop, best first: their separations from the
+/// other loops are most like that loop's.
 std::vector<int> likely_outer(const View& other, const std::vector<Circle>& circles, const ExecutionContext& context)
 {
     std::vector<std::pair<double, int>> likely;

@@ -16,7 +16,7 @@ std::vector<Circle> refined_circles(const Vertices& vertices, const Triangles& t
     const RefinedSurface refined = refine_smoothly(vertices, triangles);
     options.outer = OuterLoop::vertex;
     options.outer_vertex = loops[0].vertices.front();
-    options.polish = options.mesh.record_steps = false;  // neither moves a circle
+    options.polish = options.mesh.record_steps = false;  // these do not change circles
     const UniformizeResult result = uniformize(refined.vertices, refined.triangles, options, context);
     require_own_circles(result.loops);
     std::vector<Circle> circles;

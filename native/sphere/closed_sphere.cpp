@@ -22,21 +22,21 @@ namespace koebe {
 namespace {
 
 constexpr double longest_side = 0.25;        // on the sphere: longer edges are split
-constexpr double longest_coarse_side = 0.1;  // of a mesh of few faces
+constexpr double longest_coarse_side = 0.1;  // for a mesh of few faces
 constexpr Eigen::Index few_faces = 500;
 constexpr int most_splits = 10;
 constexpr Index most_added_faces = 30000;
-constexpr double overlap = 0.5;  // each cap reaches so far beyond the equator, as a height: 30 degrees
+constexpr double overlap = 0.5;  // height by which each cap reaches beyond the equator: 30 degrees
 constexpr std::size_t tried_faces = 8;
 
-/// Vertices, those of the surface first, and faces.
+/// Vertices, the surface's first, and faces.
 struct Polyhedron {
     Vertices vertices;
     Triangles triangles;
 };
 
-/// Splits edges in two and their faces in two to four, so that all stay flat.
-/// @param too_long of an edge's ends @return whether there was one
+/// Splits edges in two, and their faces in two to four; faces stay flat.
+/// @param too_long takes an edge's ends @return whether an edge was split
 template <typename TooLong>
 bool split_edges(Polyhedron& mesh, const TooLong& too_long)
 {
@@ -56,7 +56,7 @@ bool split_edges(Polyhedron& mesh, const TooLong& too_long)
             half[static_cast<std::size_t>(k)] = at->second;
         }
         const auto count = std::ranges::count_if(half, [](Index h) { return h >= 0; });
-        // Turned so that the first edge is split, and of two the first and the second.
+        // Turn the face so that the first edge is split, or the first and the second.
         std::size_t turn = 0;
         while (count > 0 && !(half[turn] >= 0 && (count == 1 || half[(turn + 1) % 3] >= 0))) ++turn;
         std::rotate(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(turn), v.end());
@@ -115,7 +115,7 @@ VectorXd edge_distances(const IntrinsicMetric& metric, Index vertex_count, Index
     return distance;
 }
 
-/// Area over the sum of the squared edges: the larger the rounder.
+/// Area over the sum of the squared edges: larger is rounder.
 double shape_of(const EdgeLengths& lengths, Eigen::Index f)
 {
     const double squares = lengths.row(f).squaredNorm();
@@ -143,7 +143,7 @@ std::vector<Index> faces_to_open(const IntrinsicMetric& metric, const Vertices& 
     return faces;
 }
 
-/// Two columns: what makes u and v of the function with a dipole in a face.
+/// Two columns: the loads of u and v of the function with a dipole in a face.
 MatrixXd dipole_load(const IntrinsicMetric& metric, Index vertex_count, Index f)
 {
     const double along = metric.lengths(f, 0), back = metric.lengths(f, 2), other = metric.lengths(f, 1);
@@ -172,7 +172,7 @@ std::size_t turned_count(const Triangles& triangles, const VectorXcd& z)
     return turned;
 }
 
-/// One of two caps: harmonic inside, given on its rim.
+/// One of two caps: harmonic inside, with given rim.
 class CapChart {
 public:
     CapChart(const SparseMatrix& laplacian, const std::vector<char>& fixed)
@@ -195,13 +195,13 @@ private:
     std::unique_ptr<DirichletSolver> solver_;
 };
 
-/// 1 / z, with a far point for 0.
+/// 1 / z, with a far point for z = 0.
 VectorXcd reciprocal(const VectorXcd& z)
 {
     return z.unaryExpr([](Complex at) { return std::abs(at) > 1e-150 ? 1.0 / at : Complex(1e150, 0.0); });
 }
 
-/// Turned to lie as near to what it was as it can. @return the largest move that is left
+/// Rotates a map as near as possible to an earlier one. @return the largest remaining move
 double turned_towards(const VectorXcd& from, VectorXcd& to, const VectorXd& weights)
 {
     const Vertices old = on_sphere(from);
@@ -211,7 +211,7 @@ double turned_towards(const VectorXcd& from, VectorXcd& to, const VectorXd& weig
     return (now - old).rowwise().norm().maxCoeff();
 }
 
-/// The metric of a polyhedron and the first map of it.
+/// The metric of a polyhedron and its first map.
 struct OpenedSphere {
     SparseMatrix laplacian;
     VectorXd areas;
@@ -227,8 +227,7 @@ OpenedSphere open_sphere(const Polyhedron& mesh, const ExecutionContext& context
     sphere.laplacian = cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), count);
     sphere.areas = vertex_areas(mesh.triangles, edge_lengths(mesh.vertices, mesh.triangles), count);
     if (!(sphere.areas.sum() > 0.0)) sphere.areas.setOnes();
-    SparseMatrix tied =
-        sphere.laplacian;  // constants are in the kernel: a load without a sum draws nothing from the tie
+    SparseMatrix tied = sphere.laplacian;  // constants are in the kernel: a load with sum 0 draws nothing from the tie
     tied.coeffRef(0, 0) += tied.diagonal().mean();
     const SparseCholesky factor(tied);
     double least = 0.0;
@@ -255,7 +254,7 @@ OpenedSphere open_sphere(const Polyhedron& mesh, const ExecutionContext& context
     return sphere;
 }
 
-/// As open_sphere, with edges split until none is long on the sphere.
+/// Opens the sphere as open_sphere, and splits edges until all are short on the sphere.
 OpenedSphere open_refined_sphere(Polyhedron& mesh, ExecutionContext& context)
 {
     const Eigen::Index most = mesh.triangles.rows() + most_added_faces;

@@ -14,7 +14,7 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t tried_vertices = 5;
-constexpr double far_point = 1e150;  // of the plane, for infinity
+constexpr double far_point = 1e150;  // stands for infinity in the plane
 
 /// Vertices by falling area of the upright faces around them on the sphere.
 std::vector<Index> vertices_by_star(const Triangles& triangles, const Vertices& points)
@@ -31,7 +31,7 @@ std::vector<Index> vertices_by_star(const Triangles& triangles, const Vertices& 
     return order;
 }
 
-/// (V) in the plane, the vertex far away.
+/// (V) places in the plane, with the vertex far away.
 VectorXcd plane_without(const PeriodicSurface& domain, Index vertex, ExecutionContext& context)
 {
     const Triangles& triangles = domain.surface.triangles;
@@ -62,7 +62,7 @@ std::optional<SphericalMap> opened_at_a_vertex(const PeriodicSurface& domain, co
         } catch (const Cancelled&) {
             throw;
         } catch (const KoebeError&) {
-            continue;  // what is left is no disk
+            continue;  // the rest is not a disk
         }
         const PlaneSimilarity balance = balance_on_sphere(z, weights).move;
         for (const PlaneSimilarity& move : {balance, PlaneSimilarity{0.0, 1.02}, PlaneSimilarity{0.0, 1.3}}) {

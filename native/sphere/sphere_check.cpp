@@ -13,9 +13,9 @@
 namespace koebe {
 namespace {
 
-constexpr double area_rounding = 1e-6;  // of the sum of all areas, which is a multiple of 4 pi
+constexpr double area_rounding = 1e-6;  // on the sum of all areas, which is a multiple of 4 pi
 
-/// Area of a loop's hole by triangles round a point, if all of them are upright.
+/// Area of a loop's hole by triangles round a point; nothing unless all are upright.
 std::optional<double> star_area(const VertexLoop& loop, const Vertices& points, const SpherePoint& middle)
 {
     double area = 0.0;
@@ -27,8 +27,8 @@ std::optional<double> star_area(const VertexLoop& loop, const Vertices& points, 
     return area;
 }
 
-/// Area of the hole of a loop in one half of the sphere, which the central projection shows with straight edges; simple
-/// there, or nothing. @param axis the middle of that half
+/// Area of a loop's hole in one half of the sphere, which central projection shows with straight edges; nothing unless
+/// the loop is simple there. @param axis the middle of that half
 std::optional<double> projected_area(const VertexLoop& loop, const Vertices& points, const SpherePoint& axis)
 {
     const SpherePoint x = axis.unitOrthogonal(), y = axis.cross(x);
@@ -45,7 +45,7 @@ std::optional<double> projected_area(const VertexLoop& loop, const Vertices& poi
     double area = 0.0;
     for (std::size_t b = 0; b < loop.size(); ++b)
         area += solid_angle(axis, points.row(loop[(b + 1) % loop.size()]), points.row(loop[b]));
-    return area < 0.0 ? area + 4.0 * std::numbers::pi : area;  // counter-clockwise round what is not the hole
+    return area < 0.0 ? area + 4.0 * std::numbers::pi : area;  // it runs round the rest of the sphere
 }
 
 std::optional<double> hole_area(const VertexLoop& loop, const Vertices& points, const Cap& cap)
@@ -57,7 +57,7 @@ std::optional<double> hole_area(const VertexLoop& loop, const Vertices& points, 
         middles.push_back(mean.normalized());
         middles.push_back(-mean.normalized());
     }
-    // A loop that runs the other way round has the rest of the sphere as its hole.
+    // The hole of a loop that runs the other way is the rest of the sphere.
     const auto fits = [&](double area) {
         return std::abs(area - 2.0 * std::numbers::pi * (1.0 - std::cos(cap.radius))) < 2.0 * std::numbers::pi;
     };

@@ -14,12 +14,12 @@
 namespace koebe {
 namespace {
 
-constexpr double uv_steps = 8388608.0;  // 2^23 to 1: as fine as 32-bit floats are from 1 to 2
+constexpr double uv_steps = 8388608.0;  // 2^23 per unit: as fine as 32-bit floats between 1 and 2
 
 using FaceCorners = std::array<SpherePoint, 3>;
 using CornerUvs = std::array<Eigen::RowVector2d, 3>;
 
-/// Whether the triangle, its sides the shorter arcs, has a point inside or on its sides.
+/// Whether the triangle with the shorter arcs as sides contains a point, sides included.
 bool contains(const FaceCorners& p, const SpherePoint& point)
 {
     int sides = 0;
@@ -38,8 +38,8 @@ struct Placed {
     bool crossing = false, torn = false;
 };
 
-/// Longitudes of a face round a pole, in turns: each step the shorter way, the third one left out. Which step that is,
-/// the area tells: the face shall be upright.
+/// Longitudes of a face round a pole, in turns: each step goes the shorter way, one step is left out, chosen so that
+/// the face is upright.
 std::array<double, 3> once_round(const std::array<double, 3>& turns, const std::array<double, 3>& heights, bool turned)
 {
     std::array<double, 3> best{};
@@ -93,7 +93,7 @@ Placed equirectangular(const FaceCorners& p, bool turned)
     return placed;
 }
 
-/// In [-1, 1]^2. @param x, y signs to use where a coordinate is 0
+/// The place in [-1, 1]^2. @param x, y signs to use where a coordinate is 0
 Eigen::RowVector2d folded_out(const SpherePoint& p, double x, double y)
 {
     const double sum = std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]);
@@ -101,12 +101,12 @@ Eigen::RowVector2d folded_out(const SpherePoint& p, double x, double y)
     return p[2] >= 0.0 ? Eigen::RowVector2d(x * a, y * b) : Eigen::RowVector2d(x * (1.0 - b), y * (1.0 - a));
 }
 
-/// u -> sign u + shift, of both coordinates: what the pattern's half turns lead to.
+/// u -> sign u + shift, for both coordinates: a product of the pattern's half turns.
 struct FoldedSheet {
     double sign = 1.0;
     Eigen::RowVector2d shift = Eigen::RowVector2d::Zero();
 
-    /// Goes on over the side of the square whose middle is there.
+    /// Continues over the side of the square with this middle.
     void cross(const Eigen::RowVector2d& middle)
     {
         shift += sign * 2.0 * middle;
@@ -120,7 +120,7 @@ Placed octahedral(const FaceCorners& p)
     Placed placed;
     const SpherePoint middle = p[0] + p[1] + p[2];
     for (std::size_t k = 0; k < 3; ++k) {
-        // The straight way from the middle to the corner, over the planes x = 0 and y = 0.
+        // Follow the straight line from the middle to the corner, over the planes x = 0 and y = 0.
         std::array<double, 2> sign{}, when{};
         for (std::size_t i = 0; i < 2; ++i) {
             const Eigen::Index axis = static_cast<Eigen::Index>(i);
@@ -133,7 +133,7 @@ Placed octahedral(const FaceCorners& p)
              when[0] <= when[1] ? std::array<std::size_t, 2>{0, 1} : std::array<std::size_t, 2>{1, 0}) {
             if (when[i] > 1.0) continue;
             const double height = middle[2] + when[i] * (p[k][2] - middle[2]);
-            if (height < 0.0) {  // the lower half: over the side that the other coordinate's sign tells
+            if (height < 0.0) {  // the lower half: cross the side given by the other coordinate's sign
                 Eigen::RowVector2d side(0.0, 0.0);
                 side[i == 0 ? 1 : 0] = sign[i == 0 ? 1 : 0];
                 sheet.cross(side);

@@ -33,18 +33,18 @@ namespace {
 constexpr double least_angle = 1e-7;      // between neighbours on a circle, seen from its middle
 constexpr Index most_drawn_faces = 5000;  // of a surface that may be drawn together
 
-/// A map to the plane and the point at infinity, with all that is known of it.
+/// A map to the plane and the point at infinity, and its data.
 struct PlaneMap {
     VectorXcd z;                       // (V) of the domain's vertices
-    std::vector<Circle> circles;       // of the domain's loops, the outer one's disk being the outside of it
+    std::vector<Circle> circles;       // of the domain's loops; the outer circle stands for its outside
     std::vector<Roundness> roundness;  // of the loops
-    std::vector<Index> off_circle;     // of the domain, rising
-    std::size_t outer = 0;             // loop
-    std::vector<Flap> flaps;           // on the outer loop
+    std::vector<Index> off_circle;     // of the domain, ascending
+    std::size_t outer = 0;             // number of the outer loop
+    std::vector<Flap> flaps;           // flaps on the outer loop
     bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;
-    std::vector<Warning> warnings;  // with the input's vertices, and the domain's loops
+    std::vector<Warning> warnings;  // with the input's vertices and the domain's loops
 };
 
 PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
@@ -86,8 +86,8 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
     return map;
 }
 
-/// In the disk the unit circle is convex, and what hangs on it by one edge lies behind that edge; on the sphere it
-/// would lie over its neighbours. Mirrored at the edge it hangs into the hole.
+/// Hangs a flap into its hole, mirrored at its hinge. In the disk the unit circle is convex, and the flap lies behind
+/// its hinge; on the sphere it would lie over its neighbours.
 void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMap& sphere)
 {
     const Triangles& triangles = domain.surface.triangles;
@@ -105,8 +105,8 @@ void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMa
     sphere.off_circle.insert(sphere.off_circle.end(), flap.rim.begin(), flap.rim.end());
 }
 
-/// Puts the vertices of a loop on its cap's circle in their order round it: two that rounding has in the other one, or
-/// on one point, are moved apart.
+/// Puts the vertices of a loop on its cap's circle in their order round it. Moves two apart that rounding has exchanged
+/// or put at one point.
 void put_onto_circle(const std::vector<Index>& vertices, const Cap& cap, Vertices& points)
 {
     if (vertices.empty()) return;
@@ -121,7 +121,7 @@ void put_onto_circle(const std::vector<Index>& vertices, const Cap& cap, Vertice
     for (std::size_t b = 1; b < count; ++b)
         if (step(b) > step(widest)) widest = b;
     double at = angle[(widest + 1) % count], raised = at;
-    for (std::size_t i = 0; i < count; ++i) {  // from the end of the widest step on
+    for (std::size_t i = 0; i < count; ++i) {  // starts after the widest step
         const std::size_t b = (widest + 1 + i) % count;
         const double following = at + step(b);
         raised = i == 0 ? at : std::max(at, raised + least_angle);
@@ -133,7 +133,7 @@ void put_onto_circle(const std::vector<Index>& vertices, const Cap& cap, Vertice
     }
 }
 
-/// On the sphere, loops on their circles.
+/// Lifts a map to the sphere, with loops on their circles.
 SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& move)
 {
     SphericalMap sphere;
@@ -153,8 +153,8 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
     return sphere;
 }
 
-/// Balanced, without flipped faces: a surface with few faces that is balanced may need faces of half the sphere; drawn
-/// together round the middle of the outer circle's other side, it needs none.
+/// Balances a map without flipping faces. A balanced surface of few faces may need faces of half the sphere. It is
+/// drawn together round the middle of the outer circle's other side instead, where no such face is needed.
 SphericalMap drawn_together(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& balance,
                             bool& drawn, const ExecutionContext& context)
 {
@@ -190,7 +190,7 @@ Vertices directions_of(const PeriodicSurface& domain, const VectorXd& weights)
     return directions;
 }
 
-/// Every face flat, with corners of its own: the triangle between its corners on the sphere.
+/// Measures each face flat, as the triangle between its corners on the sphere.
 ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Vertices& points)
 {
     const Triangles& triangles = domain.surface.triangles;
@@ -281,7 +281,7 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
                         result.warnings);
 }
 
-/// @param options with the polygons of the canonical mesh
+/// @param options in the numbers of the canonical mesh
 SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& options, ExecutionContext& context)
 {
     const Vertices& vertices = mesh.vertices;
@@ -327,7 +327,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     sphere.points = sphere.points * turn.transpose();
     for (Eigen::Index v = 0; v < sphere.points.rows(); ++v) sphere.points.row(v).normalize();
     for (Cap& cap : sphere.caps) cap.center = (turn * cap.center).normalized();
-    turn_back_on_sphere(domain, sphere, context);  // what turning has rounded over
+    turn_back_on_sphere(domain, sphere, context);  // for faces that rounding after the rotation has turned over
     result.mean_point = (weights.transpose() * sphere.points).norm() / weights.sum();
 
     const SphereFaults faults = find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps);

@@ -1,4 +1,4 @@
-// A surface of genus 0 on the unit sphere, its holes round caps.
+// Maps a surface of genus 0 to the unit sphere, with round caps as holes.
 #pragma once
 
 #include "circles/circle_fit.h"
@@ -13,19 +13,19 @@
 
 namespace koebe {
 
-/// How the sphere becomes UVs.
+/// The layout of the sphere in UVs.
 enum class SphereLayout {
     equirectangular,  ///< u the longitude from -pi to pi, v the latitude from -pi/2 to pi/2
     octahedral,       ///< the octahedron's upper half as the middle of a square, its lower faces folded out
 };
 
-/// As in the JSON report: the enumerator's name.
+/// The enumerator's name, as in the JSON report.
 KOEBE_API const char* to_string(SphereLayout layout) noexcept;
 
-/// Of a closed surface the tolerance is on the points' change.
+/// For a closed surface the tolerance is on the change of the points.
 struct SphereOptions : SweepOptions {
     SphereLayout layout = SphereLayout::equirectangular;
-    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each face by itself
 
     template <typename Visit>
     static void each_option(Visit&& visit)
@@ -40,44 +40,43 @@ struct SphereOptions : SweepOptions {
 struct SphereLoop {
     VertexLoop vertices;            ///< in order, the surface on the left
     Cap cap;                        ///< the hole
-    Roundness roundness;            ///< of the image in the disk before it was put on its circle
-    std::vector<Index> off_circle;  ///< vertices that are not on the cap's circle, rising
+    Roundness roundness;            ///< of the image in the disk, before it was put on its circle
+    std::vector<Index> off_circle;  ///< vertices off the cap's circle, ascending
 };
 
-/// What there is to know of the UVs: faces all.
+/// Faces with special UVs.
 struct SphereLayoutReport {
     SphereLayout kind = SphereLayout::equirectangular;
     std::vector<Index> crossing;  ///< with corners beyond the layout's edge, where the pattern continues
-    /// Round a pole of the longitudes, or round the middle of a side of the square: no UVs fit to all their neighbours.
+    /// Round a pole, or round the middle of a side of the square: no UVs fit all their neighbours.
     std::vector<Index> torn;
-    std::vector<Index> flipped;           ///< of no positive area as 32-bit floats
-    std::vector<Index> below_resolution;  ///< those of them whose longest edge is under uv_resolution
+    std::vector<Index> flipped;           ///< without positive area as 32-bit floats
+    std::vector<Index> below_resolution;  ///< flipped faces whose longest edge is under uv_resolution
 };
 
-/// angle_error_deg and the like are of the flat faces between their corners on the sphere; the verdict, with what is
-/// flipped and below resolution, is on the UVs.
+/// angle_error_deg and similar measures are of flat faces between the corners on the sphere. The verdict, with flipped
+/// and below_resolution, is on the UVs.
 struct SphereResult : CornerMapReport {
-    Vertices points;                ///< (V, 3) unit vectors in the input's order; vertices of no face are at (0, 0, 1)
+    Vertices points;                ///< (V, 3) unit vectors in the input's order; unused vertices at (0, 0, 1)
     std::vector<SphereLoop> loops;  ///< by falling length
-    double mean_point =
-        0.0;  ///< length of the mean of the surface's points, by area: 0 but for what was moved after the balance
+    double mean_point = 0.0;  ///< length of the area-weighted mean of the points: 0 except for moves after the balance
     int sweeps = 0;
-    std::vector<double> changes;  ///< in each sweep, with holes in each of its steps
-    /// Faces that are not upright on the sphere in exact arithmetic, and those of them whose longest edge there is
-    /// under sphere_resolution.
+    std::vector<double> changes;  ///< in each sweep; with holes in each of its steps
+    /// Faces that are not upright on the sphere in exact arithmetic; among them those whose longest edge is under
+    /// sphere_resolution.
     std::vector<Index> flipped_on_sphere, below_sphere_resolution;
     SphereLayoutReport layout;
 };
 
-/// Maps a surface of genus 0, closed or with any number of holes, conformally to the unit sphere, its holes round caps.
-/// Seen from outside the sphere the faces are counter-clockwise as on the surface. Of all such maps, which Moebius maps
-/// of the ball lead to each other, this is the one of spherical_balance.h, turned as the surface is: of all rotations
-/// the one that brings the points nearest to their directions from the surface's middle.
+/// Maps a surface of genus 0, closed or with any number of holes, conformally to the unit sphere, with round caps as
+/// holes. Seen from outside the sphere, faces are counter-clockwise as on the surface. Moebius maps of the ball lead to
+/// many such maps; this is the balanced one (spherical_balance.h), rotated so that its points are as near as possible
+/// to their directions from the surface's middle.
 ///
-/// Closed: closed_sphere.h. With holes: uniformize, and the stereographic projection; the outer circle becomes a cap
-/// like the others.
-/// @throws InputError, TopologyError genus and those of analyze_surface, SolverError, Cancelled; what is not one to one
-/// is reported as not converged
+/// A closed surface is mapped by closed_sphere.h. A surface with holes is mapped by uniformize and stereographic
+/// projection; the outer circle becomes a cap like the others.
+/// @throws InputError, TopologyError genus and the errors of analyze_surface, SolverError, Cancelled; a map that is not
+/// one to one is reported as not converged
 KOEBE_API SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, const SphereOptions& options,
                                   ExecutionContext& context);
 

@@ -13,11 +13,11 @@
 namespace koebe {
 namespace {
 
-constexpr double farthest_whole = 2.0;  // UVs up to there are multiples of 2^-23 in 32 bits
+constexpr double farthest_whole = 2.0;  // up to here 32-bit UVs hold multiples of 2^-23
 
 using CornerPlace = Eigen::RowVector2d;
 
-/// A motion of the plane that leads the pattern to itself: u -> sign u + shift.
+/// A motion of the plane that keeps the pattern: u -> sign u + shift.
 struct PatternMotion {
     double sign = 1.0;
     CornerPlace shift = CornerPlace::Zero();
@@ -26,7 +26,7 @@ struct PatternMotion {
     bool moves() const { return sign < 0.0 || shift != CornerPlace::Zero(); }
 };
 
-/// An edge of a triangle, by the smaller vertex first.
+/// An edge of a triangle, smaller vertex first.
 struct InnerEdge {
     Index low, high, face;
     bool operator<(const InnerEdge& other) const
@@ -52,7 +52,7 @@ public:
         std::vector<Index> left = faces;
         std::erase(left, order.front());
         for (std::size_t next = 0; !left.empty(); ++next) {
-            if (next == order.size()) {  // a polygon that its triangles do not hold together
+            if (next == order.size()) {  // the polygon's triangles are not connected
                 order.push_back(left.front());
                 left.erase(left.begin());
             }
@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    /// Each pair of faces of the polygon at an edge, in both orders, by the first one.
+    /// All pairs of faces of the polygon with a common edge, in both orders.
     std::vector<std::pair<InnerEdge, Index>> neighbours(const std::vector<Index>& faces) const
     {
         std::vector<InnerEdge> edges;
@@ -91,7 +91,7 @@ private:
         return pairs;
     }
 
-    /// The largest face goes first, of those that are whole.
+    /// Sorts the largest whole face first.
     std::pair<bool, double> rank(Index f) const
     {
         const CornerPlace a = place(f, 1) - place(f, 0), b = place(f, 2) - place(f, 0);
@@ -112,7 +112,7 @@ private:
         return layout_ == SphereLayout::equirectangular && points_(vertex, 0) == 0.0 && points_(vertex, 1) == 0.0;
     }
 
-    /// Puts a face where the pattern continues the one over the edge.
+    /// Puts a face where the pattern continues its neighbour over the edge.
     void continue_over(const InnerEdge& edge, Index child)
     {
         const Index parent = edge.face;
@@ -124,7 +124,7 @@ private:
         }
         PatternMotion best;
         double least = INFINITY;
-        for (std::size_t i = 0; i < 2; ++i) {  // by that end
+        for (std::size_t i = 0; i < 2; ++i) {  // measured at that end
             for (const double sign : {1.0, -1.0}) {
                 if (sign < 0.0 && layout_ == SphereLayout::equirectangular) continue;
                 if (at_pole(ends[i]) && !at_pole(ends[1 - i])) continue;
@@ -143,12 +143,12 @@ private:
         if (least > 0.0) marks_.torn[static_cast<std::size_t>(child)] = 1;
     }
 
-    /// The shift that is nearest to this one, of those of the pattern.
+    /// The pattern's shift that is nearest to this one.
     CornerPlace whole_shift(const CornerPlace& shift, double sign) const
     {
         CornerPlace whole(std::round(shift[0]), layout_ == SphereLayout::equirectangular ? 0.0 : std::round(shift[1]));
         if (layout_ == SphereLayout::equirectangular) return whole;
-        // Half turns round the middles of the sides, (1/2, 0) and the like: the sum is odd. Two of them: it is even.
+        // Half turns round the sides' middles, (1/2, 0) and the like, have an odd sum; products of two an even one.
         const bool odd = std::fmod(std::abs(whole[0] + whole[1]), 2.0) == 1.0;
         if (odd == (sign < 0.0)) return whole;
         const CornerPlace rest = shift - whole;
@@ -157,7 +157,7 @@ private:
         return whole;
     }
 
-    /// Poles go over the middle of the other corners; the least longitude is in [0, 1).
+    /// Puts poles over the middle of the other corners, and the least longitude into [0, 1).
     void finish_longitudes(const std::vector<Index>& faces)
     {
         double least = INFINITY, most = -INFINITY;

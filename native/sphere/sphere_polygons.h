@@ -1,4 +1,4 @@
-// Polygons of several triangles in the UVs of a sphere.
+// Puts polygons of several triangles together in the UVs of a sphere.
 #pragma once
 
 #include "sphere/sphere_map.h"
@@ -7,16 +7,16 @@
 
 namespace koebe {
 
-/// What sphere_layout knows of each face, 1 or 0.
+/// Marks of each face by sphere_layout, 1 or 0.
 struct LayoutMarks {
     std::vector<char> crossing, torn;  ///< (F)
 };
 
-/// Puts the triangles of each polygon side by side: from the largest one on, each goes over the inner edge where the
-/// pattern continues its neighbour, by whole turns (equirectangular) or half turns and shifts (octahedral). So each
-/// corner of a polygon has one place. Where the pattern does not fit round inside a polygon, as round a pole of the
-/// longitudes, or where it is too long for 32-bit floats of steps of 2^-23, triangles are torn.
-/// @param polygon (F) faces of one number are a polygon; empty: each face is one by itself
+/// Puts the triangles of each polygon side by side. Starts at the largest. Each next one goes over an inner edge to
+/// where the pattern continues its neighbour, by whole turns (equirectangular) or half turns and shifts (octahedral).
+/// So each corner of a polygon has one place. Triangles are torn where the pattern does not close inside a polygon, as
+/// round a pole, or where it is too long for 32-bit floats with steps of 2^-23.
+/// @param polygon (F) faces of one number are one polygon; empty: each face by itself
 /// @param uv (3F, 2) of single faces, in and out @param marks in and out
 void join_polygons(const Triangles& triangles, const Vertices& points, const std::vector<Index>& polygon,
                    SphereLayout layout, PlanarPoints& uv, LayoutMarks& marks);

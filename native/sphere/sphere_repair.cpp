@@ -20,7 +20,7 @@ namespace {
 constexpr int sphere_ring_counts[] = {2, 4, 8, 16};
 constexpr double least_depth =
     0.2;  // of a patch in the direction of its middle: what lies lower is far off in the plane
-constexpr double least_repaired_area = 1e-7;  // of a face turned back, over its wanted one
+constexpr double least_repaired_area = 1e-7;  // area of a face turned back, over its wanted area
 
 enum class LoopFreedom { held, sliding, freed };
 
@@ -77,7 +77,7 @@ private:
         return result;
     }
 
-    /// Connected groups of the faces within so many rings of some.
+    /// Connected groups of the faces within so many rings of some faces.
     std::vector<std::vector<Index>> patches(const std::vector<Index>& seeds, int rings) const
     {
         std::vector<char> chosen(static_cast<std::size_t>(triangles_.rows()), 0);
@@ -126,7 +126,7 @@ private:
         }
         if (!(axis.norm() > 0.0)) return;
         axis.normalize();
-        // What lies too far from the middle to be seen in the plane is left out.
+        // Leave out faces too far from the middle to be projected.
         std::erase_if(faces, [&](Index f) {
             return std::ranges::any_of(
                 triangles_.row(f), [&](Index v) { return !(map_.points.row(v).dot(axis.transpose()) > least_depth); });
@@ -176,7 +176,7 @@ private:
                 }
             }
         }
-        // Faces that cannot move would only weigh.
+        // Faces that cannot move would only cost time.
         std::vector<Eigen::Index> kept;
         for (Eigen::Index f = 0; f < problem.triangles.rows(); ++f)
             if (std::ranges::any_of(problem.triangles.row(f),
@@ -211,7 +211,7 @@ private:
             before.size());
     }
 
-    /// The circle of the plane that touches the image of a loop's circle at a vertex best.
+    /// The circle of the plane that best fits the image of a loop's circle near a vertex.
     template <typename Flat>
     std::optional<Circle> circle_near(Index v, const Flat& flat) const
     {
@@ -260,7 +260,7 @@ private:
         for (const Index v : freed) off_[v] = 1;
     }
 
-    /// Whether the loops of some vertices are simple still.
+    /// Whether the loops of these vertices are still simple.
     bool loops_hold(const std::vector<Index>& vertices) const
     {
         std::vector<int> touched;

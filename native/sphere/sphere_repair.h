@@ -1,4 +1,4 @@
-// Flipped faces of a map to the sphere turned back.
+// Turns flipped faces of a map to the sphere back.
 #pragma once
 
 #include "execution/execution.h"
@@ -13,14 +13,14 @@ namespace koebe {
 struct SphericalMap {
     Vertices points;                ///< (V, 3) unit vectors
     std::vector<Cap> caps;          ///< of the surface's loops
-    std::vector<Index> off_circle;  ///< loop vertices that are not on their circle, rising
+    std::vector<Index> off_circle;  ///< loop vertices off their circle, ascending
 };
 
 /// Moves the neighbourhoods of flipped faces by foldover-free minimization (foldover_free.h), 2, 4, 8 and 16 rings
-/// wide. Each is seen from the middle of the ball, in the plane that touches the sphere there: so the sides of its
-/// faces are straight, and its faces upright there are upright on the sphere. Loops are held at first; then they slide
-/// along their circles; then the vertices of loops in the neighbourhood are freed.
-/// @return how many faces are flipped still, those below sphere_resolution aside
+/// wide. Each is projected from the middle of the ball to the plane that touches the sphere there. So the sides of its
+/// faces are straight, and faces upright in the plane are upright on the sphere. First loops are held, then they slide
+/// along their circles, then the loop vertices in the neighbourhood are freed.
+/// @return the number of faces still flipped, except those below sphere_resolution
 std::size_t turn_back_on_sphere(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context);
 
 }  // namespace koebe

@@ -14,16 +14,16 @@ constexpr double farthest_step = 3.0;  // hyperbolic length
 constexpr double balanced_gradient = 1e-9;
 constexpr double least_gradient = 1e-15;
 
-/// From (0, 1) in the upper half-space: the end of the geodesic that starts in a direction of the ball's centre.
+/// The end of a geodesic of the upper half-space from (0, 1), with a start direction given at the ball's centre.
 PlaneSimilarity along_geodesic(const PlaneSimilarity& from, const SpherePoint& direction, double length)
 {
-    // (0, 0, 1) is the point 0 of the plane, so upwards in the half-space is down in the ball.
+    // (0, 0, 1) is the point 0 of the plane, so up in the half-space is down in the ball.
     const double reach = std::cosh(length) + direction[2] * std::sinh(length);
     const Complex across = Complex(direction[0], direction[1]) * (std::sinh(length) / reach);
     return {from.shift + from.scale * across, from.scale / reach};
 }
 
-/// Mean of the points, and the Hessian of the unevenness, 2 (1 - x x'), over 2.
+/// Mean of the points, and half the Hessian of the unevenness, 2 (1 - x x').
 SpherePoint mean_point(const VectorXcd& z, const VectorXd& weights, const PlaneSimilarity& move,
                        Eigen::Matrix3d& curved)
 {
@@ -60,14 +60,14 @@ SphericalBalance balance_on_sphere(const VectorXcd& z, const VectorXd& weights)
         const SpherePoint mean = mean_point(z, weights, result.move, curved);
         result.gradient = mean.norm();
         if (!(result.gradient > least_gradient)) break;
-        // Two points alone leave no curvature between them: a little is added.
+        // With only two points there is no curvature between them: add a little.
         curved += 1e-12 * Eigen::Matrix3d::Identity();
         SpherePoint direction = curved.ldlt().solve(mean);
         if (!direction.allFinite() || !(direction.dot(mean) > 0.0)) direction = mean;
         double length = std::min(direction.norm(), farthest_step);
         direction.normalize();
         bool better = false;
-        const bool near = result.gradient < 1e-6;  // the unevenness no longer tells: steps that lessen the gradient
+        const bool near = result.gradient < 1e-6;  // steps must lessen the gradient, as rounding hides the rest
         for (int halving = 0; halving < 40 && !better; ++halving, length *= 0.5) {
             const PlaneSimilarity next = along_geodesic(result.move, direction, length);
             if (!(next.scale > 0.0) || !std::isfinite(next.scale)) continue;

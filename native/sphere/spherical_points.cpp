@@ -27,13 +27,13 @@ Complex in_plane(const SpherePoint& point)
 {
     const Complex across(point[0], point[1]);
     if (point[2] > -0.5) return across / (1.0 + point[2]);
-    const double square = std::norm(across);  // (1 - z) (1 + z): without cancellation at the pole
+    const double square = std::norm(across);  // (1 - z) (1 + z), without cancellation at the pole
     return square > 1e-300 ? across * ((1.0 - point[2]) / square) : Complex(1e150, 0.0);
 }
 
 Cap cap_of(const Circle& circle, bool outside)
 {
-    // |z - c| < r is  x (2 c) + z (1 - q) > 1 + q  with q = |c|^2 - r^2; that normal has the length of (1 + q, 2 r).
+    // z - c| < r is x (2 c) + z (1 - q) > 1 + q with q = |c|^2 - r^2; that normal has the length of (1 + q, 2 r).
     const double distance = std::abs(circle.center);
     const double q = (distance - circle.radius) * (distance + circle.radius);
     Cap cap;
@@ -62,7 +62,7 @@ int orientation(const SpherePoint& a, const SpherePoint& b, const SpherePoint& c
 
 double solid_angle(const SpherePoint& a, const SpherePoint& b, const SpherePoint& c)
 {
-    const SpherePoint along = b - a, across = c - a;  // differences: a small triangle keeps its digits
+    const SpherePoint along = b - a, across = c - a;  // differences, so that a small triangle keeps its digits
     return 2.0 * std::atan2(a.dot(along.cross(across)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 

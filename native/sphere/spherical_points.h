@@ -1,4 +1,4 @@
-// Points and caps of the unit sphere, from the plane and back.
+// Points and caps of the unit sphere, and their projections to the plane.
 #pragma once
 
 #include "circles/circle.h"
@@ -16,25 +16,25 @@ struct Cap {
     double radius = 0.0;                ///< radians, 0 to pi
 };
 
-/// Stereographic projection backwards: 0 goes to (0, 0, 1), the unit disk to the upper half, infinity to (0, 0, -1).
-/// Seen from outside, what is counter-clockwise stays so.
+/// Inverse stereographic projection: 0 goes to (0, 0, 1), the unit disk to the upper half, infinity to (0, 0, -1).
+/// Counter-clockwise stays counter-clockwise, seen from outside.
 SpherePoint on_sphere(Complex z);
 Vertices on_sphere(const VectorXcd& z);
 
-/// From a point of the sphere to the plane; (0, 0, -1) has no place there and goes to a far one.
+/// Stereographic projection to the plane; (0, 0, -1) goes to a far point.
 Complex in_plane(const SpherePoint& point);
 
-/// The cap that a disk of the plane goes to. @param outside the rest of the plane instead of the disk
+/// The image of a disk of the plane as a cap. @param outside take the rest of the plane instead of the disk
 Cap cap_of(const Circle& circle, bool outside);
 
 /// The nearest point of the cap's circle.
 SpherePoint onto_circle(const Cap& cap, const SpherePoint& point);
 
-/// The exact sign of det(a, b, c): 1 where the triangle, its sides the shorter arcs, is counter-clockwise seen from
-/// outside; it has less than half the sphere's area then.
+/// The exact sign of det(a, b, c): 1 where the triangle with the shorter arcs as sides is counter-clockwise seen from
+/// outside, and has less than half the sphere's area.
 int orientation(const SpherePoint& a, const SpherePoint& b, const SpherePoint& c);
 
-/// Signed area of the triangle whose sides are the shorter arcs (Oosterom and Strackee 1983), in (-2 pi, 2 pi].
+/// Signed area of the triangle with the shorter arcs as sides (Oosterom and Strackee 1983), in (-2 pi, 2 pi].
 double solid_angle(const SpherePoint& a, const SpherePoint& b, const SpherePoint& c);
 
 /// The rotation R, det R = 1, with the least sum_i w_i |R from_i - to_i|^2 (Kabsch 1976).

@@ -19,7 +19,7 @@ Index deepest_vertex(const Triangles& triangles, const EdgeLengths& lengths, con
         if (outer[v]) boundary.push_back(v);
     if (static_cast<Index>(boundary.size()) == vertex_count) return -1;
     SparseMatrix laplacian = cotan_laplacian(triangles, half_cotangents(lengths), vertex_count);
-    for (const Index v : boundary) laplacian.coeffRef(v, v) = 1.0;  // a vertex of no face has no entry
+    for (const Index v : boundary) laplacian.coeffRef(v, v) = 1.0;  // an unused vertex has no entry
     laplacian.makeCompressed();
     CondensedLaplacian surface(laplacian, boundary, static_cast<Index>(boundary.size()));
     const VectorXd torsion = surface.solve_interior(vertex_areas(triangles, lengths, vertex_count)).values;

@@ -7,7 +7,7 @@ namespace koebe {
 VectorXcd harmonic_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                        const std::vector<Index>& vertices, const VectorXcd& values)
 {
-    std::vector<char> fixed(vertex_count, 1);  // vertices of no face stay at 0
+    std::vector<char> fixed(vertex_count, 1);  // unused vertices stay at 0
     for (Eigen::Index i = 0; i < triangles.size(); ++i) fixed[triangles.data()[i]] = 0;
     MatrixXd parts = MatrixXd::Zero(vertex_count, 2);
     for (std::size_t b = 0; b < vertices.size(); ++b) {

@@ -9,9 +9,9 @@
 
 namespace koebe {
 
-/// The minimizer of the Dirichlet energy (paper, equation 2) with z = values[b] at vertices[b].
+/// Minimizes the Dirichlet energy (paper, equation 2) with z = values[b] at vertices[b].
 /// @param triangles, lengths (F, 3) faces and their edge lengths
-/// @return (V); 0 at vertices of no face
+/// @return (V); 0 at unused vertices
 /// @throws SolverError
 KOEBE_API VectorXcd harmonic_map(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count,
                                  const std::vector<Index>& vertices, const VectorXcd& values);

@@ -78,7 +78,7 @@ public:
         return true;
     }
 
-    /// Whether no edge is far from Delaunay that may be flipped. @param halves half_cotangents of the lengths
+    /// Whether no edge that may be flipped is far from Delaunay. @param halves half_cotangents of the lengths
     bool nearly_delaunay(const EdgeLengths& halves) const
     {
         const double* half = halves.data();
@@ -89,7 +89,7 @@ public:
 
 private:
     static constexpr double tolerance = 1e-9;   // on the sum of cotangents, dimensionless
-    static constexpr double most_excess = 0.2;  // of a triangulation that is kept
+    static constexpr double most_excess = 0.2;  // of a triangulation that may be kept
 
     void flip(Index h)
     {
@@ -99,7 +99,7 @@ private:
 
     double length(Index h) const { return lengths_.data()[h]; }
 
-    /// The forms' values where flip_edge is about to put their edges: d-c, c-a, a-d and c-d, d-b, b-c.
+    /// Computes the forms on the edges of the two new faces of flip_edge: d-c, c-a, a-d and c-d, d-b, b-c.
     void carry(Index h)
     {
         if (carried_ == nullptr) return;
@@ -129,7 +129,7 @@ private:
         return c != d && face_of(h) != face_of(twin_[h]) && (loop_of_[c] < 0 || loop_of_[c] != loop_of_[d]);
     }
 
-    /// The apex of the triangle of an edge, which lies on the real axis from 0.
+    /// The apex of a triangle whose edge starts at 0 and lies along the real axis.
     Complex apex(double edge, double from_start, double from_end) const
     {
         const double x = (edge * edge + from_start * from_start - from_end * from_end) / (2.0 * edge);
@@ -143,10 +143,10 @@ private:
         return std::conj(apex(length(h), length(next_halfedge(t)), length(previous_halfedge(t))));
     }
 
-    /// From d to c, the two triangles unfolded into the plane.
+    /// The vector from d to c, with the two triangles unfolded into the plane.
     Complex opposite_diagonal(Index h) const { return above(h) - below(h); }
 
-    /// Whether d-c crosses the edge inside it: else it is no geodesic of the two triangles.
+    /// Whether d-c crosses the edge between its ends. Otherwise d-c is not a geodesic of the two triangles.
     bool crosses_edge(Index h) const
     {
         if (twin_[h] == no_twin || !may_flip(h)) return false;
@@ -163,7 +163,7 @@ private:
     std::vector<Index> loop_of_;
 };
 
-/// Before any flip.
+/// The mesh's metric before any flip.
 IntrinsicMetric metric_of_mesh(const Vertices& vertices, const Surface& surface, const IntrinsicMetricOptions& options)
 {
     IntrinsicMetric metric;

@@ -11,7 +11,7 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t at_a_time = 32768;  // faces, or vertices, of a thread
+constexpr std::size_t at_a_time = 32768;  // faces, or vertices, per thread
 
 template <class Positions>
 EdgeLengths lengths_of(const Positions& positions, const Triangles& triangles)
@@ -66,13 +66,13 @@ EdgeLengths half_cotangents(const EdgeLengths& lengths)
 
 namespace {
 
-/// What half-edges add to a row of the Laplacian.
+/// An entry that a half-edge adds to a row of the Laplacian.
 struct RowEntry {
     Index row;
     double weight;
 };
 
-/// Sorts by row, what is equal in its order: a row has some ten entries.
+/// Sorts some ten entries by row. Stable.
 void sort_short(RowEntry* first, RowEntry* last)
 {
     for (RowEntry* e = first; e < last; ++e) {

@@ -1,4 +1,4 @@
-// The cotan Laplacian and what it acts on (paper, section 4.1; Pinkall and Polthier 1993).
+// The cotan Laplacian, edge lengths and areas (paper, section 4.1; Pinkall and Polthier 1993).
 #pragma once
 
 #include "core/api.h"
@@ -11,25 +11,25 @@ namespace koebe {
 /// (F, 3) edge lengths: column k is the edge from corner k to corner (k + 1) mod 3, half-edge 3 f + k.
 using EdgeLengths = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Lengths of the edges of each face, in the unit of the positions. Works for positions in space and in the plane.
+/// (F, 3) edge lengths in the unit of the positions, which lie in space or in the plane.
 KOEBE_API EdgeLengths edge_lengths(const Vertices& vertices, const Triangles& triangles);
 KOEBE_API EdgeLengths edge_lengths(const PlanarPoints& points, const Triangles& triangles);
 
-/// (F, 3) half the cotangent of the angle opposite to each half-edge, dimensionless; from lengths alone, by
-/// cot = (b^2 + c^2 - a^2) / (4 area) with Kahan's area. A face of zero area gets finite weights.
+/// (F, 3) half the cotangent of the angle opposite to each half-edge, dimensionless. Computed from lengths by cot =
+/// (b^2 + c^2 - a^2) / (4 area) with Kahan's area. A face of zero area gets finite weights.
 EdgeLengths half_cotangents(const EdgeLengths& lengths);
 
 /// The stiffness matrix K of the Dirichlet energy: u' K u = integral |grad u|^2, dimensionless, (V, V), positive
 /// semidefinite, K 1 = 0, both triangles stored. K_ij = -(cot alpha + cot beta) / 2. Unused vertices get an empty row.
 SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half_cotangents, Index vertex_count);
 
-/// Where the weights of each half-edge go in a Laplacian, to make that of other weights on the same triangles.
+/// Knows the places of each half-edge's weights in a Laplacian, so that new weights on the same triangles go in fast.
 class LaplacianPlaces {
 public:
     /// @param laplacian of these triangles
     LaplacianPlaces(const Triangles& triangles, const SparseMatrix& laplacian);
 
-    /// @param laplacian in: of the same triangles; out: cotan_laplacian of these weights, but for rounding
+    /// @param laplacian in: of the same triangles; out: cotan_laplacian of these weights, up to rounding
     void fill(const EdgeLengths& half_cotangents, SparseMatrix& laplacian) const;
 
 private:
@@ -39,7 +39,7 @@ private:
     std::vector<Places> of_;
 };
 
-/// A third of the area of the faces around each vertex (V), in squared units of the positions.
+/// (V) a third of the area of the faces around each vertex, in squared units of the positions.
 VectorXd vertex_areas(const Triangles& triangles, const EdgeLengths& lengths, Index vertex_count);
 
 /// Area of one triangle from its edge lengths, stable for needles (Kahan 1986); 0 where the inequality fails.

@@ -12,11 +12,11 @@
 namespace koebe {
 namespace {
 
-constexpr double off_mirror = 1e-4;      // of the diagonal: so far from its mirror image a corner may be
-constexpr double most_in_plane = 0.5;    // share of the corners: a flat surface is no mirror image in its own plane
-constexpr double cell_in_reaches = 4.0;  // width of a cell, in distances that are looked at
+constexpr double off_mirror = 1e-4;      // of the diagonal: largest distance of a corner from its mirror image
+constexpr double most_in_plane = 0.5;    // share of the corners: the plane of a flat surface is not its mirror
+constexpr double cell_in_reaches = 4.0;  // width of a cell, in search radii
 
-/// Finds the nearest of some points, by cells.
+/// Finds the nearest of some points with a grid of cells.
 class NearestPoint {
 public:
     NearestPoint(const Vertices& points, double reach) : points_(points), reach_(reach)
@@ -26,7 +26,7 @@ public:
             cells_[key(cell(place[0]), cell(place[1]), cell(place[2]))].push_back(static_cast<Index>(i));
         }
     }
-    /// The nearest point within reach of a place, of equally near ones the first; -1: none.
+    /// The nearest point within reach of a place, the first of equally near points; -1 if there is none.
     Index at(const Eigen::RowVector3d& place) const
     {
         std::array<std::int64_t, 3> low{}, high{};
@@ -67,10 +67,10 @@ private:
     std::unordered_map<std::uint64_t, std::vector<Index>> cells_;
 };
 
-/// Polygons and their corners, each vertex once: another diagonal changes nothing.
+/// Polygons and their corners, each vertex once. They do not depend on the diagonals.
 struct PolygonCorners {
     std::vector<Index> group;                 // (F)
-    std::vector<std::vector<Index>> corners;  // of each polygon, rising
+    std::vector<std::vector<Index>> corners;  // of each polygon, ascending
     Vertices middles;                         // of each polygon's corners
     double diagonal = 0.0;                    // of the box round all corners
 };
@@ -107,7 +107,7 @@ struct MirrorPlane {
     Eigen::RowVector3d image(const Eigen::RowVector3d& point) const { return point - 2.0 * distance(point) * normal; }
 };
 
-/// Across the coordinates' axes, and those of the spread of some points, where no two of these are alike.
+/// Planes across the coordinate axes and across the principal axes of some points, where these are distinct.
 std::vector<MirrorPlane> possible_mirrors(const Vertices& points)
 {
     const Eigen::RowVector3d center = points.colwise().mean();
@@ -121,7 +121,7 @@ std::vector<MirrorPlane> possible_mirrors(const Vertices& points)
     return planes;
 }
 
-/// The polygon at the mirror image of each, or nothing.
+/// The polygon at the mirror image of each polygon, or nothing.
 std::vector<Index> mirrored_polygons(const PolygonCorners& polygons, const NearestPoint& nearest,
                                      const MirrorPlane& plane)
 {
@@ -135,7 +135,7 @@ std::vector<Index> mirrored_polygons(const PolygonCorners& polygons, const Neare
     return image;
 }
 
-/// The corner at the mirror image of each of a polygon's, among those of its image; nothing unless all are.
+/// For each corner of a polygon its mirror image among the corners of the image; nothing unless all have one.
 std::vector<Index> mirrored_corners(const Vertices& vertices, const std::vector<Index>& own,
                                     const std::vector<Index>& there, const MirrorPlane& plane, double reach)
 {
@@ -153,7 +153,7 @@ std::vector<Index> mirrored_corners(const Vertices& vertices, const std::vector<
     return sorted == there ? image : std::vector<Index>{};
 }
 
-/// Fills the images unless the plane is no mirror.
+/// Fills in the mirror images. Returns false if the plane is not a mirror.
 bool is_mirror(const Vertices& vertices, const PolygonCorners& polygons, const NearestPoint& nearest,
                const MirrorPlane& plane, double reach, Mirror& mirror)
 {

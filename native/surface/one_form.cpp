@@ -45,7 +45,7 @@ double squared_norm(const EdgeLengths& half_cotangents, const OneForm& form)
 double wedge_integral(const OneForm& a, const OneForm& b)
 {
     double sum = 0.0;
-    // On a face both are constant covectors: half their determinant on two edges that leave one corner.
+    // Both forms are constant covectors on a face: take half their determinant on two edges that leave one corner.
     for (Eigen::Index h = 0; h < a.size(); h += 3) sum += 0.5 * (a[h + 2] * b[h] - a[h] * b[h + 2]);
     return sum;
 }

@@ -15,7 +15,7 @@
 namespace koebe {
 namespace {
 
-/// Faces and, after them, boundary loops, as nodes that edges join.
+/// The dual graph: its nodes are the faces and, after them, the boundary loops.
 class DualGraph {
 public:
     explicit DualGraph(const Surface& surface) : surface_(surface), loop_of_(surface.vertex_count, -1)
@@ -43,7 +43,7 @@ public:
         bool out = true;
     };
 
-    /// For each node the step that leads to it from the one nearer to the root.
+    /// For each node the step that leads to it from its neighbour towards the root.
     std::vector<Step> tree(Index root, const std::vector<char>& closed) const
     {
         std::vector<Step> to(static_cast<std::size_t>(face_count()) + border_.size());
@@ -66,7 +66,7 @@ public:
         return to;
     }
 
-    /// Adds a step to a form: 1 along the edge that is crossed from left to right.
+    /// Adds a step to a form: 1 along the edge that the step crosses from left to right.
     void add(OneForm& form, Step step, double sign) const
     {
         if (!step.out) sign = -sign;
@@ -74,7 +74,7 @@ public:
         if (surface_.twin[step.halfedge] != no_twin) form[surface_.twin[step.halfedge]] -= sign;
     }
 
-    /// Adds the way from the root to a node.
+    /// Adds the path from the root to a node.
     void add_way(OneForm& form, const std::vector<Step>& to, Index node, double sign) const
     {
         while (to[node].halfedge >= 0) {
@@ -114,7 +114,7 @@ std::vector<char> vertex_tree(const Surface& surface)
     return in_tree;
 }
 
-/// Adds an exact form so that a form vanishes along a loop round which it has no period.
+/// Adds an exact form so that a form vanishes along a loop on which its period is 0.
 void make_zero_along(const Surface& surface, const std::vector<Index>& border, const VertexLoop& loop, OneForm& form)
 {
     std::vector<Index> halfedge_at(surface.vertex_count, -1);
@@ -128,7 +128,7 @@ void make_zero_along(const Surface& surface, const std::vector<Index>& border, c
     form += exterior_derivative(surface.triangles, raise);
 }
 
-/// The used vertices alone, their coordinates within [-1, 1].
+/// Keeps the used vertices, and scales their coordinates to [-1, 1].
 PeriodicSurface prepared(const Vertices& vertices, const Triangles& triangles)
 {
     validate_arrays(vertices, triangles);
@@ -154,7 +154,7 @@ PeriodicSurface prepared(const Vertices& vertices, const Triangles& triangles)
     return result;
 }
 
-/// The loops by falling length, two rims before them.
+/// Sorts the loops by falling length, after the given first loops.
 void order_loops(PeriodicSurface& domain, std::vector<std::size_t> first)
 {
     const auto& loops = domain.surface.loops;
@@ -177,7 +177,7 @@ void take_metric(PeriodicSurface& domain)
     domain.metric = intrinsic_metric(domain.vertices, domain.surface, {}, &domain.metric_shifts);
 }
 
-/// The loop with a vertex of the input, or where none is named the longest that is not taken.
+/// The loop with a vertex of the input. For vertex -1 the longest loop other than `taken`.
 std::size_t loop_with(const PeriodicSurface& domain, Index vertex, std::size_t taken)
 {
     const auto& loops = domain.surface.loops;

@@ -61,7 +61,7 @@ RefinedSurface refine_smoothly(const Vertices& vertices, const Triangles& triang
     std::vector<Index> middle(surface.twin.size(), -1);  // the new vertex of each half-edge
     std::vector<Point> added;
     const auto number = [&] { return static_cast<Index>(vertices.rows()) + static_cast<Index>(added.size()); };
-    std::vector<Index> rim_edge_from(vertices.rows(), -1);  // the half-edge of a rim that begins at each vertex
+    std::vector<Index> rim_edge_from(vertices.rows(), -1);  // the rim half-edge that begins at each vertex
     for (Index h = 0; h < static_cast<Index>(middle.size()); ++h) {
         const Index p = faces(h / 3, h % 3), q = faces(h / 3, (h + 1) % 3), twin = surface.twin[h];
         if (twin < 0) {

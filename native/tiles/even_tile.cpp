@@ -11,7 +11,7 @@
 namespace koebe {
 namespace {
 
-/// Of each face's corners, by its half-edges from the first one on.
+/// The lifts of each face's corners, from its first half-edge on.
 CornerLifts lifts_of(const PeriodicSurface& domain)
 {
     CornerLifts lifts(static_cast<std::size_t>(domain.surface.triangles.rows()));

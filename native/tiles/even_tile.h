@@ -1,4 +1,4 @@
-// A periodic map made more even, its periods too.
+// Makes a periodic map and its periods more even.
 #pragma once
 
 #include "core/map_options.h"
@@ -9,8 +9,8 @@
 namespace koebe {
 
 /// Relaxes the map and its periods (relax/even_map.h). The rims of a ring stay straight. Round holes lie on circles of
-/// the plane, free ones have none; a vertex that cannot be brought to its circle is off it.
-/// @param even above 0 @param map changed in place @return whether it was relaxed: if not, it is as it was
+/// the plane, free holes have no circles. A vertex that cannot be brought to its circle counts as off it.
+/// @param even above 0 @param map changed in place @return whether it was relaxed; if not, the map is unchanged
 bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, FlatMap& map,
                     ExecutionContext& context);
 

@@ -10,24 +10,24 @@
 namespace koebe {
 
 struct FlatMap {
-    VectorXcd z;                       ///< (V) one position of each vertex
-    std::vector<Complex> periods;      ///< of each shift of the surface
-    std::vector<Circle> circles;       ///< of the holes, where they are circles
-    std::vector<Roundness> roundness;  ///< of their images before they were put on them
-    std::vector<Index> off_circle;     ///< hole vertices that are not where their hole has them, rising
-    std::vector<double> changes;       ///< of the circles in each sweep
+    VectorXcd z;                       ///< (V) one of each vertex's positions
+    std::vector<Complex> periods;      ///< one for each shift of the surface
+    std::vector<Circle> circles;       ///< of the holes, if they are circles
+    std::vector<Roundness> roundness;  ///< of the holes' images before they were put on the circles
+    std::vector<Index> off_circle;     ///< vertices off their hole's circle or slit, ascending
+    std::vector<double> changes;       ///< change of the circles in each sweep
     bool converged = true;
     bool apart = true;  ///< whether no circle meets another
 };
 
-/// The load of a form's jumps: u with K u = load makes du + form harmonic. @param form of the metric's half-edges
+/// The load of a form's jumps: with K u = load, du + form is harmonic. @param form on the metric's half-edges
 VectorXd jump_load(const PeriodicSurface& domain, const OneForm& form);
 
 SparseMatrix laplacian_of(const PeriodicSurface& domain);
 
-/// Moves vertices of loops to new places, and the inside by the harmonic extension of the displacements. What was
-/// harmonic up to its jumps is so again.
-/// @param moved (V) 1 for the vertices whose new place is given; the others of loops stay
+/// Moves loop vertices to new places, and the inside by the harmonic extension of the displacements. A map that was
+/// harmonic up to its jumps stays so.
+/// @param moved (V) 1 for the vertices whose new place is given; other loop vertices stay
 void move_boundary(const PeriodicSurface& domain, const VectorXcd& places, const std::vector<char>& moved,
                    VectorXcd& z);
 

@@ -41,7 +41,7 @@ VectorXd FloatingLoops::round() const
     const VectorXd load = jump_load(domain_, domain_.metric_shifts[0]);
     MatrixXd sums = MatrixXd::Zero(count_, 1);
     for (Index v = 0; v < static_cast<Index>(load.size()); ++v) sums(representative_[v], 0) += load[v];
-    // One vertex is tied to 0: as constants are in the kernel that draws nothing.
+    // One vertex is tied to 0. Constants are in the kernel, so the tie draws nothing.
     SparseMatrix tied = matrix_;
     tied.coeffRef(0, 0) += matrix_.diagonal().mean();
     return spread(SparseCholesky(tied).solve(sums).col(0));

@@ -7,16 +7,16 @@
 
 namespace koebe {
 
-/// A harmonic function with one free value for each of some loops, through which no flux runs.
+/// A harmonic function with one free value on each of some loops, so that no net flux runs through them.
 class FloatingLoops {
 public:
     /// @param domain must outlive it
     FloatingLoops(const PeriodicSurface& domain, bool holes_float);
 
-    /// 0 on the outer rim, 1 on the inner one.
+    /// The function that is 0 on the outer rim and 1 on the inner rim.
     VectorXd between_rims() const;
 
-    /// What makes the shift harmonic.
+    /// The function that makes the shift harmonic.
     VectorXd round() const;
 
 private:

@@ -11,8 +11,8 @@ namespace koebe {
 
 void bend_rims(const PeriodicSurface& domain, VectorXcd& places, FlatMap& map)
 {
-    constexpr double arc = 0.7, deepest = 0.25;  // over the squared width, and over the width
-    constexpr double steps = 32.0;               // of the grid between neighbours
+    constexpr double arc = 0.7, deepest = 0.25;  // depth over the squared width, and over the width
+    constexpr double steps = 32.0;               // grid steps between neighbours
     const Triangles& triangles = domain.surface.triangles;
     const double height = places[domain.loops[1].front()].imag();
     VectorXd depth = VectorXd::Zero(domain.surface.vertex_count);

@@ -1,13 +1,13 @@
-// Straight rims of a ring, bent where a face would have no area.
+// Bends the straight rims of a ring where a face would have no area.
 #pragma once
 
 #include "tiles/flat_map.h"
 
 namespace koebe {
 
-/// What hangs on a straight rim by one edge would have no area. So the rim runs along a parabola there, inward at the
-/// ends of the edge: as deep as the arc of the disk would be, and deeper where 32-bit UVs need it.
-/// @param places of the boundary, the rims straight; changed
+/// A part that hangs on a straight rim by one edge would have no area. There the rim runs along a parabola, inward at
+/// the ends of the edge: as deep as an arc of the disk would be, and deeper where 32-bit UVs need it.
+/// @param places of the boundary, with straight rims; changed
 void bend_rims(const PeriodicSurface& domain, VectorXcd& places, FlatMap& map);
 
 }  // namespace koebe

@@ -24,12 +24,12 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// The automorphism that makes the inner rim concentric, from the circle domain.
+/// The circle domain, moved by the automorphism that makes the inner rim concentric.
 struct RoundRing {
     VectorXcd points;  // (V) of the domain's vertices, in the unit disk
     std::vector<Circle> circles;
     std::vector<Roundness> roundness;
-    std::vector<std::vector<Index>> off_circle;  // of the input
+    std::vector<std::vector<Index>> off_circle;  // per loop, vertices of the input
     bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;
@@ -72,7 +72,7 @@ RoundRing round_ring(const Vertices& vertices, const Triangles& triangles, const
     return ring;
 }
 
-/// Turns about 0 counted in steps along edges: arg / 2 pi of each vertex, so that the shifts are the jumps between.
+/// (V) turns about 0, arg / 2 pi, counted in steps along edges, so that the shifts are the jumps.
 VectorXd turns_of(const PeriodicSurface& domain, const VectorXcd& points)
 {
     const Triangles& triangles = domain.surface.triangles;
@@ -83,7 +83,7 @@ VectorXd turns_of(const PeriodicSurface& domain, const VectorXcd& points)
     }
     VectorXd turns = VectorXd::Zero(domain.surface.vertex_count);
     std::vector<char> met(domain.surface.vertex_count, 0);
-    // From the outer rim, where steps are safe, along loops first.
+    // Start at the outer rim, where steps are safe, and go along loops first.
     const Index start = domain.loops[0].front();
     turns[start] = std::arg(points[start]) / two_pi;
     met[start] = 1;
@@ -101,7 +101,7 @@ VectorXd turns_of(const PeriodicSurface& domain, const VectorXcd& points)
     return turns;
 }
 
-/// The round annulus unrolled, u + i v = log z / (2 pi i): its boundary as it is, the inside harmonic.
+/// Unrolls the round annulus, u + i v = log z / (2 pi i): its boundary exactly, the inside harmonic.
 FlatMap unrolled(const PeriodicSurface& domain, const RoundRing& ring, double height)
 {
     FlatMap map;

@@ -17,10 +17,9 @@ double energy(const PeriodicSurface& domain, const VectorXd& u, const OneForm& f
     return squared_norm(half_cotangents(domain.metric.lengths), form + exterior_derivative(domain.metric.triangles, u));
 }
 
-/// Which vertex is the tip near an extreme one: on the edges before and behind it the surface must lie on opposite
-/// sides of the slit, as the other corners of their faces have it.
-/// @param side of the edge from each vertex to the next: how far that corner lies to the left of a slit that runs up
-/// @param sign 1 for the upper tip, -1 for the lower one
+/// The vertex near an extreme one that is the slit's tip: on the edges before and after it, the surface must lie on
+/// opposite sides of the slit, as their faces' other corners tell.
+/// @param side of the edge from each vertex to the next: how far that corner lies left of a slit that runs upward
 Eigen::Index tip_near(Eigen::Index extreme, const VectorXd& side, double sign)
 {
     const Eigen::Index m = side.size();
@@ -37,9 +36,9 @@ Eigen::Index tip_near(Eigen::Index extreme, const VectorXd& side, double sign)
     return best;
 }
 
-/// Where the vertices of a slit lie along it, its ends at the tips: a tip lies between two vertices as a rule, and a
-/// face on the edge between these would have no area. So one of them is moved to where the parabola through the
-/// extreme vertex and its neighbours turns, by O(h^2). Between the tips each side runs one way.
+/// Moves a slit's vertices along it so that its ends are at tips. A tip usually lies between two vertices, and a face
+/// on the edge between them would have no area. So one of them moves to the peak of the parabola through the extreme
+/// vertex and its neighbours, by O(h^2). Between the tips each side runs in one direction.
 /// @param along of at least 4 vertices, changed @param side as above
 void sharpen_tips(VectorXd& along, const VectorXd& side)
 {
@@ -71,7 +70,7 @@ void sharpen_tips(VectorXd& along, const VectorXd& side)
     }
 }
 
-/// How far the corners opposite to the edges of a slit lie to its left.
+/// How far the corners opposite to a slit's edges lie to its left.
 VectorXd sides_of(const PeriodicSurface& domain, const VectorXcd& z, std::size_t k, bool along_u)
 {
     const Triangles& triangles = domain.surface.triangles;

@@ -1,4 +1,4 @@
-// A ring whose holes are slits.
+// Maps a ring to a strip with slits as holes.
 #pragma once
 
 #include "tiles/flat_map.h"
@@ -6,8 +6,8 @@
 
 namespace koebe {
 
-/// Rims straight, holes slits: u and v of the two harmonic functions.
-/// @param holes not circles @param height set: over the period
+/// Makes the rims straight and the holes slits: u and v are the two harmonic functions.
+/// @param holes concentric or radial @param height out: height over period
 FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height);
 
 }  // namespace koebe

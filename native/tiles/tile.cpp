@@ -13,7 +13,7 @@
 namespace koebe {
 namespace {
 
-constexpr double grid_extent = 16777216.0 - 64.0;  // with room for what rounding adds
+constexpr double grid_extent = 16777216.0 - 64.0;  // leaves room for rounding
 
 GridPoint on_grid(Complex z, double scale) { return {std::llround(scale * z.real()), std::llround(scale * z.imag())}; }
 
@@ -78,7 +78,7 @@ TileFaults find_faults(const PeriodicSurface& domain, const Tile& tile, HoleShap
             const GridPoint a = edge(h), b = edge(t);
             faults.seams |= a[0] + b[0] != 0 || a[1] + b[1] != 0;
         }
-    // Holes by the way along their edges, wherever the tile has cut them.
+    // Follow holes along their edges, even where the tile has cut them.
     std::vector<Index> border(domain.surface.vertex_count, -1);
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
         if (domain.surface.twin[h] == no_twin) border[origin(triangles, h)] = h;

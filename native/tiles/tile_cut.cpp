@@ -23,13 +23,13 @@ Index twin_in_polygon(const PeriodicSurface& domain, Index h)
     return domain.polygon[face_of(h)] == domain.polygon[face_of(twin)] ? twin : no_twin;
 }
 
-/// What a face has to be moved by to lie at its neighbour over a half-edge of that.
+/// The lift that moves a face next to its neighbour over a half-edge of that neighbour.
 Lift step_over(const PeriodicSurface& domain, const std::vector<Lift>& lift, Index h)
 {
     return lift[next_halfedge(h)] - lift[domain.surface.twin[h]];
 }
 
-/// (3F) the lifts of the corners: each polygon where its middle lies in the cell.
+/// (3F) the lifts of the corners that put each polygon's middle in the cell.
 std::vector<Lift> lifts_in_cell(const PeriodicSurface& domain, const FlatMap& map, std::array<double, 2> origin)
 {
     const Triangles& triangles = domain.surface.triangles;
@@ -63,7 +63,7 @@ std::vector<Lift> lifts_in_cell(const PeriodicSurface& domain, const FlatMap& ma
     return lift;
 }
 
-/// Moves parts to their neighbours until all hang together, beginning with the largest.
+/// Moves parts to their neighbours until all are joined, starting with the largest.
 void join_parts(const PeriodicSurface& domain, std::vector<Lift>& lift)
 {
     const Index face_count = static_cast<Index>(domain.surface.triangles.rows());

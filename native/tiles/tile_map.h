@@ -1,4 +1,4 @@
-// Surfaces on other canonical domains than the disk: a flat torus, a cylinder.
+// Maps surfaces to a flat torus or a cylinder.
 #pragma once
 
 #include "circles/circle_fit.h"
@@ -13,23 +13,23 @@
 
 namespace koebe {
 
-/// What becomes of the holes of a ring.
+/// The shape of a ring's holes.
 enum class RingHoles {
-    circles,     ///< of the round annulus; unrolled, their images
+    circles,     ///< circles of the round annulus; unrolled, their images
     concentric,  ///< slits along circles round the annulus; unrolled, along u
     radial,      ///< slits along radii; unrolled, along v
 };
 
-/// As in the JSON report: the enumerator's name.
+/// The enumerator's name, as in the JSON report.
 KOEBE_API const char* to_string(RingHoles holes) noexcept;
 
-/// Of a torus the circles' change is measured where its shortest period is 1.
+/// On a torus the change of the circles is measured with its shortest period scaled to 1.
 struct TileOptions : SweepOptions {
     RingHoles holes = RingHoles::circles;  ///< of a ring
-    Index outer = -1, inner = -1;          ///< of a ring, vertices of the two rims; -1: the longest loops
+    Index outer = -1, inner = -1;          ///< of a ring: a vertex of each rim; -1: the longest loops
     double even = 0.0;                     ///< 0: conformal, 1: true to size (tiles/even_tile.h)
     LoopForm loops = LoopForm::round;      ///< of the holes, with `even`
-    std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each face by itself
 
     template <typename Visit>
     static void each_option(Visit&& visit)
@@ -49,34 +49,34 @@ struct TileLoop {
     VertexLoop vertices;  ///< in order, the surface on the left
     bool rim = false;     ///< of a ring: a straight line from one side of the tile to the other
     bool has_circle = false;
-    Circle circle;                  ///< of a torus or a tile made more even in UVs, of another ring in the unit disk
+    Circle circle;                  ///< in UVs for a torus or a tile made more even, in the unit disk for other rings
     Roundness roundness;            ///< of the image before it was put on its circle
-    std::vector<Index> off_circle;  ///< vertices that are not where the circle or the slit is, rising
+    std::vector<Index> off_circle;  ///< vertices off the circle or the slit, ascending
     bool is_slit = false;
     std::array<std::array<double, 2>, 2> slit{};  ///< its ends in UVs
 };
 
-/// Its distortion is that of the tile, in units of UVs, which are 32-bit floats in [0, 1]^2.
+/// The distortion is measured on the tile, in UV units: 32-bit floats in [0, 1]^2.
 struct TileResult : CornerMapReport {
-    std::vector<std::array<double, 2>> periods;  ///< in UVs: of a torus two, of a ring one, along u
-    /// Of a torus the ratio of its periods, reduced if it is conformal; of a ring i times its height over its period,
+    std::vector<std::array<double, 2>> periods;  ///< in UVs: two for a torus, one along u for a ring
+    /// For a torus the ratio of its periods, reduced if the map is conformal. For a ring i times height over period,
     /// log(R / r) / 2 pi.
     Complex modulus;
-    std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim first
-    double cut_length = 0.0;      ///< of the cut in the UVs, over the root of the surface's area
+    std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim come first
+    double cut_length = 0.0;      ///< of the cut in the UVs, over the square root of the surface's area
     int sweeps = 0;
-    std::vector<double> changes;  ///< of the circles in each sweep
+    std::vector<double> changes;  ///< change of the circles in each sweep
 };
 
-/// Maps a surface of genus 1 with any number of holes conformally to a flat torus, its holes round.
-/// The UVs are a parallelogram of the torus, cut along edges in the UVs alone; the two sides of the cut differ by
-/// periods to the last bit of 32-bit floats, so its copies tile the plane.
-/// @throws InputError, TopologyError, SolverError, Cancelled; what is not one to one is reported as not converged
+/// Maps a surface of genus 1 with any number of holes conformally to a flat torus with round holes. The UVs are a
+/// parallelogram of the torus, cut along edges in the UVs only. The two sides of the cut differ by periods to the last
+/// bit of 32-bit floats, so copies tile the plane.
+/// @throws InputError, TopologyError, SolverError, Cancelled; a map that is not one to one is reported as not converged
 KOEBE_API TileResult torus_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                                ExecutionContext& context);
 
-/// Maps a surface of genus 0 with two loops and more conformally to a cylinder, those two on its rims, unrolled: u runs
-/// round, v from the outer rim at 0 to the inner one. Other holes are images of circles, or slits.
+/// Maps a surface of genus 0 with at least two loops conformally to a cylinder, two loops on its rims, and unrolls it:
+/// u runs round, v from the outer rim at 0 to the inner rim. Other holes are images of circles, or slits.
 /// @throws as torus_map
 KOEBE_API TileResult ring_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                               ExecutionContext& context);

@@ -17,7 +17,7 @@ namespace {
 constexpr int most_tile_passes = 8;
 constexpr int most_in_vain = 3;  // passes that turn no face back
 
-/// The tile as a mesh of the plane with a vertex for each fan of corners that are joined in it.
+/// The tile as a mesh of the plane, with a vertex for each fan of corners that the tile joins.
 struct TileSheet {
     Surface surface;
     Vertices vertices;          // (n, 3) in space
@@ -59,7 +59,7 @@ TileSheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std:
     return sheet;
 }
 
-/// Untangles a tile that is cut so; what is on its border stays.
+/// Untangles a tile with these cuts. Vertices on its border stay.
 void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, HoleShape shape, FlatMap& map,
                   RepairEffort& effort, ExecutionContext& context)
 {
@@ -86,7 +86,7 @@ void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, 
             continue;
         }
         holes.push_back(loop);
-        Circle place{0.0, 10.0};  // where it may not slide none is asked for
+        Circle place{0.0, 10.0};  // a circle is needed even where the loop may not slide
         if (circles) {
             place = map.circles[k - static_cast<Index>(domain.first_hole)];
             place = {sheet.scale * (lifted(map, place.center, sheet.lift[loop.front()]) - sheet.middle),
@@ -96,7 +96,7 @@ void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, 
         for (const Index v : loop)
             if (std::ranges::binary_search(map.off_circle, sheet.source[v])) off_circle.push_back(v);
     }
-    if (loops.empty()) return;  // no border: nothing would hold it
+    if (loops.empty()) return;  // without a border nothing would hold the tile
     loops.insert(loops.end(), holes.begin(), holes.end());
     places.insert(places.end(), hole_places.begin(), hole_places.end());
     std::ranges::sort(off_circle);
@@ -114,7 +114,7 @@ void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, 
     map.off_circle.erase(std::unique(map.off_circle.begin(), map.off_circle.end()), map.off_circle.end());
 }
 
-/// Faces within so many rings of some.
+/// Faces within so many rings of some faces.
 std::vector<Index> around(const Triangles& triangles, Index vertex_count, std::vector<Index> faces, int rings)
 {
     std::vector<char> near(static_cast<std::size_t>(vertex_count), 0);
@@ -128,13 +128,13 @@ std::vector<Index> around(const Triangles& triangles, Index vertex_count, std::v
     return faces;
 }
 
-/// Moves what lies around flipped faces of a ring by foldover-free minimization (Garanzha et al. 2021), rims and slits
-/// along their lines.
+/// Moves the neighbourhoods of a ring's flipped faces by foldover-free minimization (Garanzha et al. 2021); vertices of
+/// rims and slits stay on their lines.
 void slide_along_lines(const PeriodicSurface& domain, const std::vector<Lift>& lift, int rings, HoleShape shape,
                        FlatMap& map, ExecutionContext& context)
 {
-    constexpr double far = 1e4;        // radius of the circle that stands for a line, over the tile's
-    constexpr double rounding = 4e-7;  // what a face can lose, over its longest edge
+    constexpr double far = 1e4;        // radius of the circle that replaces a line, over the tile's
+    constexpr double rounding = 4e-7;  // area that a face can lose by rounding, over its longest edge
     TileSheet sheet = sheet_of(domain, map, lift);
     const Triangles& triangles = sheet.surface.triangles;
     const auto area = [&](const PlanarPoints& uv, Index f) {
@@ -220,7 +220,7 @@ void slide_along_lines(const PeriodicSurface& domain, const std::vector<Lift>& l
     }
 }
 
-/// Faces of the tile that are flipped, those below resolution aside.
+/// The tile's flipped faces, except those below resolution.
 std::vector<Index> tangled(const PeriodicSurface& domain, const Tile& tile)
 {
     const TileFaults faults = find_faults(domain, tile, HoleShape::open);
@@ -233,7 +233,7 @@ std::vector<Index> tangled(const PeriodicSurface& domain, const Tile& tile)
 
 std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, FlatMap& map, ExecutionContext& context)
 {
-    RepairEffort effort(domain.surface.triangles.rows(), 3000000);  // the first pass does most
+    RepairEffort effort(domain.surface.triangles.rows(), 3000000);  // the first pass does most of the work
     std::vector<Index> left = tangled(domain, tile_of(domain, map));
     for (int pass = 0, in_vain = 0; pass < most_tile_passes && in_vain < most_in_vain && !left.empty(); ++pass) {
         context.advance(static_cast<double>(pass) / most_tile_passes);

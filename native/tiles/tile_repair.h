@@ -1,4 +1,4 @@
-// Flipped faces of a map to a torus or a cylinder, turned back.
+// Turns flipped faces of a map to a torus or a cylinder back.
 #pragma once
 
 #include "execution/execution.h"
@@ -8,9 +8,9 @@
 
 namespace koebe {
 
-/// Turns flipped faces back in their neighbourhoods (untangle), in tiles cut elsewhere.
-/// Vertices of slits stay; those of holes slide along their circles, if they have some, or leave their places.
-/// @return how many faces are flipped still
+/// Turns flipped faces back in their neighbourhoods (untangle), in tiles with different cuts. Vertices of slits stay.
+/// Vertices of other holes slide along their circles, if any, or leave their places.
+/// @return the number of faces that are still flipped
 std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, FlatMap& map, ExecutionContext& context);
 
 }  // namespace koebe

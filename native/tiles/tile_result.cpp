@@ -18,7 +18,7 @@
 namespace koebe {
 namespace {
 
-/// (3F, 2) by the input's faces: a turned one has its second and third corner the other way round.
+/// (3F, 2) in the input's order of faces; in a turned face the second and third corner are exchanged.
 PlanarPoints corner_uvs(const Triangles& triangles, const PeriodicSurface& domain, const Tile& tile)
 {
     PlanarPoints uv(triangles.size(), 2);
@@ -31,7 +31,7 @@ PlanarPoints corner_uvs(const Triangles& triangles, const PeriodicSurface& domai
     return uv;
 }
 
-/// Every face with corners of its own.
+/// Measures the tile with corners of its own for every face.
 ComputedDistortion distortion_of(const PeriodicSurface& domain, const Tile& tile)
 {
     PlanarPoints points(domain.surface.triangles.size(), 2);
@@ -53,7 +53,7 @@ TileLoop loop_report(const PeriodicSurface& domain, const FlatMap& map, std::siz
     return loop;
 }
 
-/// A point of the map in the tile, by the copy at a corner.
+/// The place in the tile of a point of the map, by the copy at a corner.
 Complex in_tile(const FlatMap& map, const Tile& tile, Complex z, Eigen::Index corner)
 {
     for (std::size_t j = 0; j < map.periods.size(); ++j)
@@ -68,7 +68,7 @@ Eigen::Index corner_at(const PeriodicSurface& domain, std::size_t k)
     return std::find(triangles.data(), triangles.data() + triangles.size(), domain.loops[k].front()) - triangles.data();
 }
 
-/// The ends of a slit, which lie farthest from each other along it.
+/// Computes the ends of a slit: its two points that are farthest from each other.
 void take_slit(const PeriodicSurface& domain, const FlatMap& map, const Tile& tile, std::size_t k, TileLoop& loop)
 {
     const auto sum = [&](Index v) { return map.z[v].real() + map.z[v].imag(); };
@@ -124,7 +124,7 @@ void name_tile(const CanonicalMesh& mesh, TileResult& result)
     }
 }
 
-/// Flips turned back, the tile cut and looked at.
+/// A tile after flips were turned back, with its faults.
 struct CheckedTile {
     CheckedTile(const PeriodicSurface& domain, HoleShape holes, FlatMap& map, ExecutionContext& context)
     {

@@ -1,4 +1,4 @@
-// What is reported of a map to a torus or a cylinder.
+// Reports a map to a torus or a cylinder.
 #pragma once
 
 #include "tiles/tile.h"
@@ -6,7 +6,7 @@
 
 namespace koebe {
 
-/// Made more even, flips turned back, the tile cut and checked, and all figures of it but seconds.
+/// Makes the map more even, turns flips back, cuts and checks the tile, and measures everything but seconds.
 /// @param map converged or not
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
                        const TileOptions& options, HoleShape holes, FlatMap& map, ExecutionContext& context);
@@ -15,7 +15,7 @@ TileResult tile_result(const Vertices& vertices, const Triangles& triangles, con
 using TileMap = TileResult(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                            ExecutionContext& context);
 
-/// The map made on the canonical mesh, off this thread, so that it follows from the shape alone.
+/// Makes the map on the canonical mesh, off this thread, so that it follows from the shape alone.
 TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                           ExecutionContext& context, TileMap* map);
 

@@ -45,7 +45,7 @@ public:
             for (const Index v : loop)
                 for (const Index w : loop)
                     if (w >= v) entries.emplace_back(w, v, 0.0);
-        // One vertex is tied to 0: as constants are in the kernel that draws nothing.
+        // One vertex is tied to 0. Constants are in the kernel, so the tie draws nothing.
         const std::vector<char> boundary = boundary_mask(domain.surface);
         const auto inside = std::ranges::find(boundary, char{0});
         const Index tied = inside == boundary.end() ? 0 : static_cast<Index>(inside - boundary.begin());
@@ -128,8 +128,8 @@ Complex modulus(const Eigen::Matrix2d& energies)
     return {-energies(0, 1) / energies(1, 1), std::sqrt(determinant) / energies(1, 1)};
 }
 
-/// Exchanges the shifts for those of a reduced basis of the same lattice (Gauss): |Re tau| <= 1/2, |tau| >= 1.
-/// @return the periods' ratio
+/// Replaces the shifts by a reduced basis of the same lattice (Gauss): |Re tau| <= 1/2, |tau| >= 1.
+/// @return the ratio of the new periods
 Complex reduce(Complex tau, PeriodicSurface& domain, MatrixXd& u)
 {
     const auto each = [&](auto&& change) {
@@ -155,7 +155,7 @@ Complex reduce(Complex tau, PeriodicSurface& domain, MatrixXd& u)
     return tau;
 }
 
-/// The angles at which an image runs round its circle, rising; the loop itself runs clockwise.
+/// The ascending angles of an image round its circle; the loop itself runs clockwise.
 VectorXd angles_of(const VectorXcd& image, const Circle& circle)
 {
     const VectorXcd points = project_onto_circle(circle, image, -1);
@@ -169,7 +169,7 @@ VectorXd angles_of(const VectorXcd& image, const Circle& circle)
     return angles;
 }
 
-/// As far beyond the new angles as the old ones are on this side, or less where that would break their order.
+/// The old angles plus `farthest` times their change to the new ones, or less where the order would break.
 VectorXd relaxed(const VectorXd& old, const VectorXd& angles, const VectorXd& weights, double farthest)
 {
     VectorXd target = centered_angles(angles, weights, old);
@@ -190,7 +190,7 @@ VectorXd relaxed(const VectorXd& old, const VectorXd& angles, const VectorXd& we
     return target;
 }
 
-/// Whether no circle meets another, or a copy of its own, by some lattice vector near 0.
+/// Whether no circle meets another circle, or a copy moved by a lattice vector near 0.
 bool apart_on_torus(const std::vector<Circle>& circles, Complex tau)
 {
     for (std::size_t i = 0; i < circles.size(); ++i)
@@ -210,15 +210,14 @@ bool apart_on_torus(const std::vector<Circle>& circles, Complex tau)
 
 /// The conformal map to C / (Z + tau Z), |Re tau| <= 1/2 and |tau| >= 1, holes on circles.
 ///
-/// Every hole is filled by a round disk of closed form, given by one angle for each vertex of the loop, as in the
-/// condensed engine (docs/method.md). The filled surface is a closed torus: two harmonic 1-forms with the periods
-/// (1, 0) and (0, 1) and the energies E give tau = (-E_12 + i sqrt(det E)) / E_22 and the map. The image of a loop
-/// would be a circle if its angles were right. The fixed point theta <- arg(z - c) halves each error of a single hole,
-/// so a sweep goes twice as far: theta <- 2 arg(z - c) - theta, which leaves to first order only what the holes and
-/// their copies do to each other.
+/// A round disk of closed form fills every hole, given by one angle for each vertex of the loop, as in the condensed
+/// engine (docs/method.md). The filled surface is a closed torus: two harmonic 1-forms with the periods (1, 0) and (0,
+/// 1) and the energies E give tau = (-E_12 + i sqrt(det E)) / E_22 and the map. With the right angles the image of a
+/// loop is a circle. The fixed point theta <- arg(z - c) halves the error of a single hole, so a sweep goes twice as
+/// far: theta <- 2 arg(z - c) - theta. To first order only the interaction of the holes and their copies is left.
 ///
-/// @param domain of periodic_torus; its shifts are exchanged for those of the reduced periods
-/// @return the loops on their circles, if these are apart; periods 1 and tau
+/// @param domain of periodic_torus; its shifts are replaced by those of the reduced periods
+/// @return the loops on their circles, if the circles are apart; periods 1 and tau
 /// @throws SolverError, Cancelled
 FlatMap torus_circles(PeriodicSurface& domain, const IterationOptions& options, ExecutionContext& context)
 {
@@ -232,7 +231,7 @@ FlatMap torus_circles(PeriodicSurface& domain, const IterationOptions& options, 
     FlatMap map;
     CircleState state;
     state.circles.assign(holes, {0.0, 0.0});
-    double farthest = 2.0;  // times the change of the angles
+    double farthest = 2.0;  // factor on the change of the angles
     MatrixXd u;
     Complex tau;
     std::vector<VectorXcd> images(holes);
@@ -253,7 +252,7 @@ FlatMap torus_circles(PeriodicSurface& domain, const IterationOptions& options, 
             map.changes.push_back(circle_change(state, next));
             map.converged = map.changes.back() < options.tolerance;
             if (sweep > 1 && !(map.changes.back() < 0.7 * map.changes[map.changes.size() - 2]))
-                farthest = std::max(0.8, 0.8 * farthest);  // holes that nearly meet pull each other to and fro
+                farthest = std::max(0.8, 0.8 * farthest);  // holes that nearly meet make each other swing
         }
         state = std::move(next);
         if (map.converged) break;

@@ -33,13 +33,13 @@ PlanarPoints planar(const VectorXcd& z)
     return points;
 }
 
-/// Vertices of all rims, and the way that each has to go.
+/// Vertices of all rims, and the displacement of each.
 struct Rims {
     std::vector<Index> vertices;
     VectorXcd way;
 };
 
-/// The outer rim stays; the others are moved and scaled as their circles are.
+/// The outer rim stays; the others are moved and scaled with their circles.
 Rims rims_to_move(const std::vector<Circle>& source, const MappedSurface& target, const DomainAlignment& alignment,
                   const PlanarPoints& uv)
 {
@@ -87,7 +87,7 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
 
 namespace {
 
-/// Where landmarks lie in the two domains, both laid over the source.
+/// Places of landmarks in the two domains, both laid over the source.
 struct LandmarkPlaces {
     std::vector<SurfacePoint> on_target;
     VectorXcd now, wanted;
@@ -109,8 +109,8 @@ LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface&
     return places;
 }
 
-/// The alignment that is best for circles and landmarks together, as far as all matches of the loops can be tried: the
-/// nearest module alone may take one hole for another, and landmarks tell.
+/// The best alignment for circles and landmarks together, if all matches of the loops can be tried. The nearest module
+/// alone may confuse holes, and landmarks tell them apart.
 DomainAlignment aligned_by_landmarks(const MappedSurface& source, const MappedSurface& target,
                                      const std::vector<Landmark>& landmarks, const ExecutionContext& context)
 {
@@ -136,14 +136,14 @@ DomainAlignment aligned_by_landmarks(const MappedSurface& source, const MappedSu
     return best;
 }
 
-/// The target's domain laid over the source's, and the domain that counts as free of distortion.
+/// The target's domain laid over the source's, and the domain that counts as undistorted.
 struct AlignedDomain {
     PlanarPoints uv, undistorted;
 };
 
-/// With the symmetry that is best for the landmarks; where that turns faces over, which are too large for it, with as
-/// much of it as turns none, and the domain as it was counts.
-/// @param map of the circles; changed to what was taken
+/// Applies the best symmetry for the landmarks. Where it would turn large faces over, applies as much of it as turns
+/// none, and the domain before counts as undistorted.
+/// @param map of the circles; changed to the applied map
 AlignedDomain aligned_domain(const MappedSurface& target, const std::vector<Circle>& circles,
                              const LandmarkPlaces& places, Moebius& map)
 {
@@ -184,7 +184,7 @@ LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& 
     return map_with_landmarks(target, circles, aligned, found.uv, places.on_target, places.wanted, context);
 }
 
-/// Which of the source's holes the target's miss.
+/// The warning that names the source's holes that the target's miss.
 Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& circles)
 {
     char miss[32];
@@ -198,7 +198,7 @@ Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& 
     return warning;
 }
 
-/// What the bending has done to the aligned domain.
+/// Measures the distortion of the bending from the aligned domain.
 void judge(Correspondence& result, const MappedSurface& target, const CutMesh& mesh, const PlanarPoints& aligned,
            const PlanarPoints& uv)
 {
@@ -214,7 +214,7 @@ void judge(Correspondence& result, const MappedSurface& target, const CutMesh& m
     result.folded = static_cast<std::size_t>(std::ranges::count_if(now, [&](Index f) { return !is_lost(f); }));
 }
 
-/// Where the source's vertices lie.
+/// Looks up the source's vertices in the target.
 void look_up(Correspondence& result, const MappedSurface& source, const MappedSurface& target, const CutMesh& mesh,
              const PlanarPoints& uv)
 {
@@ -253,7 +253,7 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
             if (bent) result.uv = std::move(*bent);
         } catch (const OutOfMemory&) {
             throw;
-        } catch (const SolverError&) {  // aligned only, as `fitted` says
+        } catch (const SolverError&) {  // only aligned, and `fitted` is false
         }
         if (!result.fitted) result.warnings.push_back(not_fitted(result.alignment, circles));
     }

@@ -1,4 +1,4 @@
-// Points of one surface on another, through their circle domains.
+// Takes points of one surface to another through their circle domains.
 #pragma once
 
 #include "core/api.h"
@@ -15,38 +15,38 @@
 namespace koebe {
 
 struct CorrespondenceOptions {
-    std::vector<int> match;                ///< as of align_domains, or empty to look for it
+    std::vector<int> match;                ///< as in align_domains, or empty to search it
     bool fit_holes = true;                 ///< bend the target's domain until its holes are the source's
-    std::vector<Landmark> landmarks = {};  ///< then bend it until they correspond
+    std::vector<Landmark> landmarks = {};  ///< then bend it until these points correspond
 };
 
 struct Correspondence {
     DomainAlignment alignment;
-    bool fitted = false;     ///< whether the holes were then bent onto each other; not where that would turn faces over
-    PlanarPoints uv;         ///< (V_b, 2) the target's domain as it was laid over the source's
-    Beltrami beltrami;       ///< of the bending, from the aligned domain: 0 without any; faces cut at landmarks count
-    std::size_t folded = 0;  ///< faces that it has turned over
-    PlacesInTriangles places;       ///< (V_a) where the source's vertices lie in the target's triangles
+    bool fitted = false;            ///< whether holes were bent onto each other; not done if faces would turn over
+    PlanarPoints uv;                ///< (V_b, 2) the target's domain as laid over the source's
+    Beltrami beltrami;              ///< of the bending from the aligned domain, else 0; counts faces cut at landmarks
+    std::size_t folded = 0;         ///< faces that the bending has turned over
+    PlacesInTriangles places;       ///< (V_a) places of the source's vertices in the target's triangles
     std::vector<Warning> warnings;  ///< not_fitted
-    Vertices points;                ///< (V_a, 3) the same in space: a point of the target for each vertex of the source
+    Vertices points;                ///< (V_a, 3) the same places in space: a target point per source vertex
 };
 
-/// The target's domain with its holes bent onto the source's circles, in steps: the rims are moved and scaled as their
-/// circles are, the inside follows by the harmonic displacement of the present domain. A step that turns faces over is
-/// halved. So the map is one to one, but quasi-conformal where the holes differ.
-/// @param uv (V_b, 2) the target's aligned domain @param alignment that of these points
-/// @return nothing if holes get into each other's way
+/// Bends the target's domain until its holes are the source's circles, in steps. Rims are moved and scaled with their
+/// circles; the inside follows by the harmonic displacement of the present domain. A step that turns faces over is
+/// halved. So the map is one to one, and quasi-conformal where the holes differ.
+/// @param uv (V_b, 2) the target's aligned domain @param alignment of these points
+/// @return nothing if holes block each other
 /// @throws SolverError, Cancelled
 std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source, const MappedSurface& target,
                                               const DomainAlignment& alignment, const PlanarPoints& uv,
                                               const ExecutionContext& context = {});
 
-/// Lays the target's circle domain over the source's (align_domains; of up to five holes landmarks choose the match),
-/// with the freedom that no circle or one hole leaves so that landmarks lie near each other (nearest_symmetry), bends
-/// its holes onto the source's, and then until its landmarks lie on the source's (map_with_landmarks), and looks up
-/// where the source's vertices lie in it. A vertex that lies outside, by the height of an arc over its edge at a rim,
-/// takes the nearest point: none is lost.
-/// @throws InputError as align_domains and map_with_landmarks; circles that are not the surfaces'
+/// Lays the target's circle domain over the source's (align_domains); up to five holes landmarks help to choose the
+/// match. Without a hole or with one, the freedom left is used to bring landmarks near each other (nearest_symmetry).
+/// Then bends the target's holes onto the source's, and its landmarks onto the source's (map_with_landmarks), and looks
+/// up the source's vertices in it. A vertex outside, by the height of an arc over its edge at a rim, takes the nearest
+/// point, so every vertex has a place.
+/// @throws InputError as align_domains and map_with_landmarks; circles that are not the surfaces' own
 /// (require_own_circles); SolverError, Cancelled
 KOEBE_API Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
                                     const CorrespondenceOptions& options, const ExecutionContext& context = {});

@@ -9,11 +9,11 @@
 namespace koebe {
 namespace {
 
-constexpr double on_it = 1e-8;  // barycentric weight that counts as none, dimensionless
+constexpr double on_it = 1e-8;  // barycentric weight that counts as 0, dimensionless
 
 using Corners = std::array<Index, 3>;
 
-/// Weights of the corners of a face at a vertex that lies in it: one of the mesh, or an added one.
+/// Weights of a face's corners at a vertex in it, of the mesh or added.
 Eigen::RowVector3d weights_in(const Triangles& triangles, Index vertex_count, const std::vector<SurfacePoint>& added,
                               Index face, Index vertex)
 {
@@ -88,7 +88,7 @@ private:
         return {face_[piece], weights * corners_in_face(piece)};
     }
 
-    /// The piece of its face in which a point lies, and its weights there.
+    /// The piece of its face that holds a point, and the weights there.
     std::pair<std::size_t, Eigen::RowVector3d> piece_of(const SurfacePoint& point) const
     {
         std::pair<std::size_t, Eigen::RowVector3d> best{static_cast<std::size_t>(point.face), point.weights};

@@ -1,4 +1,4 @@
-// A mesh with more vertices: faces are cut so that given points of them are vertices.
+// Cuts faces of a mesh so that given points of them become vertices.
 #pragma once
 
 #include "transfer/surface_point.h"
@@ -9,9 +9,9 @@ namespace koebe {
 
 struct CutMesh {
     Triangles triangles;              ///< (F') the pieces
-    std::vector<Index> face;          ///< (F') of the mesh, whose piece each is
-    std::vector<SurfacePoint> added;  ///< where the vertices V, V + 1, ... lie in the mesh
-    std::vector<Index> vertex;        ///< of each point: one of the mesh, or an added one
+    std::vector<Index> face;          ///< (F') face of the mesh for each piece
+    std::vector<SurfacePoint> added;  ///< places of the vertices V, V + 1, ... in the mesh
+    std::vector<Index> vertex;        ///< vertex at each point: of the mesh, or an added one
 
     /// (V + added) rows of a field that is linear in each face of the mesh.
     template <typename Rows>
@@ -24,13 +24,13 @@ struct CutMesh {
         return result;
     }
 
-    /// A point of a piece as one of the mesh.
+    /// A point of a piece as a point of the mesh.
     SurfacePoint on_mesh(Index piece, const Eigen::RowVector3d& weights, const Triangles& of_mesh,
                          Index vertex_count) const;
 };
 
-/// Cuts a face into three at a point of it, or the faces on both sides of an edge into two; a point nearer to an edge
-/// or a vertex than 1e-8 of the face counts as on it.
+/// Cuts a face into three at a point of it, or both faces at an edge into two. A point within 1e-8 of the face from an
+/// edge or a vertex counts as on it.
 CutMesh cut_at_points(const Triangles& triangles, Index vertex_count, const std::vector<SurfacePoint>& points);
 
 }  // namespace koebe

@@ -15,22 +15,22 @@
 namespace koebe {
 namespace {
 
-constexpr double least_depth = 1e-6;      // lengths in the disk: of points from the unit circle
-constexpr int most_rounds = 50;           // towards the barycentre
-constexpr double centered = 1e-9;         // lengths in the disk: of the barycentre from 0
-constexpr Eigen::Index most_starts = 32;  // landmarks that give one
+constexpr double least_depth = 1e-6;      // lengths in the disk: distance of inner points from the unit circle
+constexpr int most_rounds = 50;           // limit for the barycentre
+constexpr double centered = 1e-9;         // lengths in the disk: distance of the barycentre from 0
+constexpr Eigen::Index most_starts = 32;  // number of landmarks that are starts
 
 bool is_inside(Complex z) { return std::abs(z) < 1.0 - least_depth; }
 
-/// z -> turn z that takes points nearest to targets.
+/// The rotation z -> turn z that takes points nearest to targets.
 Moebius nearest_turn(const VectorXcd& points, const VectorXcd& targets)
 {
     const Complex overlap = (targets.array() * points.array().conjugate()).sum();
     return {0.0, std::abs(overlap) > 0.0 ? overlap / std::abs(overlap) : Complex(1.0)};
 }
 
-/// The automorphism that takes the conformal barycentre of points to 0; as far as there is one: not of fewer than two
-/// on the rim alone.
+/// The automorphism that takes the conformal barycentre of points to 0. A single point on the rim
+/// has none.
 Moebius centering(const VectorXcd& points)
 {
     constexpr double longest_step = 0.9;
@@ -44,7 +44,7 @@ Moebius centering(const VectorXcd& points)
     return map;
 }
 
-/// One point exactly onto its target, the others as near as a turn about it brings them.
+/// Takes one point exactly onto its target, then turns about it to bring the others near.
 Moebius about_point(const VectorXcd& points, const VectorXcd& targets, Eigen::Index i)
 {
     const Moebius from{points[i]}, to{targets[i]};
@@ -61,7 +61,7 @@ Eigen::Matrix2cd to_standard(const Three& z)
     return map;
 }
 
-/// Three points of the unit circle onto three others; nothing if these go round the other way.
+/// Takes three points of the unit circle onto three others; nothing if these run the other way round.
 std::optional<Moebius> through_three(const Three& from, const Three& to)
 {
     const Eigen::Matrix2cd map = to_standard(to).inverse() * to_standard(from);
@@ -72,7 +72,7 @@ std::optional<Moebius> through_three(const Three& from, const Three& to)
     return Moebius{a, turn / std::abs(turn)};
 }
 
-/// Points of the rim exactly onto their targets: three of them far apart, or two and the middles between them.
+/// Takes points of the rim exactly onto their targets: three far apart, or two and the middles between them.
 std::optional<Moebius> about_rim(const VectorXcd& points, const VectorXcd& targets)
 {
     std::vector<Eigen::Index> order(points.size());

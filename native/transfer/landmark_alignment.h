@@ -1,4 +1,4 @@
-// The freedom that circles leave when one domain is laid over another, used for landmarks.
+// Uses the freedom that circles leave, when one domain is laid over another, to align landmarks.
 #pragma once
 
 #include "circles/circle.h"
@@ -8,12 +8,12 @@
 
 namespace koebe {
 
-/// The automorphism of the disk that fixes each of these circles and takes points nearest to their targets.
+/// The automorphism of the disk that keeps each of these circles and takes points nearest to their targets.
 ///
-/// Without a hole every automorphism does: sum |g(z) - t|^2 is least, in the position that has the targets' conformal
-/// barycentre at 0 [Douady and Earle 1986, section 2], so that no automorphism of both matters. It is exact wherever it
-/// can be: for one point, for one inside and one on the rim, for three on the rim. With one hole the turns about it are
-/// left, and the mean angle counts. With more holes there is the identity alone.
+/// Without a hole it is any automorphism. It minimizes sum |g(z) - t|^2 in the position with the targets' conformal
+/// barycentre at 0 [Douady and Earle 1986, section 2], so that automorphisms of both domains do not matter. It is exact
+/// where possible: for one point, for one inside and one on the rim, for three on the rim. With one hole only rotations
+/// are left, and the mean angle counts. With more holes it is the identity.
 /// @param circles of the domain, the unit circle first @param points, targets (n) of the closed unit disk
 Moebius nearest_symmetry(const std::vector<Circle>& circles, const VectorXcd& points, const VectorXcd& targets);
 

@@ -20,14 +20,14 @@ namespace {
 using Mobility = FoldoverProblem::Mobility;
 
 constexpr double power = 2.0, slack = 1e-4;  // of the energy, dimensionless: the fourth power of |mu|
-constexpr int most_trials = 60;              // steps of one way, those that fail too
-constexpr double shortest_step = 1.0 / 256;  // of the whole way
-constexpr double unfolded_step = 1.0 / 16;   // of the whole way: where faces fold in one as short, they are turned back
+constexpr int most_trials = 60;              // steps of a path, including those that fail
+constexpr double shortest_step = 1.0 / 256;  // share of the path
+constexpr double unfolded_step = 1.0 / 16;   // share of the path: faces that fold in a step as short are turned back
 constexpr int most_unfoldings = 6;           // of a map: each takes as long as the last steps
-constexpr int steps_between = 4;             // of Newton, after each step of the way
+constexpr int steps_between = 4;             // Newton steps after each step of the path
 constexpr int steps_at_the_end = 60;
 constexpr double settled = 1e-7;             // relative decrease of the energy
-constexpr double bows[] = {0.0, 0.5, -0.5};  // heights of the ways' arcs, over the distance
+constexpr double bows[] = {0.0, 0.5, -0.5};  // heights of the paths' arcs, over the distance
 constexpr double least_height = 1e-9;        // of a face that moves, over its longest edge
 constexpr double most_cotangent = 20.0;      // of an angle, for the displacement
 constexpr double least_area = 1e-3;          // of a face or around a vertex, over the mean
@@ -42,7 +42,7 @@ double doubled_area(const Triangles& triangles, const PlanarPoints& uv, Eigen::I
     return std::imag(std::conj(at(uv, triangles(f, 1)) - a) * (at(uv, triangles(f, 2)) - a));
 }
 
-/// Where a vertex is with a share t of its way done: on a parabola of this height over the distance, or on its circle.
+/// Place of a vertex after a share t of its path: on a parabola of this height over the distance, or on its circle.
 Complex on_way(const Pin& pin, const std::vector<Circle>& circles, double t, double bow)
 {
     if (t >= 1.0) return pin.end;
@@ -100,7 +100,7 @@ private:
             problem_.mobility[pin.vertex] = Mobility::held;
             fixed_[pin.vertex] = 1;
         }
-        // Faces that the map has lost already stay as they are, as far as their vertices are moved by no step.
+        // Leave out faces that the map has already lost, as long as no step moves their vertices.
         std::vector<Index> whole;
         std::vector<double> areas;
         for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -139,13 +139,13 @@ private:
         return laplacian * weights.asDiagonal() * laplacian;
     }
 
-    /// Angles by which a rim's vertices go on when its landmarks go to t: linear in the angle between two of them.
+    /// Turns a rim's vertices along with its landmarks, at t: linearly in the angle between two of them.
     void turn_rim(PlanarPoints& points, std::size_t k, double t, double bow) const
     {
         const VertexLoop& loop = target_.loops[k].vertices;
         const Circle& circle = circles_[k];
         const auto arm = [&](std::size_t i) { return at(points, loop[i % loop.size()]) - circle.center; };
-        std::vector<std::pair<std::size_t, double>> held;  // places in the loop, and their turns
+        std::vector<std::pair<std::size_t, double>> held;  // places of landmarks in the loop, and their turns
         for (const Pin& pin : pins_) {
             if (pin.loop != static_cast<int>(k)) continue;
             const auto i = static_cast<std::size_t>(std::ranges::find(loop, pin.vertex) - loop.begin());
@@ -174,7 +174,7 @@ private:
         }
     }
 
-    /// Positions of all vertices, those of rims and landmarks moved on to t.
+    /// Positions of all vertices, with rims and landmarks moved on to t.
     PlanarPoints step_to(const DirichletSolver& extension, const PlanarPoints& now, double t, double bow) const
     {
         PlanarPoints wanted = now;
@@ -186,7 +186,7 @@ private:
         return wanted;
     }
 
-    /// Newton steps that turn no face over.
+    /// Takes Newton steps that turn no face over.
     void relax(PlanarPoints& now, int steps, const ExecutionContext& context)
     {
         problem_.points = now;
@@ -205,7 +205,7 @@ private:
         return uv.allFinite() && folded_faces(map_.mesh.triangles, uv).size() <= folded_ && rims_in_order(uv);
     }
 
-    /// Whether each rim runs round its circle once, and never back.
+    /// Whether each rim runs once round its circle, and never back.
     bool rims_in_order(const PlanarPoints& uv) const
     {
         for (std::size_t k = 0; k < circles_.size(); ++k) {
@@ -219,7 +219,7 @@ private:
         return true;
     }
 
-    /// The landmarks at whose vertices faces are folded; all of them if there is none.
+    /// Notes the landmarks at folded faces, or all landmarks if there are none.
     void blame(const PlanarPoints& uv)
     {
         std::vector<char> folded(uv.rows(), 0);
@@ -232,7 +232,7 @@ private:
             for (const Pin& pin : pins_) stuck_.push_back(pin.landmark);
     }
 
-    /// @param unfoldings how often the faces that fold in a short step may be turned back
+    /// @param unfoldings how often faces that fold in a short step may be turned back
     bool go(const DirichletSolver& extension, double bow, int unfoldings, const ExecutionContext& context)
     {
         PlanarPoints now = start_;
@@ -260,7 +260,7 @@ private:
         return true;
     }
 
-    /// Turns folded faces back, rims' vertices sliding.
+    /// Turns folded faces back; rim vertices slide.
     bool unfold(PlanarPoints& now, const ExecutionContext& context)
     {
         if (!now.allFinite()) return false;

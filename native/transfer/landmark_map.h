@@ -1,4 +1,4 @@
-// A circle domain bent so that landmarks lie where they are wanted.
+// Bends a circle domain so that landmarks lie at wanted places.
 #pragma once
 
 #include "circles/circle.h"
@@ -18,7 +18,7 @@ struct MappedSurface {
     std::vector<LoopReport> loops;  ///< of the map, the outer one first
 };
 
-/// Two points that shall correspond.
+/// Two points that must correspond.
 struct Landmark {
     SurfacePoint target, source;
 };
@@ -28,21 +28,21 @@ struct LandmarkMap {
     PlanarPoints uv;  ///< (V + added, 2)
 };
 
-/// The landmarks are held at their places, and of the maps that keep them there and take rims to their circles, along
-/// which rims' vertices slide, that with the least sum of a_f (2 |mu_f|^2 / (1 - |mu_f|^2) + 1e-4)^2 is taken: a_f a
-/// face's area on the surface, mu_f its Beltrami coefficient from the aligned domain. So it is the fourth power of |mu|
-/// that counts: with the second the distortion would gather at the landmarks, the more the finer the mesh, as points
-/// have no capacity in the plane. Extremal maps in the sense of Teichmueller are the limit of large powers.
+/// Holds the landmarks at their places and keeps rims on their circles, along which their vertices slide. Of these maps
+/// it takes the one with the least sum of a_f (2 |mu_f|^2 / (1 - |mu_f|^2) + 1e-4)^2: a_f is a face's area on the
+/// surface, mu_f its Beltrami coefficient from the aligned domain. So the fourth power of |mu| counts. With the second
+/// power the distortion would gather at the landmarks on fine meshes, as points have no capacity in the plane. Extremal
+/// maps in the sense of Teichmueller are the limit of large powers.
 ///
-/// The landmarks go to their places in steps, the inside after them by the displacement of least squared Laplacian on
-/// the surface, and each step ends with Newton steps that turn no face over (minimize_foldover_free). Straight on, else
-/// on arcs to either side, at last at once; where a short step folds faces they are turned back, a few times. Landmarks
-/// at vertices of rims slide to places on the same rim.
-/// @param circles of the target's loops, in their order @param aligned (V, 2) the domain that is without distortion
-/// @param bent (V, 2) the same with its rims on the circles: the start
+/// The landmarks move in steps. The inside follows by the displacement of least squared Laplacian on the surface, and
+/// each step ends with Newton steps that turn no face over (minimize_foldover_free). Landmarks move straight, then on
+/// arcs to either side, at last all the way at once. If a short step folds faces they are turned back, a few times.
+/// Landmarks at rim vertices slide to places on the same rim.
+/// @param circles of the target's loops, in their order @param aligned (V, 2) the domain without distortion
+/// @param bent (V, 2) the domain with its rims on the circles: the start
 /// @param places (n) of the landmarks in the plane
-/// @throws InputError landmarks that exclude each other, or lie on a rim on one side alone (landmarks listed);
-///         SolverError no such map was found (landmarks listed); Cancelled
+/// @throws InputError landmarks that exclude each other, or lie on a rim in one domain only (landmarks listed);
+/// SolverError no such map was found (landmarks listed); Cancelled
 LandmarkMap map_with_landmarks(const MappedSurface& target, const std::vector<Circle>& circles,
                                const PlanarPoints& aligned, const PlanarPoints& bent,
                                const std::vector<SurfacePoint>& landmarks, const VectorXcd& places,

@@ -10,7 +10,7 @@ namespace koebe {
 namespace {
 
 constexpr double same_place = 1e-12;  // lengths in the disk
-constexpr double on_rim = 1e-6;       // lengths in the disk: of points from the circle
+constexpr double on_rim = 1e-6;       // lengths in the disk: distance of points from the circle
 
 [[noreturn]] void refuse(const std::string& what, std::vector<Index> landmarks)
 {

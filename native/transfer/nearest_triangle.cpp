@@ -20,7 +20,7 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 
-/// A triangle of the mesh by its number; planar ones lie in the plane z = 0.
+/// A triangle of the mesh with its number; planar triangles have z = 0.
 struct NumberedTriangle {
     using Id = Index;
     using Point = Kernel::Point_3;
@@ -54,7 +54,7 @@ Vertices in_space(const PlanarPoints& points)
     return result;
 }
 
-/// Twice the signed areas of p's triangles with the edges: exact signs where all lies in the plane.
+/// Twice the signed areas of the triangles of p and each edge, with exact signs, for z = 0.
 Eigen::RowVector3d planar_weights(const Eigen::RowVector3d& p, const Eigen::Matrix3d& corner)
 {
     Eigen::RowVector3d weights;
@@ -65,7 +65,7 @@ Eigen::RowVector3d planar_weights(const Eigen::RowVector3d& p, const Eigen::Matr
     return weights;
 }
 
-/// The same of p's projection onto the triangle's plane, over its normal's length.
+/// The same for p's projection onto the triangle's plane, divided by the normal's length.
 Eigen::RowVector3d spatial_weights(const Eigen::RowVector3d& p, const Eigen::Matrix3d& corner)
 {
     const Eigen::RowVector3d normal = (corner.row(1) - corner.row(0)).cross(corner.row(2) - corner.row(0));
@@ -77,7 +77,7 @@ Eigen::RowVector3d spatial_weights(const Eigen::RowVector3d& p, const Eigen::Mat
     return weights;
 }
 
-/// The weight of an edge's end at its point nearest to p.
+/// The weight of an edge's end at the edge's point nearest to p.
 double share_of_end(const Eigen::RowVector3d& p, const Eigen::RowVector3d& from, const Eigen::RowVector3d& to)
 {
     const double squared = (to - from).squaredNorm();
@@ -85,7 +85,7 @@ double share_of_end(const Eigen::RowVector3d& p, const Eigen::RowVector3d& from,
 }
 
 /// Barycentric coordinates of the point of a triangle that is nearest to p.
-/// @param inside weights of the foot of p on the triangle's plane, up to a factor
+/// @param inside weights of p's projection onto the triangle's plane, up to a factor
 Eigen::RowVector3d nearest_weights(const Eigen::RowVector3d& p, const Eigen::Matrix3d& corner,
                                    const Eigen::RowVector3d& inside)
 {

@@ -1,4 +1,4 @@
-// The triangles of a mesh that are nearest to given points.
+// Finds the triangles of a mesh that are nearest to given points.
 #pragma once
 
 #include "core/types.h"
@@ -7,16 +7,16 @@ namespace koebe {
 
 struct PlacesInTriangles {
     Eigen::VectorX<Index> face;  ///< (n) the nearest triangle of each point
-    Vertices weights;            ///< (n, 3) barycentric coordinates of the nearest point in it: >= 0, of sum 1
-    VectorXd distance;           ///< (n) from the point to it, 0 within rounding on the mesh
+    Vertices weights;            ///< (n, 3) barycentric coordinates of its nearest point: >= 0, sum 1
+    VectorXd distance;           ///< (n) from the point to the triangle; 0 within rounding on the mesh
 };
 
-/// By CGAL's tree of bounding boxes. Triangles without area count as the segments or points that they are.
+/// Uses CGAL's tree of bounding boxes. Triangles without area count as segments or points.
 /// @param corners (V, 2) finite @param triangles (F, 3), F >= 1 @param points (n, 2) finite
 PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles,
                                     const PlanarPoints& points);
 
-/// The same in space. @param corners (V, 3) @param points (n, 3)
+/// Finds nearest triangles in space. @param corners (V, 3) @param points (n, 3)
 PlacesInTriangles nearest_triangles(const Vertices& corners, const Triangles& triangles, const Vertices& points);
 
 }  // namespace koebe

@@ -9,7 +9,7 @@
 namespace koebe {
 namespace {
 
-constexpr double farthest_beside = 0.01;  // of a point from the surface, over the diagonal of the bounding box
+constexpr double farthest_beside = 0.01;  // distance of a point from the surface, over the diagonal of the bounding box
 
 }  // namespace
 
@@ -17,7 +17,7 @@ std::vector<SurfacePoint> surface_points(const Vertices& vertices, const Triangl
                                          const std::vector<NamedPoint>& points)
 {
     std::vector<std::pair<Index, int>> corner(vertices.rows(),
-                                              {-1, 0});  // a face of each vertex, and which it is there
+                                              {-1, 0});  // a face of each vertex, and the vertex's corner in it
     for (Index f = static_cast<Index>(triangles.rows()) - 1; f >= 0; --f)
         for (int k = 0; k < 3; ++k) corner[triangles(f, k)] = {f, k};
     const auto exists = [&](Index v) { return v < vertices.rows() && corner[v].first >= 0; };

@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 9
+    assert len(blocks) == 10
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -28,6 +28,7 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert held.flipped == 0 and np.allclose(held.points[tip], names["surprised"].surface[0][tip], atol=1e-9)
     assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1,y_2,r_2,x_3,y_3,r_3\nneutral,0.")
+    assert names["cortex"].flipped == 0 and names["cortex"].angle_error_deg["mean"] < 6.5
     assert np.array_equal(names["results"][1].uv, names["surprised"].uv)
 
 

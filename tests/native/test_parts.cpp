@@ -173,7 +173,7 @@ void expect_sound(const PartsResult& result, Index faces)
 TEST(Parts, finger_becomes_a_tube_and_a_cap)
 {
     const Mesh mesh = finger();
-    const PartsResult result = parts(mesh);
+    const PartsResult result = parts(mesh, {.darts = 0.0});
     expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
     ASSERT_EQ(result.parts.size(), 2U);
     EXPECT_EQ(result.parts[0].kind, PartKind::tube);
@@ -413,7 +413,7 @@ TEST(Parts, a_torus_is_one_rectangle)
 {
     // Its conformal factor is 1 / (4 + cos b): at most 5 to 3. Cut along the tube's circle, and from there to itself.
     const Mesh ring = torus(96, 32, 4.0);
-    const PartsResult result = parts(ring);
+    const PartsResult result = parts(ring, {.darts = 0.0});
     expect_sound(result, static_cast<Index>(ring.triangles.rows()));
     ASSERT_EQ(result.parts.size(), 1u);
     EXPECT_EQ(result.parts.front().kind, PartKind::tube);
@@ -826,6 +826,26 @@ TEST(Parts, a_mirror_image_of_itself_is_cut_alike_on_both_sides)
         EXPECT_GT(cuts.size(), 20U) << price;
         EXPECT_EQ(cuts, cut_places(mesh, result, true)) << price;
     }
+}
+
+TEST(Parts, darts_make_texels_more_even_at_no_island_and_are_what_the_cuts_grow_by)
+{
+    const Mesh mesh = figure();
+    const PartsResult without = parts(mesh, {.even = 0.1, .darts = 0.0});
+    double cuts = without.cut_length, density = without.density_ratio_5_95;
+    for (const double darts : {0.05, 0.5}) {
+        const PartsResult result = parts(mesh, {.even = 0.1, .darts = darts});
+        expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
+        EXPECT_EQ(result.parts.size(), without.parts.size());
+        EXPECT_GT(result.darts, 0);
+        EXPECT_NEAR(result.cut_length, without.cut_length + result.dart_length, 1e-9);
+        EXPECT_GT(result.cut_length, cuts);
+        EXPECT_LT(result.density_ratio_5_95, density);
+        EXPECT_LT(result.distortion.angle_error_deg.mean, without.distortion.angle_error_deg.mean);
+        cuts = result.cut_length;
+        density = result.density_ratio_5_95;
+    }
+    EXPECT_EQ(parts(mesh, {.even = 0.0, .darts = 1.0}).darts, 0);
 }
 
 TEST(Mirror, of_a_flat_sheet_is_not_its_own_plane_and_a_strip_is_its_own_image_lengthwise)

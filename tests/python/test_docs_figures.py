@@ -17,7 +17,8 @@ import reproduce  # noqa: E402
 from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
-MEASURED_ELSEWHERE = {"reliability", "commands", "cancel", "bff"}  # make reliability, make bench
+# make reliability, make bench, bench/cortex.py
+MEASURED_ELSEWHERE = {"reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions"}
 CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "distances"}
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
 NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")

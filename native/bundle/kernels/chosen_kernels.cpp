@@ -1,4 +1,4 @@
-// The kernels that fit the processor, or those that KOEBE_KERNELS names.
+// Chooses the best kernels for the processor, or those that KOEBE_KERNELS names.
 #include "bundle/kernels/dense_kernels.h"
 
 #include <cstdlib>

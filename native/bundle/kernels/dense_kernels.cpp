@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; KOEBE_INSTRUCTION_SET is its name. All sets give the same bits: vectors hold
 // independent results, each sum has one order, and products are rounded before they are added (-ffp-contract=off).
-// What is inlined elsewhere too is not used here: else the linker would keep one of several equal-named functions, and
-// an old processor meet the instructions of a new.
+// Functions that are inlined elsewhere too are not used here: the linker keeps one of several equal-named functions,
+// and an old processor might meet the instructions of a new one.
 #define KOEBE_JOIN_(a, b) a##b
 #define KOEBE_JOIN(a, b) KOEBE_JOIN_(a, b)
 #define KOEBE_OF_SET KOEBE_JOIN(of_, KOEBE_INSTRUCTION_SET)
@@ -23,7 +23,7 @@ View given(const double* a, const int* lda, const char* trans)
     return is(trans, 'N') ? view : view.turned();
 }
 
-/// c *= beta, where 0 clears what may be no number. @param part lower: on and below the diagonal
+/// c *= beta; beta 0 also clears NaN and infinity. @param part lower: on and below the diagonal only
 void scale(int m, int n, double beta, Target c, Share part = Share::all)
 {
     if (beta == 1.0) return;
@@ -77,7 +77,7 @@ void dsyrk(const char* uplo, const char* trans, const int* n, const int* k, cons
     if (*alpha != 0.0) add_product(*n, *n, *k, *alpha, factor, factor.turned(), product, Share::lower);
 }
 
-/// A triangle and a matrix as "triangle times matrix", which is "matrix times triangle" turned.
+/// A triangle and a matrix as "triangle times matrix"; "matrix times triangle" is turned for that.
 struct Sides {
     View triangle;
     bool lower, unit;

@@ -1,9 +1,9 @@
-// The dense kernels of BLAS and LAPACK that linear/ calls. They give the same bits on every processor: a map follows
-// from its surface alone, whatever hangs on its last bits. Fortran's calling convention (netlib.org/blas, LAPACK Users'
-// Guide, section 2): everything by address, columns first.
+// The dense kernels of BLAS and LAPACK that linear/ calls. They give the same bits on every processor, so that a map
+// depends on its surface only. They follow Fortran's calling convention (netlib.org/blas, LAPACK Users' Guide, section
+// 2): all arguments by address, matrices by columns.
 #pragma once
 
-/// X(name, parameters): `name` as BLAS and LAPACK have it, without the underscore.
+/// X(name, parameters): `name` as in BLAS and LAPACK, without the underscore.
 #define KOEBE_DENSE_KERNELS(X)                                                                                         \
     X(dgemm,                                                                                                           \
       (const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha,        \
@@ -52,12 +52,12 @@ struct DenseKernels {
 #undef KOEBE_MEMBER
 };
 
-/// The same source compiled for several processors: what every one of the target's can do, and more.
+/// The same source compiled for several processors. This one runs on every processor of the target.
 const DenseKernels& baseline();
 const DenseKernels& avx2();    // with FMA
 const DenseKernels& avx512();  // F, DQ, BW, VL
 
-/// Those that fit the processor; at most the set that KOEBE_KERNELS names in the environment: sse2, avx2, avx512.
+/// The best set for the processor, or a smaller one that KOEBE_KERNELS names in the environment: sse2, avx2, avx512.
 const DenseKernels& chosen();
 
 }  // namespace koebe::kernels

@@ -21,17 +21,17 @@ constexpr int tile_rows = 2 * lanes;
 typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), may_alias));
 typedef double LanesAnywhere __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
 
-// The same in all sets, as sums depend on them.
-constexpr int depth = 256;  // products that are summed before they are added to the result
-constexpr int few = 4;      // columns, for which A is not packed
+// Equal in all sets, as sums depend on them.
+constexpr int depth = 256;  // products summed before they are added to the result
+constexpr int few = 4;      // columns; with fewer, A is not packed
 constexpr int chains = 8;   // sums of a scalar product, each of every eighth product
-// Of no effect on the result.
+// These do not affect the result.
 constexpr int packed_rows = 96, packed_columns = 512;
 
 constexpr int least(int a, int b) { return a < b ? a : b; }
 constexpr int up_to(int a, int step) { return (a + step - 1) / step * step; }
 
-/// A matrix by the steps from row to row and from column to column.
+/// A matrix by its steps from row to row and from column to column.
 struct View {
     const double* data;
     Place row_step, column_step;
@@ -68,7 +68,7 @@ private:
     double* data_;
 };
 
-/// Panels of so many rows, column by column, the last one filled up with zeros.
+/// Packs panels of `Rows` rows, column by column, the last one padded with zeros.
 template <int Rows>
 static void pack(View a, int rows, int columns, double* to)
 {
@@ -88,7 +88,7 @@ static void pack(View a, int rows, int columns, double* to)
     }
 }
 
-/// The product of two packed panels, column by column.
+/// Multiplies two packed panels, column by column.
 static void multiply_panels(const double* a, const double* b, int inner, double* tile)
 {
     Lanes sum[2 * tile_columns] = {};
@@ -106,7 +106,7 @@ static void multiply_panels(const double* a, const double* b, int inner, double*
 
 enum class Share { all, lower };
 
-/// Adds alpha times a tile to a matrix. @param above rows of the tile above the diagonal's in its first column
+/// Adds alpha times a tile to a matrix. @param above rows of the tile's first column that are above the diagonal
 static void add_tile(const double* tile, int rows, int columns, double alpha, int above, Target c)
 {
     for (int j = 0; j < columns; ++j) {
@@ -120,7 +120,7 @@ static void add_tile(const double* tile, int rows, int columns, double alpha, in
     }
 }
 
-/// The sum of x[i] y[i], eight sums side by side.
+/// The sum of x[i] y[i], computed as eight sums side by side.
 static double scalar_product(int count, const double* x, const double* y)
 {
     alignas(64) double sums[chains];
@@ -138,7 +138,7 @@ static double scalar_product(int count, const double* x, const double* y)
     return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
-/// C += alpha A B for a few columns, where A is read once: not worth packing.
+/// C += alpha A B for a few columns. A is read once, so packing is not worth it.
 static void add_narrow_product(int m, int n, int k, double alpha, View a, View b, Target c)
 {
     const bool by_rows = a.row_step != 1;
@@ -166,7 +166,7 @@ static void add_narrow_product(int m, int n, int k, double alpha, View a, View b
     }
 }
 
-/// C += alpha A B. @param a (m, k) @param b (k, n) @param part lower: nothing above the diagonal of C is touched
+/// C += alpha A B. @param a (m, k) @param b (k, n) @param part lower: does not change C above the diagonal
 static void add_product(int m, int n, int k, double alpha, View a, View b, Target c, Share part = Share::all)
 {
     if (m <= 0 || n <= 0 || k <= 0) return;

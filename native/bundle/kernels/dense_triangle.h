@@ -1,4 +1,4 @@
-// Triangles solved, multiplied and made: by halves, down to a few columns. For dense_kernels.cpp alone, which is
+// Solves, multiplies and makes triangles by halves, down to a few columns. For dense_kernels.cpp alone, which is
 // compiled for each set.
 #pragma once
 
@@ -7,15 +7,15 @@
 namespace koebe::kernels {
 namespace KOEBE_OF_SET {
 
-constexpr int triangle = 32;  // the same in all sets: columns of a triangle that is solved by itself
+constexpr int triangle = 32;  // equal in all sets: columns of a triangle that is not halved
 
-/// A triangle of at most `triangle` rows, in the order in which a solution goes through it.
+/// A triangle of at most `triangle` rows, in the order in which a solution uses them.
 struct SmallTriangle {
     int order;
     double factors[triangle * triangle], inverse[triangle];
 };
 
-/// So many vectors of right-hand sides, the last ones filled up with zeros. @param b its rows in the triangle's order
+/// Solves for some vectors of right-hand sides, the last ones padded with zeros. @param b rows in the triangle's order
 template <int Vectors>
 void solve_some(const SmallTriangle& t, int count, Target b)
 {
@@ -39,7 +39,7 @@ void solve_some(const SmallTriangle& t, int count, Target b)
     }
 }
 
-/// Solves T X = B in place, T a triangle of at most `triangle` rows. @param forward T is lower
+/// Solves T X = B in place for a triangle T of at most `triangle` rows. @param forward T is lower
 static void solve_small(int n, int count, View t, bool forward, bool unit, Target b)
 {
     SmallTriangle small;
@@ -62,10 +62,10 @@ static void solve_small(int n, int count, View t, bool forward, bool unit, Targe
     }
 }
 
-/// How many columns the first half of a large triangle has.
+/// The number of columns in the first half of a large triangle.
 static int half(int n) { return up_to(n / 2, triangle); }
 
-/// Solves T X = B in place, by halves. @param t (n, n) a triangle @param forward it is lower
+/// Solves T X = B in place, by halves. @param t (n, n) a triangle @param forward T is lower
 static void solve_triangle(int n, int count, View t, bool forward, bool unit, Target b)
 {
     if (n <= triangle) return solve_small(n, count, t, forward, unit, b);
@@ -76,7 +76,7 @@ static void solve_triangle(int n, int count, View t, bool forward, bool unit, Ta
     solve_triangle(n - first, count, t.from(rest, rest), forward, unit, b.from(rest, 0));
 }
 
-/// The Cholesky factor of at most `triangle` columns. @return the number of the first bad minor, or 0
+/// Cholesky factor of at most `triangle` columns. @return the number of the first bad minor, or 0
 static int factorize_small(int n, Target a)
 {
     double own[triangle * triangle];
@@ -98,7 +98,7 @@ static int factorize_small(int n, Target a)
     return 0;
 }
 
-/// The Cholesky factor of the lower triangle in its place, by halves. @return the first bad minor's number, or 0
+/// Cholesky factor of the lower triangle in place, by halves. @return the number of the first bad minor, or 0
 static int factorize(int n, Target a)
 {
     if (n <= triangle) return factorize_small(n, a);
@@ -111,7 +111,7 @@ static int factorize(int n, Target a)
     return bad > 0 ? first + bad : 0;
 }
 
-/// B = alpha T B in place, T a triangle. @param lower it is
+/// B = alpha T B in place for a triangle T. @param lower T is lower
 static void multiply_triangle(int n, int count, double alpha, View t, bool lower, bool unit, Target b)
 {
     double whole[triangle * triangle];

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr const char* disk_domain = "disk";
 const std::vector<std::string> domains{disk_domain, "torus", "ring", "sphere", "schottky"};
 
-/// The choices that a disk has not.
+/// The choices of other domains that the disk does not have.
 std::vector<const OptionRow*> domain_rows()
 {
     std::vector<const OptionRow*> rows;
@@ -44,7 +44,7 @@ std::vector<const OptionRow*> domain_rows()
     return rows;
 }
 
-/// Whether another domain has an option of a disk, and of the same kind.
+/// Whether another domain has the disk's option, with the same kind.
 bool has_too(const std::string& domain, const std::string& flag)
 {
     return std::ranges::any_of(option_rows(), [&](const OptionRow& row) {
@@ -54,8 +54,8 @@ bool has_too(const std::string& domain, const std::string& flag)
 }
 
 struct Request : MapRequest {
-    std::vector<CLI::Option*> forwarded;           ///< the options of a map
-    std::map<std::string, std::string> of_domain;  ///< words of options that other domains have alone
+    std::vector<CLI::Option*> forwarded;           ///< a map's options
+    std::map<std::string, std::string> of_domain;  ///< words of options that only other domains have
     std::string domain = disk_domain;
     bool cut = false;
     std::vector<std::string> inputs, blender_arguments;
@@ -132,7 +132,7 @@ void check_domain(const CLI::App& app, const Request& request)
             throw CLI::ValidationError(option->get_name(), "is of --domain disk");
 }
 
-/// What a map depends on beside the mesh.
+/// The settings that a map depends on beside the mesh.
 nlohmann::ordered_json recipe_options(const Request& request)
 {
     if (request.domain == disk_domain) return uniformize_report(request.options, request.cut);
@@ -143,7 +143,7 @@ nlohmann::ordered_json recipe_options(const Request& request)
     return report;
 }
 
-/// The options of a map as they were given, for the processes that do it.
+/// A map's options as given, for the processes that make it.
 std::vector<std::string> given_words(const Request& request, bool with_threads)
 {
     std::vector<std::string> words;
@@ -169,7 +169,7 @@ std::vector<std::string> map_command(const Request& request, const std::string& 
     std::vector<std::string> words{own_program, request.domain == disk_domain ? "uniformize" : request.domain,
                                    "--quiet", end_with_input_flag, "--json=" + batch::utf8(scratch.report)};
     for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
-    // A worker has a core; a map alone would take all of them.
+    // Each worker has one core; a single map would take all cores.
     const bool says_threads = std::ranges::any_of(request.forwarded, [](const CLI::Option* option) {
         return option->count() > 0 && option->check_name("--threads");
     });
@@ -215,7 +215,7 @@ batch::FileList files_of(const Request& request)
     }
 }
 
-/// What runs on single files are called with.
+/// Prints the list of files that would be mapped.
 void print_list(const batch::FileList& list)
 {
     std::string text;

@@ -40,17 +40,17 @@ int run_guarded(const std::function<int()>& run)
         return fail(error_line("WrongUsage", error.what()), wrong_usage);
     } catch (const std::bad_alloc&) {
         end_for_memory();
-    } catch (const std::length_error&) {  // more than any memory
+    } catch (const std::length_error&) {  // more than any memory holds
         end_for_memory();
     } catch (const std::system_error& error) {
-        if (error.code() == std::errc::resource_unavailable_try_again) end_for_memory();  // for a thread
+        if (error.code() == std::errc::resource_unavailable_try_again) end_for_memory();  // no memory for a thread
         return fail(error_line("InternalError", error.what()), cannot_be_mapped);
     } catch (const std::exception& error) {
         return fail(error_line("InternalError", error.what()), cannot_be_mapped);
     }
 }
 
-/// What the parser ends with: the help and the version, or an error as one line.
+/// Ends after parsing: prints the help or the version, or an error as one line.
 int end_of_parsing(const CLI::App& app, const CLI::ParseError& error)
 {
     std::ostringstream text, complaint;
@@ -93,7 +93,7 @@ int koebe::cli::command(int argc, char** argv)
             prepare_for_scarce_memory();
             return run_command(argc, argv);
         });
-    } catch (...) {  // not even the error's line could be put together
+    } catch (...) {  // there was no memory even for the error's line
         end_for_memory();
     }
 }

@@ -34,7 +34,7 @@ struct Request : FamilyRequest {
     std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}, {"--csv", csv}}; }
 };
 
-/// The loops as they are: the longest one outside, the others by length.
+/// The loops by size: the longest one outside, the others by length.
 LoopMatch by_length(const ShapeInput& a, const ShapeInput& b)
 {
     if (a.circles.size() != b.circles.size())
@@ -96,7 +96,7 @@ int run(const Request& request)
     return a.converged && b.converged ? done : not_converged;
 }
 
-/// In `--json A B` the first word is a mesh.
+/// Sorts the words: in `--json A B` the word after --json is the first mesh.
 void settle_words(Request& request, const CLI::Option& json)
 {
     request.with_json = json.count() > 0;

@@ -1,4 +1,4 @@
-// The kinds of map that give each corner of a face UVs of its own.
+// Maps that give each corner of a face its own UVs.
 #pragma once
 
 #include "cli/commands/map_run.h"
@@ -12,7 +12,7 @@
 
 namespace koebe::cli {
 
-/// Writes the mesh with UVs of corners.
+/// Writes the mesh with UVs per corner.
 template <typename Result>
 auto corner_writer(WrittenFormat format)
 {
@@ -22,7 +22,7 @@ auto corner_writer(WrittenFormat format)
     };
 }
 
-/// The kind of a map whose result is a CornerMapReport; what it draws and its first words are left out.
+/// The kind of a map whose result is a CornerMapReport. The caller sets draw and first_words.
 template <typename Result, typename Options>
 MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen,
                                 Result (*map)(const Vertices&, const Triangles&, const Options&, ExecutionContext&))

@@ -14,7 +14,7 @@
 namespace koebe::cli {
 namespace {
 
-/// Makes all faces that the report names those of the file.
+/// Changes all faces in the report to the file's.
 void name_filed_faces(const MeshInput& input, CutUniformizeResult& result)
 {
     const auto filed = [&](std::vector<Index>& faces) { faces = filed_faces(input.triangulation, faces); };

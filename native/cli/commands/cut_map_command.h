@@ -1,4 +1,4 @@
-// koebe uniformize --cut: any mesh, each corner with its own texture coordinates.
+// koebe uniformize --cut: maps any mesh, with texture coordinates per corner.
 #pragma once
 
 #include "cli/commands/map_command.h"

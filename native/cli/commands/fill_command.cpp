@@ -32,7 +32,7 @@ struct Request {
     std::vector<OutputFile> files() const { return {{"OUT", output}}; }
 };
 
-/// Polygons with a patch for each: -1 the surface, k the patch of loop k.
+/// Polygons with the patch of each: -1 the surface, k the patch of loop k.
 struct PatchedPolygons {
     PolygonMesh mesh;
     std::vector<Index> patch;
@@ -50,7 +50,7 @@ void add_polygon(PatchedPolygons& result, std::span<const Index> polygon, bool t
     result.patch.push_back(patch);
 }
 
-/// The polygons as filed, turned where their triangles were, and then the patches.
+/// Joins the polygons as filed, turned where their triangles were, and the patches.
 PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
 {
     const Triangles& triangles = input.triangulation.triangles;
@@ -66,7 +66,7 @@ PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
     return result;
 }
 
-/// The loops to fill, by rank.
+/// The ranks of the loops to fill.
 std::vector<Index> chosen_loops(const Request& request, const Vertices& vertices, const Surface& surface)
 {
     require_ranks(request.loops, surface.loops.size());

@@ -1,4 +1,4 @@
-// The run that the sub-commands share which map a surface to a circle domain.
+// The run of all sub-commands that map a surface to a circle domain.
 #pragma once
 
 #include "cli/options/map_request.h"

@@ -1,4 +1,4 @@
-// The road from an input file to the written map, whatever the kind of map: read, compute, write all or none, tell.
+// Runs any kind of map from an input file to the written files: reads, computes, writes all files or none, reports.
 #pragma once
 
 #include "cli/files/mesh_input.h"
@@ -24,36 +24,36 @@
 
 namespace koebe::cli {
 
-/// What the kinds of map differ in. The result has `seconds`, `converged`, `warnings` and `distortion`.
+/// The differences between kinds of maps. The result has `seconds`, `converged`, `warnings` and `distortion`.
 template <typename Result>
 struct MapKind {
-    bool any_polygon = false;  ///< of ReadOptions
-    bool many_pieces = false;  ///< that threads work on side by side
-    /// All numbers in the result are the file's.
+    bool any_polygon = false;  ///< see ReadOptions
+    bool many_pieces = false;  ///< threads work on several pieces side by side
+    /// Computes the map. All numbers in the result are the file's.
     std::function<Result(const MeshInput&, ExecutionContext&)> compute;
-    /// What of the file is not kept, or replaced.
+    /// Writes the mesh. Returns warnings about replaced or lost contents of the file.
     std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
-    /// Of a request with such a file; likewise.
+    /// Writes the mesh of --sphere, if requested; returns such warnings.
     std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_sphere;
     std::function<std::string(const MeshInput&, const Result&)> draw;
     std::function<nlohmann::ordered_json(const Result&)> report;
     std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
 };
 
-/// The kind of a map to the disk, its computation left out.
+/// The kind of a map to the disk, without its computation.
 MapKind<UniformizeResult> disk_map(const MapRequest& request);
 
-/// A number in a printf format.
+/// The number in a printf format.
 std::string rounded(const char* format, double number);
 
-/// The result line: the file, the first words, and what all maps have.
+/// The result line: the file, the first words, and the figures that all maps have.
 std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,
                      double seconds, bool converged, const std::vector<Warning>& warnings);
 
-/// Adds what a file that is written does not keep. @param file which of the files, before the sentence
+/// Adds warnings about contents that a written file does not keep. @param file put before each sentence
 void add_losses(const std::string& file, const std::vector<Warning>& losses, std::vector<Warning>& warnings);
 
-/// All files are complete before the first gets its name.
+/// Writes the files of a map. All are complete before the first one gets its name.
 template <typename Result>
 void write_map(const MapRequest& request, const MapKind<Result>& kind, const MeshInput& input, Result& result,
                std::chrono::steady_clock::time_point begin, ExecutionContext& context)

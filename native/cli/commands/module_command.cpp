@@ -29,7 +29,7 @@ struct Request : FamilyRequest {
     std::vector<OutputFile> files() const { return {{"--csv", csv}}; }
 };
 
-/// Ranks among the mesh's loops to numbers of circles.
+/// Translates ranks among the mesh's loops to numbers of circles.
 std::vector<int> order_of_ranks(const ShapeInput& shape, const std::vector<std::string>& words)
 {
     std::vector<int> order;
@@ -72,7 +72,7 @@ int run(const Request& request)
     return shape.converged ? done : not_converged;
 }
 
-/// @throws CLI::ValidationError a word that is neither of the two, alone, nor a rank
+/// @throws CLI::ValidationError a word that is neither a rank nor one of the two words, alone
 void require_loop_words(const Request& request)
 {
     const bool word = request.loops.size() == 1 && (request.loops[0] == "length" || request.loops[0] == "canonical");

@@ -64,7 +64,7 @@ void make_folder(const std::string& folder)
         throw FileError("cannot make the folder " + folder + " (" + failed.message() + ")");
 }
 
-/// The files one after the other, on the surface of the first that can be mapped.
+/// Maps the files one after another, on the surface of the first one that can be mapped.
 class Sequence {
 public:
     explicit Sequence(const Request& all) : all_(all), token_(cancel_on_signal()) {}
@@ -121,7 +121,7 @@ private:
                    input.polygons.vertices.rows() != surface_->vertex_count()) {
             throw InputError("it has other faces than " + first_.file + ": a sequence is of one surface");
         }
-        input.triangulation = first_.triangulation;  // that the surface is made of
+        input.triangulation = first_.triangulation;  // the surface was made of this triangulation
         return surface_->uniformize(input.polygons.vertices, context);
     }
 

@@ -28,7 +28,7 @@ bool is_mesh_file(const fs::path& path)
     return std::set<std::string>{".obj", ".off", ".ply", ".stl"}.contains(extension);
 }
 
-/// The shape's loops that correspond to the reference's in the order wanted.
+/// The shape's loops that correspond to the reference's, in the wanted order.
 std::vector<int> like(const ShapeInput& reference, const ShapeInput& shape, const std::vector<int>& wanted,
                       const CancelToken& token)
 {

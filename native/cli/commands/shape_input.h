@@ -1,4 +1,4 @@
-// A mesh file mapped to its circle domain, for the sub-commands that look at the circles alone.
+// A mesh file mapped to its circle domain, for sub-commands that use only the circles.
 #pragma once
 
 #include "cli/commands/subcommand.h"
@@ -15,8 +15,8 @@ namespace koebe::cli {
 struct ShapeInput {
     std::string name;             ///< of the file
     std::vector<Circle> circles;  ///< the outer one first, then by length
-    std::vector<Circle> refined;  ///< the same loops' on a finer mesh (refined_circles), if asked for
-    std::vector<Index> ranks;     ///< of each circle's loop, by lowest vertex as in `koebe fill`
+    std::vector<Circle> refined;  ///< circles of the same loops on a finer mesh (refined_circles), if requested
+    std::vector<Index> ranks;     ///< rank of each circle's loop, by lowest vertex as in `koebe fill`
     bool converged = false;
     std::vector<Warning> warnings;
 };

@@ -1,4 +1,4 @@
-// A sub-command: its options and what runs after they are parsed.
+// A sub-command: its options, and the function that runs after parsing.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@ struct Subcommand {
     std::function<int()> run;  ///< returns an ExitCode; errors are thrown
 };
 
-/// X(name), in the order of the help: `add_name` adds the sub-command.
+/// X(name) in the order of the help. `add_name` adds the sub-command.
 #define KOEBE_SUBCOMMANDS(X)                                                                                           \
     X(uniformize)                                                                                                      \
     X(batch)                                                                                                           \

@@ -1,4 +1,4 @@
-// The file of --importance.
+// Reads the file of --importance.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace koebe::cli {
 
-/// Numbers from 0 to 1, one for each vertex in the mesh's order, parted by spaces, commas or ends of lines.
-/// @throws FileError, InputError a word that is no such number
+/// Numbers from 0 to 1, one for each vertex in the mesh's order, separated by spaces, commas or ends of lines.
+/// @throws FileError, InputError a word that is not such a number
 std::vector<double> read_importance(const std::string& path);
 
 }  // namespace koebe::cli

@@ -20,8 +20,8 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     const auto begin = std::chrono::steady_clock::now();
     const ThreadShare threads(options.threads);
     MeshInput input;
-    // Before it is read: if it changes in between, the hash is that of no mesh, and nobody takes the map for this
-    // one's.
+    // Hash before reading: if the file changes in between, the hash belongs to no mesh, and the map is not taken for
+    // another mesh's.
     std::error_code error;
     if (options.hash && std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
     input.file = read_mesh_file(path);

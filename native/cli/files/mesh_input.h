@@ -1,4 +1,4 @@
-// The input file of every sub-command: as filed, and as triangles.
+// The input file of every sub-command, as filed and as triangles.
 #pragma once
 
 #include "core/errors.h"
@@ -14,31 +14,31 @@
 namespace koebe::cli {
 
 struct MeshInput {
-    MeshFile file;  ///< if it is to be written again
+    MeshFile file;  ///< kept if the file is to be written again
     PolygonMesh polygons;
     Triangulation triangulation;
     std::vector<Warning> warnings;
-    std::string sha256;    ///< of the file, if asked for; empty where it is a pipe or a device
+    std::string sha256;    ///< of the file, if requested; empty for a pipe or a device
     double seconds = 0.0;  ///< to read and triangulate
 };
 
 struct ReadOptions {
-    bool keep_file = true;     ///< for what is written with its other contents
-    bool any_polygon = false;  ///< those that cannot be cut into triangles are a warning, no error
-    bool hash = false;         ///< which takes as long as the reading
+    bool keep_file = true;     ///< to write the file's other contents again
+    bool any_polygon = false;  ///< polygons that cannot be cut into triangles are a warning, not an error
+    bool hash = false;         ///< takes as long as reading
     int threads = 1;           ///< at most; 0: all cores
 };
 
 /// @throws FileError, InputError, Cancelled
 MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options = {});
 
-/// Faces of the triangulation to faces of the file, each once.
+/// Translates faces of the triangulation to faces of the file, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
 
-/// Makes the warnings' faces those of the file, and puts what was noticed on reading it before them.
+/// Changes the warnings' faces to the file's, and puts the warnings from reading first.
 void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings);
 
-/// Calls compute(), and makes an error's faces those of the file.
+/// Calls compute(), and changes an error's faces to the file's.
 template <typename Compute>
 auto with_filed_faces(const MeshInput& input, Compute&& compute)
 {

@@ -1,4 +1,4 @@
-// The files that a sub-command writes, checked before anything is read.
+// The files that a sub-command writes. They are checked before anything is read.
 #pragma once
 
 #include "io/mesh_writer.h"
@@ -9,17 +9,17 @@
 namespace koebe::cli {
 
 struct OutputFile {
-    std::string name;  ///< as the usage has it: OUT, --json
-    std::string path;  ///< empty if it is not wanted
+    std::string name;  ///< as in the usage: OUT, --json
+    std::string path;  ///< empty: not requested
 };
 
-/// @throws CLI::ValidationError OUT has no extension of a format that can be written
+/// @throws CLI::ValidationError OUT does not have an extension of a format that can be written
 WrittenFormat required_format(const std::string& out);
 
-/// Files are the same if they are one on the disk, whatever they are called; OUT may be an input.
+/// Requires different files. Files are compared on the disk, not by name; OUT may be an input.
 /// @param inputs files that only OUT may replace
 /// @param has_line whether a line goes to standard output
-/// @throws CLI::ValidationError two of the files are one, or one is an input or where the line goes
+/// @throws CLI::ValidationError two outputs are the same file, or one is an input or standard output with a line
 void require_different_files(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs,
                              bool has_line);
 

@@ -1,11 +1,11 @@
-// Small text files that an option names.
+// Small text files named by an option.
 #pragma once
 
 #include <string>
 
 namespace koebe::cli {
 
-/// The text of a file, with spaces for commas.
+/// The text of a file, with commas replaced by spaces.
 /// @throws FileError it cannot be read
 std::string read_words(const std::string& path);
 

@@ -18,7 +18,7 @@ void require_vertex(const Surface& surface, Index vertex, const std::string& opt
                          std::to_string(surface.vertex_count) + ", counted from 0");
 }
 
-/// The rank of the loop with a vertex, -1 for none.
+/// The rank of the loop with a vertex; -1 without such a loop.
 Index find_loop(const Surface& surface, Index vertex)
 {
     const auto holds = [vertex](const VertexLoop& loop) { return std::ranges::find(loop, vertex) != loop.end(); };
@@ -53,7 +53,7 @@ void require_fitting_vertices(const MeshInput& input, const UniformizeOptions& o
     if (outer) require_vertex(surface, options.outer_vertex, "--outer");
     require_vertex(surface, options.center, "--center");
     require_vertex(surface, options.point, "--point");
-    if (surface.loops.empty()) return;  // closed: another error
+    if (surface.loops.empty()) return;  // a closed surface gets another error
     const Index named = outer ? loop_of(surface, options.outer_vertex) : -1;
     if (options.point >= 0) {
         const Index own = loop_of(surface, options.point, "--point");

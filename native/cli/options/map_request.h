@@ -1,4 +1,4 @@
-// What a sub-command that maps a surface to a circle domain is asked for: files, options.
+// The files and options of a sub-command that maps a surface to a circle domain.
 #pragma once
 
 #include "cli/files/output_files.h"
@@ -15,22 +15,22 @@ namespace koebe::cli {
 
 struct MapRequest {
     std::string input, output, json, svg;
-    std::string sphere;                         ///< of `koebe sphere` alone: the sphere as a mesh
+    std::string sphere;                         ///< for `koebe sphere`: the sphere as a mesh
     WrittenFormat format = WrittenFormat::obj;  ///< of OUT
     UniformizeOptions options;
     bool quiet = false;
-    nlohmann::ordered_json entries = nlohmann::ordered_json::object();  ///< of the report, to set besides
+    nlohmann::ordered_json entries = nlohmann::ordered_json::object();  ///< additional entries of the report
 };
 
-/// IN and OUT. @param surface that IN may be @param coordinates that OUT has
+/// Adds IN and OUT. @param surface description of IN @param coordinates description of OUT's
 void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface = "surface with holes",
                         const std::string& coordinates = "texture coordinates in [0, 1]^2");
-/// --json, --svg, --quiet. @param picture what is written for --svg
+/// Adds --json, --svg, --quiet. @param picture description of --svg
 void add_report_options(CLI::App& app, MapRequest& request,
                         const std::string& picture = "write a picture of the circle domain there");
-/// The files of a request, by the names that the usage has for them.
+/// The files of a request, with their names in the usage.
 std::vector<OutputFile> map_files(const MapRequest& request);
-/// @throws CLI::ValidationError OUT names no format; two of the files are one
+/// @throws CLI::ValidationError OUT names no format; two of the files are the same
 void check_map_files(MapRequest& request);
 
 }  // namespace koebe::cli

@@ -13,7 +13,7 @@ constexpr OptionRow all_rows[] = {
 #include "option_rows.inc"
 };
 
-/// The parts of a text between a mark.
+/// The parts of a text between separators.
 std::vector<std::string> parted(std::string_view text, char mark)
 {
     std::vector<std::string> parts;
@@ -34,7 +34,7 @@ CLI::Option* finished(CLI::Option* option, const OptionRow& row)
     return option;
 }
 
-/// The loops of "0-2" or "3". @return whether the word is one or two whole numbers
+/// Parses the loops of "0-2" or "3". @return whether the word is one or two whole numbers
 bool parse_step(const std::string& word, OpenedLoops& loops)
 {
     loops.clear();
@@ -120,7 +120,7 @@ CLI::Option* add_outer_loop(CLI::App& app, const OptionRow& row, UniformizeOptio
     const std::vector<std::string> words = row.choices();
     const auto take = [words, &options](const std::string& word) {
         const auto known = std::ranges::find(words, word);
-        options.outer = static_cast<OuterLoop>(known - words.begin());  // the last one is that of a vertex
+        options.outer = static_cast<OuterLoop>(known - words.begin());  // the last choice is a vertex
         options.outer_vertex = known == words.end() ? std::stoi(word) : -1;
     };
     CLI::Option* const option = app.add_option_function<std::string>(row.flag(), take, std::string(row.does));

@@ -1,4 +1,4 @@
-// Flags made of the table of options (options/options.json), and what they were set to, for reports.
+// Makes flags from the table of options (options/options.json), and reports their values.
 #pragma once
 
 #include "cli/options/validators.h"
@@ -19,7 +19,7 @@
 
 namespace koebe::cli {
 
-/// A row of the table, as far as the command has it.
+/// A row of the table, with the columns that the command needs.
 struct OptionRow {
     std::string_view name, maps, does, kind, unit, words, with;
     NumberRange range;
@@ -31,19 +31,19 @@ struct OptionRow {
 
 std::span<const OptionRow> option_rows();
 
-/// @return null where the map has no such option
+/// @return null if the map does not have this option
 const OptionRow* find_row(std::string_view map, std::string_view name);
 
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double>& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, bool& value);
-/// Of the words of a choice the one of this number.
+/// Adds a choice among words; set() gets the number of the chosen word.
 CLI::Option* add_choice(CLI::App& app, const OptionRow& row, int chosen, const std::function<void(int)>& set);
 CLI::Option* add_outer_loop(CLI::App& app, const OptionRow& row, UniformizeOptions& options);
 CLI::Option* add_steps(CLI::App& app, const OptionRow& row, Sweep& steps);
 
-/// Flags for the options of a map, each of which sets its field. Lists have none, but for steps.
+/// Adds flags for a map's options; each sets its field. Lists have no flags, except steps.
 template <typename Options>
 void add_options(CLI::App& app, std::string_view map, Options& options)
 {
@@ -63,11 +63,11 @@ void add_options(CLI::App& app, std::string_view map, Options& options)
     });
 }
 
-/// How steps are written: "0-2" for loops 0 and 2, "3" for loop 3 alone.
+/// Steps as written: "0-2" for loops 0 and 2, "3" for loop 3 alone.
 std::vector<std::string> words_of(const Sweep& steps);
 
-/// The options of a map as a report has them: words and numbers by their names, null for no vertex. Without the number
-/// of threads, on which no map depends, and without lists but steps.
+/// A map's options as a report has them: choices by their words, null for vertex -1. Without the number of threads, on
+/// which no map depends, and without lists except steps.
 template <typename Options>
 nlohmann::ordered_json option_report(std::string_view map, const Options& options)
 {

@@ -59,7 +59,7 @@ void require_schedule_of_loops(const Triangles& triangles, Index vertex_count, c
 {
     if (options.mesh.schedule.empty()) return;
     const std::size_t loop_count = analyze_surface(triangles, vertex_count).loops.size();
-    if (loop_count == 0) return;  // closed: another error
+    if (loop_count == 0) return;  // a closed surface gets another error
     try {
         require_possible(options.mesh, static_cast<int>(loop_count), options.method);
     } catch (const InputError& error) {

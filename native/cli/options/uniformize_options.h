@@ -1,4 +1,4 @@
-// The options of a map by the Koebe iteration: for one file or for many.
+// The options of a map by the Koebe iteration, for one file or many.
 #pragma once
 
 #include "cli/options/map_request.h"
@@ -8,19 +8,19 @@
 
 namespace koebe::cli {
 
-/// All of `koebe uniformize` in the table of options but for lists.
+/// Adds all options of `koebe uniformize` in the table, except lists.
 void add_uniformize_options(CLI::App& app, UniformizeOptions& options, bool& cut);
 
-/// @throws CLI::ValidationError options that exclude each other, or are of another engine
+/// @throws CLI::ValidationError options that exclude each other, or belong to another engine
 void check_uniformize_options(const CLI::App& app, const UniformizeOptions& options, bool cut);
 
-/// @throws CLI::ValidationError a centre, and a balance, which chooses one
+/// @throws CLI::ValidationError a centre together with a balance, which chooses the centre itself
 void check_center(const UniformizeOptions& options);
 
-/// What a map depends on beside the mesh, for its report.
+/// The settings that a map depends on beside the mesh, for its report.
 nlohmann::ordered_json uniformize_report(const UniformizeOptions& options, bool cut);
 
-/// For the value of --schedule.
+/// Checks the value of --schedule.
 /// @throws WrongUsage it does not fit the surface's loops; TopologyError as analyze_surface
 void require_schedule_of_loops(const Triangles& triangles, Index vertex_count, const UniformizeOptions& options);
 

@@ -9,18 +9,18 @@
 
 namespace koebe::cli {
 
-/// A whole number from `least` on that a 32-bit int can hold.
+/// A whole number from `least` up, within a 32-bit int.
 CLI::Validator whole_number(int least);
 
-/// From `min` to `max`, above `above`, below `below`: the words of the table of options, sorted.
+/// From `min` to `max`, above `above`, below `below`: the keys in the table of options, sorted.
 struct NumberRange {
     double above = -INFINITY, below = INFINITY, max = INFINITY, min = -INFINITY;
 };
 
-/// A finite number of a range.
+/// A finite number in a range.
 CLI::Validator number_in(const NumberRange& range);
 
-/// One of the words or a vertex, counted from 0.
+/// One of the words, or a vertex number counted from 0.
 CLI::Validator outer_loop_choice(std::vector<std::string> words);
 
 }  // namespace koebe::cli

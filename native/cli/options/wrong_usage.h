@@ -1,11 +1,11 @@
-// An option whose value does not fit the mesh.
+// The error for an option value that does not fit the mesh.
 #pragma once
 
 #include <stdexcept>
 
 namespace koebe::cli {
 
-/// What the parser cannot know, since it takes the mesh; the exit code is that of its own errors.
+/// An error that the parser cannot find, since it depends on the mesh. It has the exit code of the parser's errors.
 class WrongUsage : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

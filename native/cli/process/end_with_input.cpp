@@ -28,7 +28,7 @@ void end_with_input()
     std::thread([] {
         while (has_more_input()) {
         }
-        std::_Exit(interrupted);  // what is not whole lies in a folder that the next run removes
+        std::_Exit(interrupted);  // the next run removes the folder with unfinished files
     }).detach();
 }
 

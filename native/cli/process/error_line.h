@@ -1,4 +1,4 @@
-// An error as one line for people and scripts.
+// Writes an error as one line for people and scripts.
 #pragma once
 
 #include "core/errors.h"
@@ -9,7 +9,7 @@ namespace koebe::cli {
 
 /// "NAME(KIND): reason [first elements …]" without a line end; elements are counted from 0.
 std::string error_line(const KoebeError& error);
-/// The same for what is not the library's own: "NAME: reason".
+/// "NAME: reason", for errors that are not the library's own.
 std::string error_line(const std::string& name, const std::string& reason);
 
 }  // namespace koebe::cli

@@ -1,12 +1,12 @@
-// Ctrl-C and a polite kill stop the computation at its next checkpoint.
+// Ctrl-C and termination signals stop the computation at its next checkpoint.
 #pragma once
 
 #include "execution/execution.h"
 
 namespace koebe::cli {
 
-/// A token that SIGINT, SIGTERM and SIGHUP raise. A second signal ends the process at once. Writing too much or to a
-/// closed pipe becomes a FileError instead of a signal.
+/// A token that SIGINT, SIGTERM and SIGHUP raise. A second signal ends the process at once. A file that gets too large
+/// or a closed pipe gives a FileError instead of a signal.
 CancelToken cancel_on_signal();
 
 }  // namespace koebe::cli

@@ -1,4 +1,4 @@
-// Progress on stderr, if a person is looking.
+// Shows progress on stderr, if a person is looking.
 #pragma once
 
 #include "core/not_copied.h"
@@ -8,13 +8,13 @@
 
 namespace koebe::cli {
 
-/// One line that is drawn over and over, and gone when the object is. Nothing at all if stderr is no terminal.
+/// One line that is redrawn, and erased with the object. Shows nothing if stderr is not a terminal.
 class ProgressLine : NotCopied {
 public:
     explicit ProgressLine(bool quiet);
     ~ProgressLine() { clear(); }
 
-    /// For an ExecutionContext; refers to this object. Empty if nothing is to be shown.
+    /// For an ExecutionContext; refers to this object. Empty if nothing is shown.
     ProgressCallback callback();
 
 private:

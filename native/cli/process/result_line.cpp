@@ -11,7 +11,7 @@
 namespace koebe::cli {
 namespace {
 
-constexpr std::size_t shown_bytes = 120;  // of a warning; the whole is in the JSON
+constexpr std::size_t shown_bytes = 120;  // of a warning; the JSON has all of it
 
 /// The start of a text, cut between two characters.
 std::string shortened(const std::string& text)
@@ -28,7 +28,7 @@ std::string one_line(std::string text)
 {
     std::ranges::replace_if(
         text, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
-    using Json = nlohmann::json;  // which knows what is no UTF-8
+    using Json = nlohmann::json;  // it detects bytes that are not UTF-8
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 

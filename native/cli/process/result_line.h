@@ -8,13 +8,13 @@
 
 namespace koebe::cli {
 
-/// A text without line ends and other control characters, and in UTF-8: file names may have any bytes.
+/// The text in UTF-8 without line ends and other control characters: file names may hold any bytes.
 std::string one_line(std::string text);
 
-/// The end of a result line: how many warnings there are, and the start of the first. Empty if there is none.
+/// The end of a result line: the number of warnings and the start of the first; empty without warnings.
 std::string warning_count(const std::vector<Warning>& warnings);
 
-/// All of them on standard error, for people only: scripts find them in the JSON.
+/// Prints all warnings on standard error, for people only: scripts find them in the JSON.
 void show_warnings(const std::vector<Warning>& warnings);
 
 }  // namespace koebe::cli

@@ -14,9 +14,9 @@
 namespace koebe::cli {
 namespace {
 
-constexpr std::size_t room = std::size_t{512} << 20;  // bytes: what a surface of half a million faces takes
+constexpr std::size_t room = std::size_t{512} << 20;  // bytes, for a surface of half a million faces
 constexpr std::size_t large_page = std::size_t{2} << 20;
-constexpr int separate = 32 << 20;         // bytes of a block that goes back to the system as soon as it is freed
+constexpr int separate = 32 << 20;         // bytes of a block that is returned to the system when freed
 constexpr int most_separate_ones = 65536;  // glibc's own default
 
 bool is_limited(decltype(RLIMIT_AS) resource)
@@ -25,7 +25,7 @@ bool is_limited(decltype(RLIMIT_AS) resource)
     return ::getrlimit(resource, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
 }
 
-/// Asks for large pages in the whole ones of a block; without them it is a block as any.
+/// Asks for large pages inside a block. Without them the block works as any other.
 void ask_for_large_pages(void* block, std::size_t bytes)
 {
     const auto begin = (reinterpret_cast<std::uintptr_t>(block) + large_page - 1) / large_page * large_page;

@@ -32,8 +32,8 @@ std::atomic<bool> ran_out{false};
     end_for_memory();
 }
 
-/// Where the address space is limited, threads share one arena: malloc would ask for new ones of 64 MB with every
-/// allocation.
+/// Makes threads share one arena if the address space is limited: malloc would otherwise ask for new ones of 64 MB with
+/// every allocation.
 void share_arena()
 {
 #if defined(__GLIBC__)
@@ -54,7 +54,7 @@ bool memory_ran_out() noexcept { return ran_out; }
 
 void prepare_for_scarce_memory()
 {
-    std::set_new_handler(note_and_throw);  // from here on there is somebody to catch exceptions
+    std::set_new_handler(note_and_throw);  // from here on exceptions are caught
     std::set_terminate(end_of_exceptions);
     share_arena();
 }

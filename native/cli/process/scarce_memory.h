@@ -1,17 +1,16 @@
-// Where memory is scarce: an error, and no waiting for ever.
+// Reports an error when memory runs out, instead of waiting for ever.
 #pragma once
 
 namespace koebe::cli {
 
-/// The line and the exit code of a command that ran out of memory. Nothing here asks for more.
+/// Prints the error of a command that ran out of memory, and exits. Allocates no memory.
 [[noreturn]] void end_for_memory();
 
-/// Whether memory ran out at any time: whatever else is said to be wrong then, as a number that a reader did not get,
-/// comes of that.
+/// Whether memory ran out at any time. Then other errors, such as a number that could not be read, come from that.
 bool memory_ran_out() noexcept;
 
-/// Before other threads. Where an exception for memory would end the process, since it comes where none may,
-/// end_for_memory does.
+/// Call before other threads start. Makes end_for_memory end the process where an exception for memory would otherwise
+/// do so, because no exception may pass there.
 void prepare_for_scarce_memory();
 
 }  // namespace koebe::cli

@@ -26,7 +26,7 @@ namespace {
 
 #if defined(_WIN32)
 
-// A stream that is closed has no handle there, and no file takes its place.
+// On Windows a closed stream has no handle, and no file takes its place.
 void keep_standard_streams() {}
 
 void require_standard_output()
@@ -45,7 +45,7 @@ bool is_error_shown()
 
 void keep_standard_streams()
 {
-    // Each is open in the direction that nobody asks for; open() takes the lowest number that is free.
+    // Open each stream in the direction that is not used; open() takes the lowest free number.
     for (const auto& [stream, direction] :
          {std::pair{STDIN_FILENO, O_WRONLY}, std::pair{STDOUT_FILENO, O_RDONLY}, std::pair{STDERR_FILENO, O_RDONLY}})
         if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", direction);

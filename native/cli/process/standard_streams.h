@@ -1,4 +1,4 @@
-// Standard output that is closed, full or a broken pipe is an error like that of any other file.
+// Treats a standard output that is closed, full or a broken pipe like any other file that fails.
 #pragma once
 
 #include <string>
@@ -6,21 +6,21 @@
 
 namespace koebe::cli {
 
-constexpr int standard_output = 1;  // as every system numbers it
+constexpr int standard_output = 1;  // on every system
 
-/// Whether a person reads standard error as it is written, by a terminal that obeys what erases a line.
+/// Whether a person reads standard error live, on a terminal that can erase a line.
 bool is_error_shown();
 
-/// Fills the places of standard streams that are closed, so that no file opened later takes them and gets what is
-/// meant for people. Writing to a standard output that was closed stays an error.
+/// Opens closed standard streams on the null device, so that no file opened later takes their number and gets text
+/// meant for people. Writing to a standard output that was closed is still an error.
 void keep_standard_streams();
 
-/// What can be known to fail, asked before a long computation.
+/// Checks before a long computation what can already fail.
 /// @throws FileError standard output is closed
 void require_standard_output();
 
-/// Writes text to standard output, now.
-/// @param done what is so all the same, added to the error
+/// Writes text to standard output, at once.
+/// @param done what is done nevertheless, added to the error
 /// @throws FileError
 void print(std::string_view text, const std::string& done = {});
 

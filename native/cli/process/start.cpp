@@ -1,4 +1,4 @@
-// What is done before the libraries start.
+// Runs before the libraries start.
 #include "cli/process/exit_code.h"
 
 #include <new>
@@ -16,7 +16,7 @@ namespace {
     ::_exit(cannot_be_mapped);
 }
 
-/// An exception of what is made before main() would end the process in its own way.
+/// An exception while objects are made before main() would end the process in another way.
 void watch_memory(int, char**, char**) { std::set_new_handler(end_start); }
 
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**, char**) = watch_memory;

@@ -14,7 +14,7 @@
 namespace koebe::detail {
 namespace {
 
-/// Fills what follows from the order and the first columns.
+/// Fills in the members that follow from the order and the first columns.
 void number(Supernodes& l)
 {
     l.rank.resize(l.order.size());
@@ -42,7 +42,7 @@ Supernodes supernodes_of(const cholmod_factor& symbolic)
     return result;
 }
 
-/// Appends the rows at or above `end` that a row of the matrix has an entry in.
+/// Appends the ranks of the matrix row's entries that are `end` or above.
 void append_ranks(const SparseMatrix& matrix, Index row, const std::vector<Index>& rank, Index end,
                   std::vector<Index>& ranks)
 {
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    /// The tree of the parts.
+    /// Builds the tree of the parts.
     void plant(const Dissection& dissection)
     {
         const std::vector<Dissection::Node>& nodes = dissection.nodes;
@@ -99,7 +99,7 @@ private:
         rows_.push_back(&last_);
     }
 
-    /// The order of all rows that belong to no piece.
+    /// Orders all rows that belong to no piece.
     void number_tops()
     {
         l_.order.resize(matrix_.rows());
@@ -205,8 +205,8 @@ Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last)
     Supernodes& l = result.supernodes;
     const Index inner_count = static_cast<Index>(matrix.rows()) - static_cast<Index>(last.size());
     cholmod_sparse lower = view(matrix, -1);
-    // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected; where it does not, order and
-    // postorder A_II by itself and forbid any further change.
+    // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected. Otherwise order and postorder A_II
+    // by itself and forbid any further change.
     for (const bool forced : {false, true}) {
         CholmodCommon common;
         std::vector<Index> order;

@@ -10,7 +10,7 @@
 namespace koebe::detail {
 namespace {
 
-/// Neighbours of each row, itself left out.
+/// The neighbours of each row, without the row itself.
 class RowGraph {
 public:
     explicit RowGraph(const SparseMatrix& matrix)
@@ -47,7 +47,7 @@ private:
     std::vector<Index> own_begin_, own_neighbours_;
 };
 
-/// Marks of rows: of each set four, its own and those of the searches through it.
+/// Marks of rows: each set has four marks, its own and three for the searches through it.
 struct Marks {
     Index own, first, second, third;
     explicit Marks(Index set) : own(4 * set), first(4 * set + 1), second(4 * set + 2), third(4 * set + 3) {}
@@ -55,9 +55,9 @@ struct Marks {
 constexpr Index left_out = -1, in_separator = -2;
 
 struct PartedSet {
-    std::vector<Index> rows;    // of a separator once it is parted
-    Index children[2]{-1, -1};  // sets, if it is parted
-    Index end = -1;             // a row far from others
+    std::vector<Index> rows;    // rows of a separator once the set is cut
+    Index children[2]{-1, -1};  // the two sets it is cut into, if any
+    Index end = -1;             // a row far from the others
 };
 
 class Dissector {
@@ -70,7 +70,7 @@ public:
 
     Dissection run()
     {
-        // The sets of one depth side by side: no row of one is a neighbour of a row of another.
+        // Treat the sets of one depth side by side: no row of a set is a neighbour of a row of another.
         for (std::size_t begin = 0; begin < sets_.size();) {
             const std::size_t end = sets_.size();
             std::vector<std::vector<Index>> halves(2 * (end - begin));
@@ -124,7 +124,7 @@ private:
         }
     }
 
-    /// Appends what can be reached of a set, by rising distance, and writes the distances.
+    /// Appends the rows of a set that can be reached, by rising distance, and writes the distances.
     void search(std::vector<Index>& order, Index start, Index from, Index to, std::vector<Index>& distance)
     {
         std::size_t head = order.size();
@@ -145,8 +145,8 @@ private:
         }
     }
 
-    /// Distances from one end of each component, and what they are more than those from the other end; the numbers of a
-    /// component are above those of the one before.
+    /// The distances from one end of each component, and d1 - d2, the difference of the distances from its two ends.
+    /// The numbers of a component are above those of the component before.
     void measure(const std::vector<Index>& rows, Index known_end, const Marks& marks)
     {
         std::vector<Index> order;
@@ -181,12 +181,12 @@ private:
         return highest;
     }
 
-    /// The cut by these numbers with the fewest rows next to it, of those that leave two fifths on each side.
+    /// The cut with the fewest rows in its separator, among the cuts that leave two fifths on each side.
     Cut least_cut(const std::vector<Index>& rows, const std::vector<Index>& number, Index mark) const
     {
         Index most = 0;
         for (const Index v : rows) most = std::max(most, number[v]);
-        // Of each number, how many rows have it, and how many more are next to a cut below it than below the one
+        // For each number: how many rows have it, and by how many the separator grows from the cut below the number
         // before.
         std::vector<Index> count(most + 2, 0), change(most + 2, 0);
         for (const Index v : rows) {

@@ -50,7 +50,7 @@ void substitute_forward(const double* block, Index height, Index width, Index fi
     const int count = static_cast<int>(x.cols()), stride = static_cast<int>(x.rows()), below = height - width;
     const double one = 1.0, minus_one = -1.0, zero = 0.0;
     double* own = &x(first, 0);
-    update = MatrixXd(below, count);  // resize() would free it twice where there is no more memory
+    update = MatrixXd(below, count);  // resize() would free it twice when memory runs out
     dtrsm_("L", "L", "N", "N", &width, &count, &one, block, &height, own, &stride);
     if (below > 0)
         dgemm_("N", "N", &below, &count, &width, &minus_one, block + width, &height, own, &stride, &zero, update.data(),

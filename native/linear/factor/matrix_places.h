@@ -1,4 +1,4 @@
-// Where the entries of a matrix stand in the blocks of its supernodes. For the .cpp files of linear/ only.
+// The places of a matrix's entries in the blocks of its supernodes. For the .cpp files of linear/ only.
 #pragma once
 
 #include "linear/factor/supernodes.h"
@@ -8,15 +8,15 @@
 namespace koebe::detail {
 
 struct MatrixPlaces {
-    std::vector<Index> begin;  ///< of each supernode's entries, and the end
-    std::vector<Index> entry;  ///< number among the matrix' own
-    std::vector<Index> place;  ///< in the block
+    std::vector<Index> begin;  ///< first entry of each supernode, and the end
+    std::vector<Index> entry;  ///< number of each entry in the matrix's own order
+    std::vector<Index> place;  ///< place of each entry in the block
 };
 
-/// The places of a matrix that changes, but not its pattern: finding them takes twice as long as they save.
+/// The places of a matrix that keeps its pattern. To find them takes twice as long as one use of them saves.
 class LastPattern {
 public:
-    /// @param matrix the lower triangle, or both @return none where they are not worth finding yet
+    /// @param matrix the lower triangle, or both @return null where places are not worth finding yet
     const MatrixPlaces* places(const SparseMatrix& matrix, const Supernodes& l);
 
 private:
@@ -25,7 +25,7 @@ private:
     void find_places(const Supernodes& l);
 
     std::vector<Index> outer_, inner_;
-    bool has_both_ = false;  // triangles
+    bool has_both_ = false;  // both triangles
     MatrixPlaces places_;
 };
 

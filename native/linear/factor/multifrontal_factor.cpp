@@ -12,11 +12,11 @@
 namespace koebe::detail {
 namespace {
 
-constexpr int narrow = 4;  // columns up to which loops are faster than calls of the dense kernels
+constexpr int narrow = 4;  // columns; up to here loops are faster than calls of the dense kernels
 
 [[noreturn]] void not_positive() { throw SolverError("sparse factorization: matrix not positive definite"); }
 
-/// The first columns of a front eliminated, by loops.
+/// Eliminates the first columns of a front by loops.
 void eliminate_narrow(double* columns, int width, int height, MatrixXd& left)
 {
     for (int j = 0; j < width; ++j) {
@@ -67,7 +67,7 @@ public:
         each_entry(matrix, [&](Index column, Index row, double value) { entries_[end[column]++] = {row, value}; });
     }
 
-    /// The columns of a supernode, (height, width). @param place room for a number per row of the matrix
+    /// The columns of a supernode, (height, width). @param place scratch, one number per row of the matrix
     void assemble(Index s, double* columns, Index* place) const
     {
         const std::ptrdiff_t height = l_.height(s), width = l_.width(s);
@@ -175,7 +175,7 @@ void MultifrontalFactor::find_addends(const std::vector<std::vector<Index>>& cha
             }
 }
 
-/// What those children leave over that change, or those that do not, put into the front.
+/// Adds to the front the updates of the children that change, or of those that do not.
 void MultifrontalFactor::add_children(Index s, bool changing)
 {
     const int width = l_.width(s);

@@ -3,7 +3,7 @@
 namespace koebe::detail {
 namespace {
 
-/// C right-hand sides, known when this is compiled or not.
+/// C is the number of right-hand sides, if it is known at compile time.
 template <int C>
 class Columns {
 public:
@@ -29,7 +29,7 @@ public:
         const int width = l_.width(s), height = l_.height(s);
         for (int j = width - 1; j >= 0; --j) {
             const double* column = l_.values(s) + static_cast<std::ptrdiff_t>(j) * height;
-            // Two sums, as an addition waits for the one before.
+            // Two sums, as each addition waits for the one before it.
             Eigen::Matrix<double, C, 1> even = front_.col(j), odd = Eigen::Matrix<double, C, 1>::Zero(front_.rows());
             int r = j + 1;
             for (; r + 1 < height; r += 2) {

@@ -7,8 +7,8 @@
 
 namespace koebe::detail {
 
-/// Solves with L and L' where right-hand sides vanish but on a few rows, or solutions are wanted on a few: only the
-/// supernodes on the way from those to the root of the elimination tree are visited (Gilbert 1994).
+/// Solves with L and L' where right-hand sides are 0 except on a few rows, or where a few rows of the solution are
+/// wanted. Visits only the supernodes from these rows up to the root of the elimination tree (Gilbert 1994).
 class PartSubstitution {
 public:
     explicit PartSubstitution(const SupernodalFactor& l) : l_(l) {}
@@ -16,8 +16,8 @@ public:
     /// L y = f. @param f (n, C), in the order of A's rows @return (C, n), in the factor's order
     MatrixXd forward(const MatrixXd& f) const;
 
-    /// L' x = y where x is wanted, and where it takes that from; y elsewhere. @param y as above, becomes x
-    /// @param wanted rows of A
+    /// Solves L' x = y for the wanted rows and the rows that they depend on. Other rows keep y.
+    /// @param y as above, becomes x @param wanted rows of A
     void backward(MatrixXd& y, const std::vector<Index>& wanted) const;
 
 private:

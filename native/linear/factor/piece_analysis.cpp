@@ -9,7 +9,7 @@
 namespace koebe::detail {
 namespace {
 
-/// The piece's columns, lower triangle, its interface behind it with nothing but a diagonal.
+/// The piece's columns, lower triangle, then its interface with a diagonal only.
 SparseMatrix with_interface(const SparseMatrix& matrix, const std::vector<Index>& rows,
                             const std::vector<Index>& interface, const std::vector<Index>& rank,
                             const std::vector<Index>& number)
@@ -66,7 +66,7 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
     const Index* first = static_cast<const Index*>(symbolic->super);
     const Index* row_begin = static_cast<const Index*>(symbolic->pi);
     const Index* all_rows = static_cast<const Index*>(symbolic->s);
-    // A supernode that goes on into the interface is cut off there.
+    // Cut a supernode off where it enters the interface.
     Index count = 0;
     while (count < static_cast<Index>(symbolic->nsuper) && first[count] < size) ++count;
     result.first.assign(first, first + count);

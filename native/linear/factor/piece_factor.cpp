@@ -65,13 +65,13 @@ private:
     {
         if (room_ < numbers) {
             const std::size_t room = numbers + numbers / 2;
-            work_ = LargeArray(room);  // Eigen's resize() would free the old memory twice where there is no more
+            work_ = LargeArray(room);  // Eigen's resize() would free the old memory twice when memory runs out
             room_ = room;
         }
         return work_.data();
     }
 
-    /// The matrix' own entries.
+    /// Gathers the matrix's own entries.
     void gather(Index s)
     {
         const int w = width(s), h = height(s);
@@ -89,7 +89,7 @@ private:
                     to[place(row) + static_cast<std::ptrdiff_t>(c) * h] = it.value();
     }
 
-    /// Takes off what an earlier supernode has in these columns.
+    /// Subtracts the contribution of an earlier supernode to these columns.
     void subtract(Index d, Index s)
     {
         const Index* from = rows(d) + done_rows_[d];
@@ -110,7 +110,7 @@ private:
         done_rows_[d] += n;
     }
 
-    /// A B' as lower_product does; what is small is not worth its calls.
+    /// A B' as lower_product does it. Loops handle small products, where a call costs too much.
     static void multiply(int m, int n, int k, const double* a, int stride, double* product)
     {
         constexpr std::int64_t small = 1024;  // products
@@ -138,7 +138,7 @@ private:
         if (below > 0) dtrsm_("R", "L", "T", "N", &below, &w, &one, block(s), &h, block(s) + w, &h);
     }
 
-    /// Puts a supernode on the list of the next one that it has rows in.
+    /// Puts a supernode on the list of the next supernode in which it has rows.
     void wait(Index s)
     {
         if (done_rows_[s] == height(s) || rows(s)[done_rows_[s]] >= part_.end) return;
@@ -172,11 +172,11 @@ private:
     double* values_;
     const LowerMatrix& rest_;
     Index size_, count_;
-    std::vector<Index> waiting_, next_;  // lists of supernodes: the first for each one, and the one after each
-    std::vector<Index> done_rows_;       // of each supernode, with what it has taken off already
+    std::vector<Index> waiting_, next_;  // lists of supernodes: the first entry of each list, and the entry after each
+    std::vector<Index> done_rows_;       // per supernode: its rows whose contributions are already subtracted
     std::vector<Index> owner_;           // supernode of each column
-    std::vector<Index> place_;           // of a row in the block that is being made
-    std::vector<Index> number_;          // of a row in the interface
+    std::vector<Index> place_;           // place of a row in the current block
+    std::vector<Index> number_;          // number of a row in the interface
     std::vector<Index> targets_;
     LargeArray work_;
     std::size_t room_ = 0;

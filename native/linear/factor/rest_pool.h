@@ -1,4 +1,4 @@
-// Memory for what pieces leave to their separators. For the .cpp files of linear/ only.
+// Memory for the updates that pieces pass to their separators. For the .cpp files of linear/ only.
 #pragma once
 
 #include "core/types.h"
@@ -11,7 +11,7 @@
 
 namespace koebe::detail {
 
-/// A square matrix of which the lower triangle alone is set.
+/// A square matrix; only its lower triangle is set.
 struct LowerMatrix {
     LargeArray numbers;
     std::size_t room = 0;
@@ -20,7 +20,7 @@ struct LowerMatrix {
     double* column(Index c) const { return numbers.data() + static_cast<std::ptrdiff_t>(c) * size; }
 };
 
-/// Hands out zero matrices in the memory of those that came back: new memory is paid page by page.
+/// Hands out zero matrices, in memory that was given back if possible: new memory costs time page by page.
 class RestPool {
 public:
     LowerMatrix take(Index size)

@@ -9,8 +9,8 @@
 namespace koebe::detail {
 namespace {
 
-/// The inverse on the pattern of some supernodes: of each a block like its own in L, the rows of which are its columns
-/// J, lower triangle, and then R.
+/// The inverse on the pattern of some supernodes. Each has a block like its block in L: first the rows of its columns
+/// J, lower triangle, then R.
 class PatternInverse {
 public:
     explicit PatternInverse(const SupernodalFactor& l) : l_(l), blocks_(l.count()) {}
@@ -48,7 +48,7 @@ public:
                &height);
     }
 
-    /// The entry of two rows of L, the first not above the second.
+    /// The entry at two rows of L; row is not above column.
     double entry(Index row, Index column) const
     {
         const Index s = l_.supernode[column];
@@ -67,7 +67,7 @@ private:
         return y;
     }
 
-    /// Where the rows from number `first` on stand among those of a supernode, both ascending.
+    /// The places of the rows from number `first` on among a supernode's rows; both ascend.
     void locate(Index owner, const Index* rows, int first, std::vector<Index>& place) const
     {
         const Index* among = l_.rows_of(owner);

@@ -9,12 +9,12 @@
 namespace koebe::detail {
 namespace {
 
-constexpr double largest_share = 0.1;    // of a subtree in the whole work
-constexpr double worth_sharing = 4.0e6;  // less work takes less time than a thread to begin
+constexpr double largest_share = 0.1;    // share of a subtree in the whole work
+constexpr double worth_sharing = 4.0e6;  // less work takes less time than the start of a thread
 
 }  // namespace
 
-/// A subtree that is too large is cut: its root goes to the top. Work is counted in multiplications.
+/// Cuts a subtree that is too large: its root goes to the top. Work is counted in multiplications.
 Subtrees::Subtrees(const Supernodes& l, const std::vector<char>& chosen)
 {
     const Index count = l.count();
@@ -40,7 +40,7 @@ Subtrees::Subtrees(const Supernodes& l, const std::vector<char>& chosen)
     }
     for (Index s = 0; s < count; ++s)
         if (chosen[s]) (subtree[s] >= 0 ? subtrees_[subtree[s]] : top_).push_back(s);
-    // The longest work first, and what hardly takes any in one piece.
+    // Start with the longest work; put the subtrees with least work together.
     std::ranges::stable_sort(subtrees_, std::greater<>(),
                              [&](const std::vector<Index>& one) { return work[one.back()]; });
     constexpr std::size_t most = 64;

@@ -1,4 +1,4 @@
-// An elimination tree cut into parts for several threads. For the .cpp files of linear/ only.
+// Cuts an elimination tree into subtrees for several threads. For the .cpp files of linear/ only.
 #pragma once
 
 #include "linear/factor/supernodes.h"
@@ -8,20 +8,20 @@
 
 namespace koebe::detail {
 
-/// Some supernodes of a factor, which with each have its parent: subtrees without a common supernode, and the top that
-/// they hang on. The same ones for any number of threads.
+/// Cuts chosen supernodes of a factor into subtrees without a common supernode, and the top above them. The chosen
+/// supernodes include the parent of each. Any number of threads gives the same subtrees.
 class Subtrees {
 public:
     Subtrees() = default;
     /// @param chosen per supernode
     Subtrees(const Supernodes& l, const std::vector<char>& chosen);
 
-    /// Some supernodes, ascending and so each after its children.
+    /// Work on some supernodes in ascending order, so each comes after its children.
     using Work = std::function<void(const std::vector<Index>& supernodes)>;
 
     /// Calls work for each subtree, side by side (each_beside), and then for the top.
     void upward(const Work& work) const;
-    /// For the top, and then for each subtree, side by side. Whoever goes from parents to children goes backwards.
+    /// Calls work for the top, and then for each subtree, side by side. To visit parents first, work goes backwards.
     void downward(const Work& work) const;
 
 private:

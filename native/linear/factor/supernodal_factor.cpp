@@ -28,7 +28,7 @@ void SupernodalFactor::factorize(const SparseMatrix& matrix)
         rests[p] = pool.take(static_cast<Index>(parts_[p].interface.size()));
         factorize_piece(matrix, *this, parts_[p], tops_, numbers_.data(), rests[p], places);
     });
-    constexpr std::size_t few = 2;  // are taken one after the other, on all threads each
+    constexpr std::size_t few = 2;  // so few are done one after the other, each on all threads
     for (const std::vector<std::size_t>& round : rounds_)
         if (round.size() > few)
             each_beside(round.size(),

@@ -10,14 +10,14 @@
 
 namespace koebe::detail {
 
-/// Supernodes and their numbers: first those of the pieces, on the thread's share of threads, then the separators, each
-/// a dense block, from the small ones on. It is the same for any number of threads.
+/// Factors the pieces on the thread's share of threads, then the separators, each a dense block, the small ones first.
+/// Any number of threads gives the same factor.
 class SupernodalFactor : public Supernodes {
 public:
-    /// Room for the numbers.
+    /// Allocates the values.
     explicit SupernodalFactor(Analysis analysis);
 
-    /// @param matrix of the pattern that was analyzed; of more than one piece: both triangles
+    /// @param matrix has the analyzed pattern; with more than one piece: both triangles
     /// @throws SolverError if it is not positive definite; then there is no factor
     void factorize(const SparseMatrix& matrix);
 
@@ -44,7 +44,7 @@ private:
     std::vector<std::vector<std::size_t>> rounds_;
     Index tops_;
     LargeArray numbers_;
-    LastPattern pattern_;  // of a matrix of one piece
+    LastPattern pattern_;  // of a matrix in one piece
 };
 
 }  // namespace koebe::detail

@@ -1,4 +1,4 @@
-"""The public functions: arrays checked, options made native, results wrapped."""
+"""The public functions: they check arrays, make options native and wrap results."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, overload
@@ -16,7 +16,7 @@ from ._signatures import UniformizeOptions
 from .errors import InputError, OptionError, SolverError, TopologyError
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 def _check_mesh_engine(options: "_koebe.UniformizeOptions", given: Mapping[str, Any]) -> None:
@@ -32,7 +32,7 @@ def _check_mesh_engine(options: "_koebe.UniformizeOptions", given: Mapping[str, 
 
 
 def solver_options(of: str, given: Mapping[str, Any]) -> tuple["_koebe.UniformizeOptions", dict[str, Any]]:
-    """The native options of `uniformize` or of a sequence, and what a report says of them."""
+    """The native options of `uniformize` or of a sequence, and these options for a report."""
     options, said = filled(of, _koebe.UniformizeOptions(), given)
     if options.center >= 0 and options.balance != _koebe.Balance.none:
         raise OptionError("center and balance exclude each other: both choose the automorphism of the disk")
@@ -59,21 +59,21 @@ def uniformize(
 
     vertices     (V, 3) float32, float64 or whole numbers, any unit, any order, read-only accepted, never modified
     triangles    (F, 3) whole numbers of any width, counter-clockwise seen from outside
-    In place of both, here and wherever a surface is given: a pair (vertices, triangles); the path of a mesh file (OBJ,
-    OFF, PLY, STL), as text or PathLike; a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh, a meshio Mesh or a
-    nibabel GiftiImage. Files and meshes may have quadrilaterals and polygons; a mesh's to_mesh() of the result gives
-    the same kind back, with UVs and fields
+    In place of both, here and for every surface: a pair (vertices, triangles); the path of a mesh file (OBJ, OFF, PLY,
+    STL), as text or PathLike; a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh, a meshio Mesh or a nibabel
+    GiftiImage. Files and meshes may have quadrilaterals and polygons. For a mesh, the result's to_mesh() gives the same
+    kind back, with UVs and fields
     {options}
-    progress     called as progress(fraction, stage) on the calling thread; fraction never goes back
+    progress     called as progress(fraction, stage) on the calling thread; fraction never falls
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
 
-    With cut=True the result is a CutResult, whose uv are the corners' (F, 3, 2) in [0, 1]^2. A vertex named by outer,
-    center, point is of one piece. center and point together leave no freedom (paper, section 4.3); center alone turns
-    nothing, point alone only turns; center and balance exclude each other.
-    'gk' is the second algorithm of the paper's section 4.4, 'against-outer' the first; 'ck' is that of section 1.2.
-    One loop gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe
-    iteration (section 4.4). Ctrl-C ends the call at once, as it does in all functions here.
-    Raises InputError (OptionError for an option, which is a ValueError too), TopologyError, SolverError, Cancelled, or
+    With cut=True the result is a CutResult, whose uv belong to corners: (F, 3, 2) in [0, 1]^2. A vertex named by outer,
+    center, point counts for one piece. center and point together leave no freedom (paper, section 4.3); center alone
+    does not turn the map, point alone only turns it; center and balance exclude each other. 'gk' is the second
+    algorithm of the paper's section 4.4, 'against-outer' the first; 'ck' is the algorithm of section 1.2. One loop
+    gives the Riemann map (section 4.3), two the annulus r < |z| < 1 (section 4.2), more the Koebe iteration (section
+    4.4). Ctrl-C ends the call at once, as in all functions here.
+    Raises InputError (OptionError for an option, also a ValueError), TopologyError, SolverError, Cancelled, or
     MemoryError.
     """
     options, chosen = solver_options("uniformize", {"cut": cut, **given})
@@ -96,7 +96,7 @@ def uniformize(
 
 
 def importance_of(values: Any, balance: str, count: int) -> np.ndarray:
-    """(V,) of the vertices, or none."""
+    """(V,) importance of the vertices, or empty."""
     if values is None:
         return np.zeros(0)
     if balance != "area":
@@ -113,7 +113,7 @@ def importance_of(values: Any, balance: str, count: int) -> np.ndarray:
 def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[np.ndarray]:
     """Boundary loops as int32 arrays of vertices, in order with the surface on the left; lowest vertex first.
 
-    triangles       (F, 3), or a whole surface as of `uniformize`
+    triangles       (F, 3), or a whole surface as for `uniformize`
     vertex_count    of the mesh; without it any number is a vertex
     Raises InputError, and TopologyError for a mesh that is not manifold, orientable and connected.
     """
@@ -121,12 +121,12 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[n
     faces = as_triangles(surface_of(triangles).triangles if is_surface(triangles) else triangles, count)
     if faces.max() < faces.size:
         return as_loops(_koebe.boundary_loops(faces, int(faces.max()) + 1))
-    # Few of the numbers are used: their count shall decide on the memory, not the greatest.
+    # Few of the numbers are used: memory must depend on their count, not on the greatest number.
     used, faces = np.unique(faces, return_inverse=True)
     try:
         loops = _koebe.boundary_loops(faces.reshape(-1, 3).astype(np.int32), len(used))
     except TopologyError as error:
-        if error.kind != "disconnected":  # that one lists faces
+        if error.kind != "disconnected":  # this error lists faces
             error.elements = used[list(error.elements)].tolist()
         raise
     return [used[loop] for loop in loops]
@@ -159,10 +159,10 @@ def fill_holes(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fill boundary loops.
 
-    loops   ranks in the list that boundary_loops gives; None for all of them
+    loops   ranks in the list of boundary_loops; None for all of them
     fair    False: fans around the means of the loops' vertices (paper, section 4.4). True: triangles as long as those
             around the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
-    Returns vertices (V + K, 3), triangles (F', 3) and a patch label per face: -1 input, k the loop filled.
+    Returns vertices (V + K, 3), triangles (F', 3) and a label per face: -1 in the input, k in the patch of loop k.
     Lengths are in the input's unit.
     """
     source = surface_of(vertices, triangles)
@@ -204,5 +204,5 @@ def distortion(vertices: Any, triangles: Any = None, uv: Any = None) -> dict[str
 
 
 def _is_finite(report: Any) -> bool:
-    """Whether no number of a report is missing: what is not finite has no JSON."""
+    """Whether all numbers of a report are finite: JSON has no others."""
     return all(map(_is_finite, report.values())) if isinstance(report, dict) else report is not None

@@ -1,5 +1,5 @@
-"""Arrays as the native module takes them: copies of the caller's, so that no other thread writes into them any more,
-and checked after the copying. What is no mesh, and what a cast would change, is an InputError.
+"""Arrays for the native module. They are copies, so no other thread writes into them, and are checked after copying.
+Arrays that are not a mesh, or that a cast would change, raise InputError.
 """
 
 from collections.abc import Sequence
@@ -11,8 +11,8 @@ from .errors import InputError
 
 _REAL = (np.dtype(np.float32), np.dtype(np.float64))
 _WHOLE = tuple(np.dtype(f"{sign}int{bits}") for bits in (8, 16, 32, 64) for sign in ("", "u"))
-_EXACT = 2**53  # beyond it 64-bit floats leave whole numbers out
-# Half-edges, three to a face, are numbered by 32-bit integers too.
+_EXACT = 2**53  # beyond it 64-bit floats skip whole numbers
+# Half-edges, three per face, have 32-bit numbers, too.
 _MOST_VERTICES = 2**31 - 2
 _MOST_FACES = _MOST_VERTICES // 3
 
@@ -31,7 +31,7 @@ def as_surface(vertices: Any, triangles: Any, *, degenerate: bool = False) -> tu
 
 
 def as_triangles(triangles: Any, vertex_count: int | None = None, *, degenerate: bool = False) -> np.ndarray:
-    """(F, 3) int32, C order: different vertices of 0 .. vertex_count - 1, or of any number without it."""
+    """(F, 3) int32, C order: different vertices of 0 .. vertex_count - 1, or any numbers without vertex_count."""
     faces = _copy(triangles, "triangles", _WHOLE, 3)
     if not len(faces):
         raise InputError("the mesh has no faces")
@@ -47,7 +47,7 @@ def as_triangles(triangles: Any, vertex_count: int | None = None, *, degenerate:
 
 
 def as_points(points: Any, name: str, dimension: int, count: int | None = None) -> np.ndarray:
-    """(n, dimension) float64, C order, finite; n = count, where that is given."""
+    """(n, dimension) float64, C order, finite; n = count, if given."""
     array = _copy(points, name, _REAL + _WHOLE, dimension)
     if count is not None and len(array) != count:
         raise InputError(f"{name} has {len(array)} rows, not {count}")
@@ -60,7 +60,7 @@ def as_points(points: Any, name: str, dimension: int, count: int | None = None) 
 
 
 def as_indices(indices: Any, name: str, count: int, of: str) -> np.ndarray:
-    """(n,) int32: different ones of 0 .. count - 1. Takes any sequence of whole numbers, or none at all."""
+    """(n,) int32: different numbers of 0 .. count - 1, from any sequence of whole numbers, which may be empty."""
     array = np.zeros(0, np.int64) if _is_empty(indices) else _copy(indices, name, _WHOLE)
     bad = array[(array < 0) | (array >= count)]
     if len(bad):
@@ -72,7 +72,7 @@ def as_indices(indices: Any, name: str, count: int, of: str) -> np.ndarray:
 
 
 def as_circles(domain: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Centers (L, 2) and radii (L,) of whatever has both."""
+    """Centers (L, 2) and radii (L,) of an object that has both."""
     if not (hasattr(domain, "centers") and hasattr(domain, "radii")):
         raise InputError(f"{type(domain).__name__} has no circles: give the result of uniformize")
     radii = as_numbers(domain.radii, "radii")
@@ -93,7 +93,7 @@ def as_loops(loops: Sequence[Sequence[int]]) -> list[np.ndarray]:
 
 
 def _copy(values: Any, name: str, dtypes: tuple[np.dtype, ...], columns: int | None = None) -> np.ndarray:
-    """An array of its own with one of these types, C order and the machine's byte order; (n, columns), or (n,)."""
+    """An own array of one of these types, in C order and the machine's byte order; (n, columns), or (n,)."""
     if np.ma.is_masked(values):
         raise InputError(f"{name} must not be masked")
     try:
@@ -111,12 +111,12 @@ def _copy(values: Any, name: str, dtypes: tuple[np.dtype, ...], columns: int | N
 
 
 def _is_empty(values: Any) -> bool:
-    """Whether this is an empty list or tuple, which has no type of its own."""
+    """Whether this is an empty list or tuple, which has no type."""
     return isinstance(values, (list, tuple)) and not values
 
 
 def _refuse(bad: np.ndarray, message: str, of: str) -> None:
-    """Raises InputError if any is bad, with their numbers and what these are."""
+    """Raises InputError if any are bad, with their numbers; `of` is their kind."""
     elements = np.flatnonzero(bad)
     if elements.size:
         raise InputError(f"{elements.size} {message}", elements.tolist(), of)

@@ -1,4 +1,4 @@
-"""Many mesh files, each mapped by a process of its own: the command `koebe batch`, here or on the workers of Dask."""
+"""Maps many mesh files, each by a process of its own: the command `koebe batch`, here or on the workers of Dask."""
 
 import json
 import os
@@ -29,25 +29,25 @@ def batch(
     scheduler: Any = None,
     **options: Any,
 ) -> list[Row]:
-    """Map many mesh files, each by a process of its own; files that are done and unchanged are skipped.
+    """Map many mesh files, each by a process of its own. Files that are done and unchanged are skipped.
 
-    files       a mesh file, a folder (searched with its folders), or several of them
+    files       a mesh file, a folder (searched with its subfolders), or several of them
     output      the folder for the results: each file's name below its input folder, a report (.json) beside each, and
                 the table, summary.json and summary.csv
-    workers     files at a time; None: one for each core. With a scheduler its workers' threads decide
+    workers     number of files at a time; None: one for each core. With a scheduler its workers' threads decide
     time_limit  seconds for a file
     base        names are relative to this folder instead of each input folder
-    retry       try meshes again that could not be mapped
-    scheduler   a `dask.distributed.Client`: one task a file. All workers have to see the files and the output folder
+    retry       try failed meshes again
+    scheduler   a `dask.distributed.Client`: one task per file. All workers must see the files and the output folder
                 under the same paths
-    options     those of the command with _ for -: method="ck", max_sweeps=20, polish=True, format="ply",
+    options     the command's, with _ for -: method="ck", max_sweeps=20, polish=True, format="ply",
                 blender="blender"
 
     Returns one row for each file, by name: name, exit_code (0 done, 3 it cannot be mapped, 4 not converged), error and
-    error_text (None, or why), seconds, faces, flipped, below_resolution, lost_area, angle_error_deg (the mean),
-    warnings (how many), output, input_sha256, options, version. Any number of calls may share one output folder, each
-    file is done once. Raises OptionError where the call is wrong, Cancelled where the
-    command was told to end by somebody else, and KoebeError where the output folder cannot be written.
+    error_text (None, or the reason), seconds, faces, flipped, below_resolution, lost_area, angle_error_deg (the mean),
+    warnings (their number), output, input_sha256, options, version. Any number of calls may share one output folder;
+    each file is done once. Raises OptionError for a wrong call, Cancelled if another program ended the command, and
+    KoebeError if the output folder cannot be written.
     """
     if isinstance(files, str | os.PathLike):
         files = [files]
@@ -55,7 +55,7 @@ def batch(
     if not inputs:
         return []
     folder = os.path.abspath(output)
-    # The working folder of a worker of Dask is its own.
+    # A worker of Dask has another working folder.
     common = _words({"time_limit": time_limit, "retry": retry, **options})
     named = [*inputs, *_words({"base": base and os.path.abspath(base)}), "--output", folder, *common]
     listed = _run([*named, "--list"]).splitlines()
@@ -76,12 +76,12 @@ def batch(
 
 
 def _run_one(words: list[str]) -> None:
-    """One file on a worker; the table is written once, in the end."""
+    """Maps one file on a worker. The table is written once, at the end."""
     _run([*words, "--workers=1", "--no-summary"])
 
 
 def _words(options: dict[str, Any]) -> list[str]:
-    """Options as the command takes them; None and False are left out."""
+    """The options as words of the command. None and False are left out."""
     words = []
     for name, value in options.items():
         if value is None or value is False:
@@ -94,7 +94,7 @@ def _words(options: dict[str, Any]) -> list[str]:
 
 
 def _run(words: list[str]) -> str:
-    """What `koebe batch` with these words prints. It ends with this process, whatever that ends by."""
+    """The output of `koebe batch` with these words. The command ends with this process, even if that is killed."""
     process = subprocess.Popen(
         [str(_command.path()), "batch", "--end-with-input", *words],
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", errors="replace",
@@ -111,14 +111,14 @@ def _run(words: list[str]) -> str:
             raise
     if process.returncode == _INTERRUPTED:
         raise Cancelled("the run was interrupted: the same call goes on from there")
-    if not printed:  # a run that came to its end prints a line, whatever became of the meshes
+    if not printed:  # a completed run prints a line, also for failed meshes
         last = (complaints.strip().splitlines() or [f"koebe batch ended with {process.returncode}"])[-1]
         raise (OptionError if process.returncode == _WRONG_USAGE else KoebeError)(last)
     return printed
 
 
 def _read(process: "subprocess.Popen[str]") -> tuple[str, str]:
-    """All that it prints, with its input left open: `communicate` would close it."""
+    """Reads all output, and leaves the input open: `communicate` would close it."""
     complaints: list[str] = []
     assert process.stdout and process.stderr
     reader = threading.Thread(target=lambda stream: complaints.append(stream.read()), args=(process.stderr,))

@@ -1,4 +1,4 @@
-"""The koebe command that belongs to this package."""
+"""The koebe command of this package."""
 
 import contextlib
 import os
@@ -13,15 +13,15 @@ _PACKAGE = Path(__file__).resolve().parent
 
 
 def path() -> Path:
-    """The command: in the package's own folder bin (on Windows beside its library, in the package's own folder), or in
-    the build folder that the package lies in.
+    """The path of the command: in the package's folder bin (on Windows beside its library, in the package's folder), or
+    in the build folder that holds the package.
 
     Raises KoebeError if the package was installed without it.
     """
     for folder in (_PACKAGE / "bin", _PACKAGE, _PACKAGE.parents[1]):
         place = folder / _NAME
         if place.is_file():
-            if not os.access(place, os.X_OK):  # Blender unpacks wheels without the bits that say so
+            if not os.access(place, os.X_OK):  # Blender unpacks wheels without these bits
                 with contextlib.suppress(OSError):
                     place.chmod(0o755)
             return place
@@ -41,5 +41,5 @@ def main() -> int:
     while True:
         try:
             return process.wait()
-        except KeyboardInterrupt:  # which the command has had too, and ends by
+        except KeyboardInterrupt:  # the command got it, too, and ends
             continue

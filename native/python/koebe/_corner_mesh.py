@@ -1,4 +1,4 @@
-"""A mesh of another package whose UVs differ from corner to corner: its vertices are doubled along the cuts."""
+"""A mesh of another package with UVs per corner: its vertices are doubled along the cuts."""
 
 from typing import Any
 
@@ -11,14 +11,14 @@ from .errors import InputError
 
 
 def mesh_with_corner_uv(source: Source, uv: np.ndarray, mapped: np.ndarray) -> Any:
-    """A copy of the source's mesh with its faces, in their order, and fields as of UniformizeResult.to_mesh.
+    """A copy of the source's mesh with its faces in order, and fields as in UniformizeResult.to_mesh.
 
-    A vertex with several UVs is there once for each of them: the first one in its old place, the others after all old
-    vertices. koebe_vertex is the old number of each. A vertex of no face has the UVs NaN.
+    A vertex with several UVs has a copy for each of them: the first in its old place, the others after all old
+    vertices. koebe_vertex is the old number of each. An unused vertex has the UVs NaN.
 
     uv       (F, 3, 2) of the corners of the source's triangles
     mapped   (F,) bool, the triangles that count in the fields
-    Raises InputError if arrays were given, or if a polygon is cut apart.
+    Raises InputError for a source given as arrays, or if a polygon is cut apart.
     """
     if source.mesh is None or source.polygons is None or source.polygon is None:
         raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
@@ -37,11 +37,11 @@ def mesh_with_corner_uv(source: Source, uv: np.ndarray, mapped: np.ndarray) -> A
 
 
 def _doubled(triangles: np.ndarray, uv: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Old numbers (n,) of the new vertices, triangles (F, 3) of new ones, and UVs (n, 2)."""
+    """Old numbers (n,) of the new vertices, triangles (F, 3) with new numbers, and UVs (n, 2)."""
     corners = uv.reshape(-1, 2) + 0.0  # minus zero is zero
     table = np.column_stack([triangles.reshape(-1, 1).astype(np.uint64), corners.view(np.uint64)])
     _, first, number = np.unique(table, axis=0, return_index=True, return_inverse=True)
-    owner = triangles.ravel()[first]  # rising
+    owner = triangles.ravel()[first]  # ascending
     is_first = np.append(True, owner[1:] != owner[:-1])
     place = np.where(is_first, owner, count + np.cumsum(~is_first) - 1)
     old = np.concatenate([np.arange(count), owner[~is_first]])

@@ -1,4 +1,4 @@
-"""What uniformize(..., cut=True) gives: pieces with a map each, side by side in the unit square."""
+"""The result of uniformize(..., cut=True): pieces, each with a map, side by side in the unit square."""
 
 import copy
 from typing import Any
@@ -12,18 +12,18 @@ from ._result import MapReport, Seconds, Source, Warning
 class CutResult(MapReport):
     """The maps of the pieces of any mesh, and their report.
 
-    uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. A cut is an edge
-                     whose two sides have different ones
-    piece            (F,) int32, the place of each triangle's piece in `pieces`; -1 for those left out
+    uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. The two sides
+                     of a cut have different UVs
+    piece            (F,) int32, the place of each triangle's piece in `pieces`; -1 for faces that are left out
     pieces           list of dicts: faces, mapped, place (center and radius of its disk in the square), loops with
                      circles in the coordinates of its own unit disk, and its figures. Numbers are the input's
     cuts             list of dicts: kind ('crowded_edge', 'orientation', 'bow_tie', 'handle', 'opening'), elements (the
                      vertices along the cut; a closed one ends with its first), text
-    handles_cut      how many
-    left_out         list of dicts: face, and the face that it is drawn like, or None. Of the figures these count in
-                     lost_area alone, and there only where they have no area at all
+    handles_cut      number of handles cut
+    left_out         list of dicts: face, and the face that it is drawn like, or None. These faces count in lost_area
+                     only, and only if they have no area at all
     turned           faces turned to the orientation of their piece
-    converged        whether all pieces are
+    converged        whether all pieces converged
     angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
     below_resolution, flipped_faces    over all pieces, as they lie in the square, as in MapReport
     version, input_sha256, options, vertices, faces, method, engine, seconds, peak_memory_mb, warnings
@@ -56,7 +56,7 @@ class CutResult(MapReport):
 
     @property
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
         return self._source.vertices, self._source.triangles
 
     def to_mesh(self) -> Any:

@@ -13,7 +13,7 @@ from ._result import MapReport, Seconds, Source, Warning
 
 
 class DomainMap(MapReport):
-    """UVs that are cut, and a report. What its fields mean, TileMap, SphereMap and SchottkyMap say."""
+    """Cut UVs and a report. TileMap, SphereMap and SchottkyMap describe the fields."""
 
     uv: np.ndarray
     loops: list[dict[str, Any]]
@@ -40,11 +40,11 @@ class DomainMap(MapReport):
         return {"uv": self.uv, "flipped_faces": self.flipped_faces}
 
     def _drawn(self) -> np.ndarray:
-        """(F,) which faces have UVs that can be drawn."""
+        """(F,) faces whose UVs can be drawn."""
         return np.ones(len(self.uv), bool)
 
     def _counts(self) -> list[str]:
-        """What it is made of, in words."""
+        """The parts of the result, in words."""
         return [f"{len(self.loops)} loops"]
 
     def __repr__(self) -> str:
@@ -54,12 +54,12 @@ class DomainMap(MapReport):
 
     @property
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
         return self._source.vertices, self._source.triangles
 
     def to_mesh(self) -> Any:
-        """The mesh that was given, of the same kind, with fields as of CutResult.to_mesh, of a sphere without the torn
-        faces'. Its vertices are doubled where the UVs are cut. Raises InputError if arrays were given."""
+        """The given mesh, of the same kind, with fields as in CutResult.to_mesh; for a sphere without the torn faces'
+        fields. Its vertices are doubled where the UVs are cut. Raises InputError if arrays were given."""
         return mesh_with_corner_uv(self._source, self.uv, self._drawn())
 
     def to_dict(self) -> dict[str, Any]:
@@ -80,10 +80,10 @@ def domain_map(
 ) -> Made:
     """The result of a native function.
 
-    of       its map in the table of options
-    options  native ones, which are set
+    of       the map's name in the table of options
+    options  native ones, which are set here
     given    all keywords of the caller
-    Raises OptionError and InputError, and what the function raises.
+    Raises OptionError and InputError, and the function's errors.
     """
     options, said = filled(of, options, given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")

@@ -1,4 +1,4 @@
-"""Many shapes with their loops in one order, so that their modules can be compared as vectors."""
+"""Many shapes with their loops in one order, so that their modules are comparable vectors."""
 
 import csv
 import io
@@ -18,13 +18,13 @@ from .errors import InputError
 
 @dataclass(frozen=True)
 class Family:
-    """The modules of shapes with as many loops, in one order of the loops.
+    """The modules of shapes with equally many loops, in one order of the loops.
 
-    modules    (N, 3n - 3) float64, a row a shape; lengths in the unit disk
-    columns    what the numbers are called: r_1, y_2, r_2, ...
-    orders     (N, n + 1) int32: of each shape's loops, the outer one first, in the order that all share
+    modules    (N, 3n - 3) float64, a row per shape; lengths in the unit disk
+    columns    names of the numbers: r_1, y_2, r_2, ...
+    orders     (N, n + 1) int32: each shape's loops in the common order, the outer one first
     labels     of the shapes
-    errors     (N, 3n - 3) bars of the modules (module_error), or None where they were not asked for
+    errors     (N, 3n - 3) error bars of the modules (module_error), or None without them
     """
 
     modules: np.ndarray
@@ -38,7 +38,7 @@ class Family:
 
     @property
     def distance_errors(self) -> np.ndarray | None:
-        """(N, N) bars of the distances: root of the sum of the squared bars of both modules; None without bars."""
+        """(N, N) error bars of the distances: root of the sum of both modules' squared bars; None without bars."""
         if self.errors is None:
             return None
         size = np.linalg.norm(self.errors, axis=1)
@@ -46,12 +46,12 @@ class Family:
 
     @property
     def distances(self) -> np.ndarray:
-        """(N, N) L2 distances of the modules: a metric, since the order of the loops is one."""
+        """(N, N) L2 distances of the modules: a metric, as all use one order of the loops."""
         return np.linalg.norm(self.modules[:, None] - self.modules[None], axis=2)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """A row a shape: its label, its module and its bars if there are any (r_1_error, ...), with a head line, as R's
-        read.csv and pandas read it."""
+        """Write a row per shape: its label, its module and its error bars if any (r_1_error, ...), with a head line, as
+        R's read.csv and pandas read it."""
         text = io.StringIO(newline="")
         writer = csv.writer(text)
         bars = self.modules[:, :0] if self.errors is None else self.errors
@@ -72,16 +72,16 @@ def family(
     labels: Sequence[str] | None = None,
     error: bool = False,
 ) -> Family:
-    """One order of the loops for all shapes, and their modules in it.
+    """Take one order of the loops for all shapes, and compute their modules in it.
 
-    results     of uniformize, or what has centers and radii: as many loops each, two at least
-    reference   the shape whose loops decide: each other's are those that correspond to them (match_loops)
+    results     of uniformize, or objects with centers and radii: equally many loops each, at least two
+    reference   the shape whose loops set the order: the others' loops are matched to them (match_loops)
     order       of the reference's loops, the outer one first (mouth, eye, eye); None: as in its result
-    orders      of every shape's loops, in your words; then nothing is matched
+    orders      of every shape's loops, given by you; then nothing is matched
     labels      of the shapes, such as file names; None: 0, 1, 2, ...
-    error       also bars of the modules (module_error), which takes a map of a finer mesh for each
-    module_distance of two shapes takes the best order for those two, so three such distances need not obey the triangle
-    inequality; those of a family do. Raises InputError, also for circles that are not the surface's.
+    error       also compute error bars of the modules (module_error), which maps a finer mesh for each
+    module_distance takes the best order for its two shapes, so three such distances need not obey the triangle
+    inequality; the distances of a family do. Raises InputError, also for circles that are not the surface's own.
     """
     shapes = list(results)
     if not shapes:
@@ -111,7 +111,7 @@ def family(
 
 
 def _like(reference: Any, shape: Any, wanted: np.ndarray) -> np.ndarray:
-    """The shape's loops that correspond to the reference's in the order wanted."""
+    """The shape's loops that correspond to the reference's, in the wanted order."""
     if shape is reference:
         return wanted
     order, other, _ = match_loops(reference, shape)

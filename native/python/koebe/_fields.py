@@ -1,4 +1,4 @@
-"""Coordinates of a circle domain, and what a map does at each vertex and face. NumPy alone."""
+"""Coordinates of a circle domain, and measures of a map at each vertex and face. NumPy only."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ def uv_to_disk(uv: Any) -> np.ndarray:
 
 def log_scale(vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """(V,) log of the map's scale at each vertex, disk lengths per surface length: half the log of the ratio of the
-    areas of the faces around it. NaN at vertices of no face, and where an area vanishes."""
+    areas of the faces around it. NaN at unused vertices, and where an area vanishes."""
     on_surface, in_disk = (
         _around(triangles, len(vertices), np.abs(_areas(points, triangles))) for points in (vertices, uv)
     )

@@ -1,4 +1,4 @@
-"""Files that are whole or absent; results in them."""
+"""Files that are complete or absent, and results in them."""
 
 import json
 import os
@@ -13,7 +13,7 @@ import numpy as np
 
 @contextmanager
 def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """A file to write, which gets its name when all of it is there; on an error nothing is left of it."""
+    """A file to write. It gets its name once it is complete; after an error nothing of it is left."""
     target = Path(path)
     descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:
@@ -26,19 +26,19 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
 
 
 class Saved:
-    """A result that `koebe.load` reads again: its report and its surface are in _report and _source."""
+    """A result that `koebe.load` reads again. Its report is in _report, its surface in _source."""
 
     _report: dict[str, Any]
     _source: Any
 
     def _arrays(self) -> dict[str, Any]:
-        """What it holds beside them, by the names under which the library gives it."""
+        """Its other arrays, under the library's names."""
         raise NotImplementedError
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write all of it to a file, which `koebe.load` reads: NumPy's .npz. The file is whole or absent.
+        """Write the result to a file for `koebe.load`: NumPy's .npz. The file is complete or absent.
 
-        Of a mesh of another package its arrays are kept, not the mesh.
+        For a mesh of another package its arrays are kept, not the mesh.
         """
         with whole_file(path) as file:
             np.savez_compressed(

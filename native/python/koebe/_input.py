@@ -1,4 +1,4 @@
-"""The surface that a function is given, as arrays: whatever it came as."""
+"""The surface given to a function, as arrays, from any of the allowed kinds."""
 
 import os
 from pathlib import Path
@@ -34,7 +34,7 @@ def surface_of(vertices: Any, triangles: Any = None, degenerate: bool = False) -
 
 
 def is_surface(thing: Any) -> bool:
-    """Whether this is a whole surface, no array of vertices or of triangles."""
+    """Whether this is a whole surface, not an array of vertices or of triangles."""
     return is_mesh(thing) or _is_path(thing) or _is_pair(thing)
 
 
@@ -62,7 +62,7 @@ def _is_path(thing: Any) -> bool:
 
 
 def _is_pair(thing: Any) -> bool:
-    """Two tables; two points are none."""
+    """Whether this is a pair of tables; two points are not."""
     return isinstance(thing, (tuple, list)) and len(thing) == 2 and all(_is_table(part) for part in thing)
 
 
@@ -73,7 +73,7 @@ def _is_table(thing: Any) -> bool:
 
 
 def polygons_of(given: Any, source: Source) -> np.ndarray:
-    """(F,) int32: polygons' numbers as given, or as the mesh has them; empty where each triangle is one by itself."""
+    """(F,) int32: the polygons' numbers as given, or as in the mesh; empty if each triangle is by itself."""
     if given is None:
         return np.zeros(0, np.int32) if source.polygon is None else source.polygon
     numbers, count = np.asarray(given), len(source.triangles)

@@ -1,4 +1,4 @@
-"""Mirror images, disks in a square and circles through points: what lays maps out."""
+"""Mirror images, disks in a square and circles through points: helpers to lay maps out."""
 
 from typing import Any
 
@@ -11,11 +11,11 @@ from .errors import InputError
 
 
 def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -> np.ndarray | None:
-    """The vertex (V,) that is the mirror image of each, int32, or None if the surface is no mirror image of itself.
+    """The vertex (V,) that is the mirror image of each, int32, or None if the surface is not symmetric.
 
-    Tried are planes across x, y and z, then across the main axes, through the middle of the surface: every polygon must
-    have another one, or itself, as its image, corner by corner, to 1e-4 of the diagonal of the box round the surface.
-    A plane that most of the surface lies in is none. The image of a vertex without a face is -1.
+    Tries planes across x, y and z, then across the main axes, through the middle of the surface. Every polygon must
+    have a mirror image, another one or itself, corner by corner, to 1e-4 of the bounding box's diagonal. A plane that
+    holds most of the surface does not count. The image of an unused vertex is -1.
 
     polygon      (F,) integers: triangles of one number are one polygon, and their diagonals do not count
     """
@@ -25,9 +25,9 @@ def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -
 
 
 def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (n, 2) and radii (n,) of disks in these proportions, as large as they are found to fit the unit square.
+    """Centres (n, 2) and radii (n,) of disks in these proportions, as large as found to fit the unit square.
 
-    margin       between two disks, and half of it to the border; of many disks less, such that they have room
+    margin       between two disks, half of it at the border; less for many disks, so that they have room
     One disk fills the square. Raises InputError for radii that are not positive.
     """
     sizes = np.asarray(radii, dtype=np.float64)
@@ -37,9 +37,9 @@ def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray
 
 
 def fit_circle(points: Any) -> tuple[np.ndarray, float, float]:
-    """Centre (2,) and radius of the circle of least squared distance to points (n, 2), and the most these are off.
+    """Centre (2,) and radius of the circle of least squared distance to points (n, 2), and the largest distance.
 
-    Points of a line, or of less than an eighth of a turn, have the circle round their mean.
+    Points on a line, or on less than an eighth of a turn, get the circle round their mean.
     """
     center, radius, off = _koebe.fit_circle(as_points(points, "points", 2))
     return np.array([center.real, center.imag]), radius, off

@@ -16,15 +16,15 @@ from .errors import InputError
 
 
 def load(path: str | os.PathLike[str]) -> Any:
-    """The result that `save` has written, of its class: UniformizeResult, CutResult, PartsResult, SphereMap, ...
+    """Read a result written by `save`, as its class: UniformizeResult, CutResult, PartsResult, SphereMap, ...
 
-    Raises InputError for a file that is none, OSError for one that cannot be read.
+    Raises InputError for a file that is not a result, OSError for one that cannot be read.
     """
     try:
         with np.load(path, allow_pickle=False) as file:
             report, source = json.loads(str(file["report"])), Source(file["vertices"], file["triangles"])
             uv, flipped = file["uv"], file["flipped_faces"]
-            before = "CutResult" if report.get("cut") is True else "UniformizeResult"  # 0.1 did not write the kind
+            before = "CutResult" if report.get("cut") is True else "UniformizeResult"  # 0.1 wrote no kind
             kind = str(file["kind"]) if "kind" in file else before
             if kind == "UniformizeResult":
                 return UniformizeResult(report, uv, flipped, list(file["step_maps"]), source)

@@ -1,7 +1,7 @@
-"""Meshes of other packages, and back: PyVista, trimesh, meshio, nibabel's GIfTI. Told by their classes, so that none is
-imported here.
+"""Meshes of other packages, and back: PyVista, trimesh, meshio, nibabel's GIfTI. They are recognized by their classes,
+so that no package is imported here.
 
-Each holds vertices, and cells of which some are faces: the others (points, lines) are kept and carry no values.
+Each holds vertices and cells, some of which are faces. Other cells (points, lines) are kept and carry no values.
 """
 
 import copy
@@ -17,7 +17,7 @@ UV, LOG_SCALE, ANGLE_ERROR, VERTEX = "koebe_uv", "koebe_log_scale", "koebe_angle
 
 _POINTS, _TRIANGLES, _SHAPE, _VECTOR, _NONE = 1008, 1009, 2005, 1007, 0  # NIfTI's intent codes
 _VTK_FACES = {5: "triangle", 7: "polygon", 9: "quad"}  # numbers of VTK's cell types
-_VTK_PIXEL = 8  # a quadrilateral whose last two corners are the other way round
+_VTK_PIXEL = 8  # a quadrilateral with its last two corners exchanged
 _VTK_NO_FACES = {1, 2, 3, 4}  # points and lines
 
 
@@ -25,9 +25,9 @@ _VTK_NO_FACES = {1, 2, 3, 4}  # points and lines
 class Polygons:
     """The faces of a mesh of another package.
 
-    vertices   (V, 3) as there
+    vertices   (V, 3) as in the mesh
     corners    vertex of each corner, face after face
-    begin      (P + 1,) where each face's corners begin
+    begin      (P + 1,) first corner of each face
     cell       (P,) the number of each face among all cells
     cell_count of all cells
     """
@@ -44,7 +44,7 @@ def is_mesh(thing: Any) -> bool:
 
 
 def read_mesh(mesh: Any) -> Polygons:
-    """Raises InputError for a mesh with no faces, or with cells that are no faces of a surface."""
+    """Raises InputError for a mesh without faces, or with cells that are not faces of a surface."""
     readers = {"trimesh": _from_trimesh, "pyvista": _from_pyvista, "meshio": _from_meshio, "gifti": _from_gifti}
     polygons = readers[_kind(mesh) or "meshio"](mesh)
     if not len(polygons.cell):
@@ -86,7 +86,7 @@ def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: 
 
     old      (n,) the vertex that each new one is a copy of; the first V are the old ones, in their order
     corners  (C,) new vertex of each corner of the polygons
-    Points and lines keep their vertices. What the old vertices carry, the new ones do.
+    Points and lines keep their vertices. New vertices carry their old vertices' data.
     """
     kind = _kind(mesh)
     if kind == "trimesh":
@@ -161,7 +161,7 @@ def _pyvista_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corne
 
 
 def _padded(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """The cells as VTK files them: each one's size, then its corners."""
+    """The cells as in VTK's files: each one's size, then its corners."""
     return np.insert(corners, np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64), sizes)
 
 
@@ -234,7 +234,7 @@ def _polygons(vertices: Any, blocks: list[Any], cells: list[np.ndarray], cell_co
         named = np.concatenate(faces) if isinstance(faces, list) else faces.ravel()
         if named.dtype.kind not in "iu":
             raise InputError(f"faces of the mesh must name vertices by whole numbers, not {named.dtype}")
-        corners.append(named.astype(np.int64))  # 2^63 and more are negative then: no vertices either
+        corners.append(named.astype(np.int64))  # numbers of 2^63 and more become negative: no vertices either
     number = np.concatenate([np.zeros(0, np.int64), *cells])
     return _packed(vertices, np.concatenate(corners), np.concatenate(sizes), number, cell_count)
 
@@ -245,14 +245,14 @@ def _is_ragged(block: Any) -> bool:
 
 def _packed(vertices: Any, corners: np.ndarray, sizes: np.ndarray, cell: np.ndarray, cell_count: int) -> Polygons:
     points = np.asarray(vertices)
-    if points.ndim == 2 and points.shape[1] == 2:  # meshio keeps planar meshes so
+    if points.ndim == 2 and points.shape[1] == 2:  # meshio keeps planar meshes like this
         points = np.column_stack([points, np.zeros(len(points), points.dtype)])
     begin = np.concatenate([[0], np.cumsum(sizes)])
     return Polygons(points, corners, begin, cell, cell_count)
 
 
 def _unpadded(padded: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Sizes (P,) and corners of cells that are filed as their size and their corners, one after the other."""
+    """Sizes (P,) and corners of cells filed one after another, each as its size and its corners."""
     flat = np.array(padded, dtype=np.int64)
     if len(flat) and len(flat) % (flat[0] + 1) == 0:  # all of one size: no loop
         table = flat.reshape(-1, flat[0] + 1)

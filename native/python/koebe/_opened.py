@@ -1,4 +1,4 @@
-"""Any mesh cut, in its connectivity alone, into surfaces that can be mapped."""
+"""Cuts any mesh, in its connectivity only, into surfaces that can be mapped."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,13 +13,13 @@ from ._options import callback, token
 
 @dataclass(frozen=True)
 class SurfacePiece:
-    """A connected, oriented, manifold surface of genus 0 with one boundary loop at least: what `uniformize` takes.
+    """A connected, oriented, manifold surface of genus 0 with at least one boundary loop, as `uniformize` needs it.
 
     vertices        (V', 3) float64, the input's positions
-    triangles       (F', 3) int32 into them; a face's corners are in the input's order, but for turned faces
+    triangles       (F', 3) int32 into them; a face's corners are in the input's order, except in turned faces
     source_vertex   (V',) int32, of the input
-    source_face     (F',) int32, of the input, rising
-    turned          (F',) bool, where the second and third corner have changed places
+    source_face     (F',) int32, of the input, ascending
+    turned          (F',) bool, where the second and third corner are exchanged
     """
 
     vertices: np.ndarray
@@ -34,8 +34,8 @@ class SurfaceCut:
     """A cut.
 
     kind       'crowded_edge', 'orientation', 'bow_tie', 'handle' or 'opening', as in CutResult
-    vertices   int32, of the input: a path along edges, the first one again at the end if it is closed; of a bow tie no
-               path, but all such vertices
+    vertices   int32, of the input: a path along edges, a closed one ends with its first vertex; for bow ties all such
+               vertices instead
     text       a sentence for people
     """
 
@@ -46,8 +46,8 @@ class SurfaceCut:
 
 @dataclass(frozen=True)
 class LeftOutFace:
-    """A face in no piece: `degenerate`, it names a vertex twice, or else the double of another one. `like` is the face
-    whose place it can take, or None."""
+    """A face in no piece: `degenerate`, it names a vertex twice, or else it duplicates another face. `like` is the face
+    that it can be drawn like, or None."""
 
     face: int
     like: int | None
@@ -56,7 +56,7 @@ class LeftOutFace:
 
 @dataclass(frozen=True)
 class OpenedSurface:
-    """What `open_surface` gives: pieces by their lowest face, cuts, faces left out (rising), and how many handles."""
+    """The result of `open_surface`: pieces by lowest face, cuts, faces left out (ascending), the number of handles."""
 
     pieces: list[SurfacePiece]
     cuts: list[SurfaceCut]
@@ -72,12 +72,12 @@ def open_surface(
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> OpenedSurface:
-    """Open, cut and split any mesh until each piece can be mapped: what `uniformize(..., cut=True)` does first.
+    """Open, cut and split any mesh until each piece can be mapped, as `uniformize(..., cut=True)` does first.
 
-    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both, whose polygons stay whole;
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both; its polygons stay whole;
                            triangles may name a vertex twice
     polygon   (F,) integers: triangles of one number are one polygon and are not cut apart. None: each by itself
-    progress, cancel    as of `uniformize`
+    progress, cancel    as for `uniformize`
     Handles are cut along short loops of a greedy homology basis [Erickson and Whittlesey 2005], a closed surface is
     opened along a shortest path between vertices far apart. Raises InputError, Cancelled, or MemoryError.
     """

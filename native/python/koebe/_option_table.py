@@ -1,4 +1,4 @@
-"""The table of options (options.json): what each map can be asked for, in which range, and what is said of it."""
+"""The table of options (options.json): the options of each map, their ranges and descriptions."""
 
 import functools
 import json
@@ -17,10 +17,10 @@ _RANGE = {"above": (operator.gt, "above"), "min": (operator.ge, "from"),
 class Row:
     """An option of one map.
 
-    default   what it is without the option
-    given     the same as a call has it: None where the call may leave it to the table
-    words     of a choice, or of a loop, with what each means
-    range     of a number: min, max, and what it must be above or below
+    default   the value without the option
+    given     the default in a call: None where the table decides
+    words     of a choice, or of a loop, with the meaning of each
+    range     of a number: min, max, above, below
     """
 
     name: str
@@ -43,7 +43,7 @@ class Row:
         return all(_RANGE[key][0](number, bound) for key, bound in self.range.items())
 
     def text(self) -> str:
-        """What a docstring says of the option."""
+        """The option's text in a docstring."""
         words = "; ".join(f"{word!r}: {means}" for word, means in self.words.items())
         if self.kind == "loop":
             words += "; or a vertex of it"

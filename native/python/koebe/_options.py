@@ -1,4 +1,4 @@
-"""Options as the native module takes them: TypeError for a wrong type, OptionError for a wrong value."""
+"""Options for the native module: TypeError for a wrong type, OptionError for a wrong value."""
 
 import functools
 import inspect
@@ -20,11 +20,11 @@ _MOST = 2**31 - 1  # of a 32-bit integer
 
 
 def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Function]:
-    """Gives a function the options of a map as keywords, with their defaults, and its docstring what they are for.
+    """Gives a function a map's options as keywords with their defaults, and describes them in its docstring.
 
     typed    the TypedDict of its keywords
-    others   keywords beside those of the table, with their defaults
-    The docstring has {options} where they are to stand.
+    others   keywords beside the table's, with their defaults
+    The docstring has {options} at the place for the descriptions.
     """
     table = rows(of)
     defaults = {**{name: row.given for name, row in table.items()}, **others}
@@ -52,7 +52,7 @@ def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Functio
         with_defaults.__signature__ = signature.replace(  # type: ignore[attr-defined]
             parameters=[*positional.values(), *named]
         )
-        if function.__doc__:  # which python -OO leaves out
+        if function.__doc__:  # python -OO removes it
             said = "\n".join(row.text() for row in table.values())
             with_defaults.__doc__ = function.__doc__.replace("{options}", said.replace("\n", "\n    "))
         return with_defaults  # type: ignore[return-value]
@@ -61,7 +61,7 @@ def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Functio
 
 
 def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, dict[str, Any]]:
-    """The native options of a map, set to what is given, and what a report says of them.
+    """A map's native options, set to the given values, and these options for a report.
 
     Lists of numbers are left to the caller.
     """
@@ -77,7 +77,7 @@ def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, d
 
 
 def _checked(row: Row, value: Any) -> Any:
-    """The value of an option of any kind, as reports have it."""
+    """The checked value of an option of any kind, as reports have it."""
     if value is None and row.default is None and row.kind in ("number", "vertex"):
         return None
     if row.kind == "number":
@@ -113,7 +113,7 @@ def choice(value: Any, option: str, enumeration: Any) -> Any:
 
 
 def choice_of(value: Any, option: str, members: Mapping[str, Any]) -> Any:
-    """What this name stands for."""
+    """The member with this name."""
     _require(value, option, str, "a text")
     if value not in members:
         raise OptionError(f"{option} must be one of {', '.join(members)}, not {value!r}")
@@ -158,7 +158,7 @@ def number(value: Any, row: Row) -> float:
 
 
 def outer_loop(value: Any) -> tuple["_koebe.OuterLoop", int]:
-    """Which loop goes to the unit circle, and a vertex of it, -1 where none is given."""
+    """The loop for the unit circle, and a vertex of it, or -1 without one."""
     if isinstance(value, str):
         if value not in ("auto", "longest"):
             raise OptionError(f"outer must be 'auto', 'longest' or a vertex of the loop, not {value!r}")
@@ -170,7 +170,7 @@ def outer_loop(value: Any) -> tuple["_koebe.OuterLoop", int]:
 
 
 def vertex(value: Any, option: str) -> int:
-    """A vertex of the surface, -1 where none is given."""
+    """A vertex of the surface; -1 for None."""
     if value is None:
         return -1
     _require(value, option, Integral, "a vertex")
@@ -186,7 +186,7 @@ def callback(value: Any, option: str) -> Any:
 
 
 def token(value: Any, option: str) -> "_koebe.CancelToken":
-    """The token, or one that nobody raises."""
+    """The token, or a new token for None."""
     if value is None:
         return _koebe.CancelToken()
     _require(value, option, _koebe.CancelToken, "a CancelToken")

@@ -1,4 +1,4 @@
-"""Surfaces cut in their UVs into even disks and tubes."""
+"""Cuts surfaces in their UVs into even disks and tubes."""
 
 import copy
 from typing import TYPE_CHECKING, Any
@@ -13,26 +13,26 @@ from ._signatures import PartsOptions
 from .errors import InputError
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class PartsResult(MapReport):
-    """What `parts` gives.
+    """The result of `parts`.
 
     uv               (F, 3, 2) float64 in [0, 1]^2: of each corner of each triangle, read-only
-    part             (F,) int32: the part of each triangle; -1 for those in none, degenerate or the double of another
-    parts            of each part a dict: kind ('disk' or 'tube'), faces, angle_error_deg (mean), loops (lists of
-                     vertices), off_round (of each loop how far it is from the circle of a disk, or the end of a tube's
-                     rectangle, at most: over the circle's radius, or the end's length over a turn)
-    cut_length, slit_length    of all cuts, and of the slits of tubes among them, over the root of the area
-    handles_cut      handles that were cut
-    density_ratio_5_95    texel density (a length over a length) at 95 % of the area over that at 5 %
+    part             (F,) int32: the part of each triangle; -1 for triangles in no part, degenerate or duplicates
+    parts            for each part a dict: kind ('disk' or 'tube'), faces, angle_error_deg (mean), loops (lists of
+                     vertices), off_round (for each loop its largest distance from the disk's circle, or from the end
+                     of a tube's rectangle, over the circle's radius, or over the length of a turn)
+    cut_length, slit_length    of all cuts, and of the tubes' slits among them, over the square root of the area
+    handles_cut      number of handles cut
+    density_ratio_5_95    texel density (a length over a length) at 95 % of the area over the density at 5 %
     even_area        share of the area whose texel density lies within the best factor 3
-    seconds          of the whole
-    maps             faces mapped, in faces of the mesh
+    seconds          in all
+    maps             faces mapped in all maps, in faces of the mesh
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
     below_resolution, flipped_faces, peak_memory_mb, warnings, version, vertices, faces    as in MapReport. Faces in no
-                     part count in lost_area alone, and there only where they have no area at all
+                     part count in lost_area only, and only if they have no area at all
     """
 
     uv: np.ndarray
@@ -60,7 +60,7 @@ class PartsResult(MapReport):
 
     @property
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
         return self._source.vertices, self._source.triangles
 
     def _arrays(self) -> dict[str, Any]:
@@ -80,15 +80,15 @@ class PartsResult(MapReport):
 
 @takes("parts", PartsOptions, polygon=None, slits=None, progress=None, cancel=None)
 def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
-    """Cut a surface in its UVs alone into disks and tubes of even texel density, packed into the unit square.
+    """Cut a surface in its UVs only into disks and tubes of even texel density, packed into the unit square.
 
-    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
     {options}
     polygon      (F,) integers: triangles of one number are one polygon and stay together. None: each by itself, or as
-                 the mesh has them
-    slits        (E, 2) vertices of edges along which a tube is opened where they lead from one of its loops to the
-                 other. None: along a short, straight path
-    progress, cancel    as of `uniformize`
+                 in the mesh
+    slits        (E, 2) vertices of edges along which a tube is opened if they lead from one of its loops to the other.
+                 None: along a short, straight path
+    progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
     """
     options, said = filled("parts", _koebe.PartsOptions(), given)
@@ -103,7 +103,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
 
 
 def _edges(slits: Any, count: int) -> np.ndarray:
-    """Vertices of edges, in int32."""
+    """Vertices of edges as int32."""
     given = np.asarray(slits)
     if given.size == 0:
         return np.zeros((0, 2), np.int32)

@@ -1,4 +1,4 @@
-"""Pictures of a result: the surface and its circle domain, by matplotlib, which is imported when it is asked for."""
+"""Pictures of a result: the surface and its circle domain, by matplotlib, which is imported on first use."""
 
 from typing import Any
 
@@ -17,11 +17,11 @@ _DRAWN_FACES = 80000  # about, in squares
 
 
 def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
-    """A matplotlib Figure: the surface in space, and the circle domain beside it, in the same colours.
+    """A matplotlib Figure with the surface in space and the circle domain beside it, in the same colours.
 
-    field   'checker': squares of the disk, 1/12 wide, carried to the surface, which keeps their angles; 'log_scale';
+    field   'checker': squares of the disk, 1/12 wide, mapped to the surface, which keeps their angles; 'log_scale';
             'angle_error', degrees
-    Needs matplotlib (`pip install koebe[plot]`). In a notebook the figure is shown; else call its savefig or show.
+    Needs matplotlib (`pip install koebe[plot]`). A notebook shows the figure; elsewhere call its savefig or show.
     """
     import matplotlib.pyplot as plt
     from matplotlib.collections import PolyCollection
@@ -30,7 +30,7 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
     choice_of(field, "field", _FIELDS)
     vertices, triangles = result.surface
     corners, images = vertices[triangles], result.uv[triangles]
-    if field == "checker":  # its squares do not end at edges: coarse faces are drawn in pieces
+    if field == "checker":  # squares do not end at edges: coarse faces are drawn in pieces
         pieces = max(1, int(np.sqrt(_DRAWN_FACES / len(triangles))))
         corners, images = _in_pieces(corners, pieces), _in_pieces(images, pieces)
     colors, scale = _colors(result, field, images, plt)
@@ -56,7 +56,7 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
 
 
 def _in_front_of(vertices: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:
-    """Elevation and azimuth, degrees, of whoever looks along the mean normal; with y up where that is z."""
+    """Elevation and azimuth, degrees, of a view along the mean normal, with y up if the view is along z."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a).sum(axis=0)
     x, y, z = normal / max(np.linalg.norm(normal), np.finfo(float).tiny)
@@ -75,14 +75,14 @@ def _in_pieces(corners: np.ndarray, count: int) -> np.ndarray:
 
 
 def _colors(result: UniformizeResult, field: str, images: np.ndarray, plt: Any) -> tuple[np.ndarray, Any]:
-    """Colours (n, 4) of the triangles drawn, images (n, 3, 2), and what a colour bar explains, if anything."""
+    """Colours (n, 4) of the drawn triangles, with images (n, 3, 2), and what a colour bar explains, or None."""
     triangles = result.surface[1]
     if field == "checker":
         square = np.floor(images.mean(axis=1) * _CHECKER / 2).astype(int).sum(axis=1) % 2
         return np.array([[0.93, 0.95, 0.98, 1.0], [0.25, 0.45, 0.65, 1.0]])[square], None
     values = result.face_angle_error_deg if field == "angle_error" else result.log_scale[triangles].mean(axis=1)
     known = values[np.isfinite(values)]
-    # The worst of a hundred faces do not take the colours from all others.
+    # The worst hundredth of the faces must not use up the colours.
     limits = np.percentile(known, [1, 99]) if len(known) else (0.0, 1.0)
     scale = plt.cm.ScalarMappable(plt.Normalize(*limits), "viridis")
     return scale.to_rgba(np.where(np.isfinite(values), values, limits[0])), scale

@@ -1,4 +1,4 @@
-"""What a uniformization gives."""
+"""The result of a uniformization."""
 
 import copy
 import hashlib
@@ -20,15 +20,15 @@ from .errors import InputError
 UV_RESOLUTION: float = _koebe.uv_resolution
 # Disk units: how far from its circle a loop vertex may lie to count as on it.
 CIRCLE_TOLERANCE: float = _koebe.circle_tolerance
-# What the elements of a warning are, by its kind: "vertices", "faces", "loops" or "none".
+# The kind of a warning's elements, by the warning's kind: "vertices", "faces", "loops" or "none".
 WARNING_ELEMENTS: dict[str, str] = dict(_koebe.warning_elements)
 
 
 class Warning(dict[str, Any]):
-    """What to watch out for: a dict of kind, elements and text, which are attributes too.
+    """A warning about a result: a dict of kind, elements and text, which are attributes too.
 
-    kind       what it is about, one of the keys of koebe.WARNING_ELEMENTS
-    elements   numbers of the input's vertices or faces, or of the result's loops, as WARNING_ELEMENTS says; rising
+    kind       its subject, one of the keys of koebe.WARNING_ELEMENTS
+    elements   numbers of the input's vertices or faces, or of the result's loops (see WARNING_ELEMENTS); ascending
     text       a sentence for people
     """
 
@@ -40,11 +40,11 @@ class Warning(dict[str, Any]):
 
     @property
     def of(self) -> str:
-        """What its elements are."""
+        """The kind of its elements."""
         return WARNING_ELEMENTS[self["kind"]]
 
     def renumbered(self, number: Any) -> "Warning":
-        """The same with number[e] for each element e: for whoever maps a part of a larger mesh. Rising, each once."""
+        """The warning with number[e] for each element e, for a part of a larger mesh. Ascending, each once."""
         elements = np.unique(np.asarray(number)[self["elements"]]).tolist() if self["elements"] else []
         text = self["text"]
         if elements:
@@ -76,7 +76,7 @@ class Beltrami(TypedDict):
 
 
 class LogAreaRatio(TypedDict):
-    """log of (UV area / surface area), area-weighted on the surface, its mean subtracted: 0 is even texel density."""
+    """log of (UV area / surface area), area-weighted on the surface, minus its mean: 0 is even texel density."""
 
     log_sd: float
     log_min: float
@@ -88,8 +88,8 @@ class _AreaBeforeBalance(TypedDict, total=False):
 
 
 class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
-    """before_balance is the same of the map before `balance`, on its outer loop: that of a call without it, unless that
-    one has faces to turn back."""
+    """before_balance is measured before `balance`, on this map's outer loop: the value of a call without balance,
+    unless that call has faces to turn back."""
 
 
 class Step(TypedDict):
@@ -106,7 +106,7 @@ class Step(TypedDict):
 
 
 class MeanOverLoops(TypedDict):
-    """Means over all loops, and over all but the outer one; 0 without any."""
+    """Means over all loops, and over the holes: all loops but the outer one; 0 without loops."""
 
     all: float
     holes: float
@@ -133,8 +133,8 @@ class Seconds(TypedDict):
 
 @dataclass(frozen=True)
 class Source:
-    """The surface that was mapped: its arrays, the polygons they were cut from, and the mesh of another package that
-    these are of, if there are any."""
+    """The mapped surface: its arrays, the polygons they were cut from, and the mesh of another package that they come
+    from, if any."""
 
     vertices: np.ndarray
     triangles: np.ndarray
@@ -144,7 +144,7 @@ class Source:
 
 
 def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any]) -> dict[str, Any]:
-    """The report with what it was made from: the arrays' hash and the options, after the version."""
+    """The report with its origin: the arrays' hash and the options, after the version."""
     digest = hashlib.sha256()
     for array, kind in ((source.vertices, "<f8"), (source.triangles, "<i4")):
         digest.update(np.ascontiguousarray(array, dtype=kind).tobytes())
@@ -153,18 +153,18 @@ def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any])
 
 
 class MapReport(Saved):
-    """What every map reports, whatever its domain.
+    """The report of every map, for any domain.
 
-    converged        False: the map is not done, and a warning says why
+    converged        False: the map is not finished, and a warning tells why
     angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say, in 64 bits
     angle_error_stored_deg    the angle error of the UVs as stored, in 32-bit floats. Faces without area count too: a
-                     corner at a side without length as a right angle
+                     corner at a side without length counts as a right angle
     lost_area        share of the surface's area in faces without a positive area as stored
     flipped, below_resolution    counts of faces, as in the command's JSON
-    flipped_faces    int32 array of the faces that `flipped` counts, rising
+    flipped_faces    int32 array of the faces that `flipped` counts, ascending
     seconds          of each stage
     peak_memory_mb   of the process
-    warnings         list of Warning: kind, elements, text. One of too much lost area comes first
+    warnings         list of Warning: kind, elements, text. A warning of too much lost area comes first
     """
 
     version: str
@@ -189,7 +189,7 @@ class MapReport(Saved):
 class UniformizeResult(MapReport):
     """A circle domain and its report.
 
-    version          of koebe that made it
+    version          of the koebe that made it
     input_sha256     of the vertices' bytes as float64 and the triangles' as int32, little-endian, row after row
     options          of the call: method, engine, outer, tolerance, ...
     uv               (V, 2) float64, points of the closed unit disk in the input's vertex order; read-only
@@ -199,15 +199,15 @@ class UniformizeResult(MapReport):
     roundness_least_squares     (L,) deviation from the circle of least squares, in radii, before the final projection
     mean_roundness   their means
     off_circle       int32 arrays: vertices of each loop that are not on its circle
-    own_circle       (L,) whether each circle is the surface's: the iteration's, and not lost in rounding
-    vertices, faces  their counts
+    own_circle       (L,) whether each circle is the surface's own: the iteration's, and not lost in rounding
+    vertices, faces  their numbers
     method, engine   as chosen
-    outer_loop       which of boundary_loops(triangles) is the outer one
-    center, point    vertices at 0 and at 1, as they were asked for, or None
+    outer_loop       number of the outer loop in boundary_loops(triangles)
+    center, point    vertices at 0 and at 1, as in the options, or None
     converged, sweeps, steps     of the iteration
-    history          one entry a step, a Step
-    step_maps        per step, if asked for: (V, 2) its own image, the first loop that it opened on the unit circle; NaN
-                     for vertices that are not in it, or that it could not place
+    history          one Step per step
+    step_maps        per step, if asked for: (V, 2) the step's image, with the first loop that it opened on the unit
+                     circle; NaN for vertices that the image lacks
     angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
     below_resolution, flipped_faces, seconds, peak_memory_mb, warnings    as in MapReport
     """
@@ -261,12 +261,12 @@ class UniformizeResult(MapReport):
 
     @property
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 that were mapped."""
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
         return self._source.vertices, self._source.triangles
 
     @cached_property
     def log_scale(self) -> np.ndarray:
-        """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN without one."""
+        """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN where there is no scale."""
         return log_scale(self._source.vertices, self._source.triangles, self.uv)
 
     @cached_property
@@ -275,8 +275,8 @@ class UniformizeResult(MapReport):
         return face_angle_error_deg(self._source.vertices, self._source.triangles, self.uv)
 
     def to_mesh(self) -> Any:
-        """The mesh that was given, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and
-        koebe_angle_error (degrees) at the faces. Raises InputError if arrays were given."""
+        """The given mesh, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and koebe_angle_error
+        (degrees) at the faces. Raises InputError if arrays were given."""
         source = self._source
         if source.mesh is None or source.polygons is None or source.polygon is None:
             raise InputError("the surface came as arrays or as a file: there is no mesh to give back")

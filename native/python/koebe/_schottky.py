@@ -1,4 +1,4 @@
-"""Maps of surfaces with handles to fundamental domains of Schottky groups, their holes round."""
+"""Maps surfaces with handles to fundamental domains of Schottky groups, with round holes."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -11,33 +11,32 @@ from ._result import Source
 from ._signatures import SchottkyOptions
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class SchottkyMap(DomainMap):
-    """A map of a surface with handles into the unit disk, cut in its UVs alone, and its report.
+    """A map of a surface with handles into the unit disk, cut in its UVs only, and its report.
 
     Circles and generators are given in the plane of z = 2 (u + i v) - 1 - i.
 
-    uv               (F, 3, 2) float64 in [0, 1]^2, u and v of each triangle's corners; read-only; 32-bit floats all
+    uv               (F, 3, 2) float64 in [0, 1]^2, u and v of each triangle's corners; read-only; all 32-bit floats
     generators       (G, 2, 2) complex128 of determinant 1, a, b; c, d of z -> (a z + b) / (c z + d), one for each
-                     handle: the pattern of the UVs goes on across a cut by it, or by its inverse
-    multipliers      (G,) complex128: by what a generator multiplies in a coordinate that is 0 and infinity at its fixed
-                     points; below 1 in size. Free of Moebius maps, as the traces of products are
+                     handle: across a cut the generator, or its inverse, continues the pattern of the UVs
+    multipliers      (G,) complex128: a generator's factor in a coordinate that is 0 and infinity at its fixed points;
+                     below 1 in size. Invariant under Moebius maps, as are the traces of products
     circles          (G, 2, 3) float64, x and y of the center and the radius of each pair: a generator takes the outside
-                     of the first circle to the inside of the second. Both are equally large where such circles keep
-                     apart; else they are others. Of an `outer` handle, of a surface without holes, the inside of the
-                     first, which is round 0, goes to that of the second
-    by_circles       whether the UVs are cut along these circles, as closely as faces can be; else along the edges of
+                     of the first circle to the inside of the second. Both are equally large if such circles are apart,
+                     otherwise not. For an `outer` handle, of a surface without holes, the first circle is round 0, and
+                     its inside goes to the inside of the second
+    by_circles       whether the UVs are cut along these circles, as closely as faces allow; else along the edges of
                      `cut`, as the circles meet each other or a hole
     handles          list of dicts, longer cuts first: generator, multiplier, circles, outer; cut, the vertices on the
-                     loop it was cut along, which may run through faces between them; misfit, by how much the two sides
-                     of the cut missed a Moebius map before they were made to fit, over their radius: an estimate of
-                     the error
-    loops            list of dicts of the holes, by falling length, the first on the unit circle (scaled where the UVs
-                     would not fit in the square): vertices; center, radius of the circle where the UVs have it, or of
-                     one of its copies if polygons tear it there; roundness, roundness_least_squares, before the
-                     projection onto it; off_circle, the vertices that are not on it
+                     loop of the cut, which may run through faces between them; misfit, by how much the two sides of the
+                     cut missed a Moebius map before they were fitted, over their radius: an estimate of the error
+    loops            list of dicts of the holes, by falling length, the first on the unit circle (scaled if the UVs
+                     would not fit in the square): vertices; center, radius of the circle in the UVs, or of one of its
+                     copies if polygons tear it there; roundness, roundness_least_squares, before the projection onto
+                     the circle; off_circle, the vertices off it
     converged, sweeps, changes    of the disks that fill the loops, in each sweep
     turned           faces turned to the orientation of the others
     angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
@@ -67,18 +66,18 @@ class SchottkyMap(DomainMap):
 
 @takes("schottky", SchottkyOptions, polygon=None, progress=None, cancel=None)
 def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[SchottkyOptions]") -> SchottkyMap:
-    """Map a surface with one handle or more, and any number of holes, conformally into the disk, its holes round.
+    """Map a surface with at least one handle, and any number of holes, conformally into the disk, with round holes.
 
-    Each handle is cut along a short loop; the two sides of a cut come to lie a Moebius map apart, so that copies of the
-    UVs continue them across every cut: they are a fundamental domain of a Schottky group.
+    Each handle is cut along a short loop. A Moebius map takes one side of a cut to the other, so that copies of the UVs
+    continue them across every cut: they are a fundamental domain of a Schottky group.
 
-    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
-                 as the mesh has them
-    progress, cancel    as of `uniformize`
+                 as in the mesh
+    progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
-    SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning says why.
+    SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning tells why.
     """
     options = _koebe.SchottkyOptions()
     return domain_map(SchottkyMap, _koebe.schottky_map, "schottky", options, given, (vertices, triangles))

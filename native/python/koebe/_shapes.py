@@ -1,6 +1,6 @@
-"""What the circles tell about a shape: its conformal module, and two domains compared or laid over each other.
+"""The shape in a surface's circles: its conformal module, and two domains compared or laid over each other.
 
-A domain here is whatever has `centers` (L, 2) and `radii` (L,), the unit circle first: a UniformizeResult, say.
+A domain here is an object with `centers` (L, 2) and `radii` (L,), the unit circle first, such as a UniformizeResult.
 """
 
 import math
@@ -17,16 +17,17 @@ from .errors import InputError, OptionError
 
 
 def _require_own_circles(domain: Any) -> None:
-    """Refuse a result with circles other than the iteration's: it has no module."""
+    """Refuse a result with circles that replaced the iteration's: it has no module."""
     if isinstance(domain, UniformizeResult):
         _koebe.require_own_circles(domain.own_circle.tolist())
 
 
 def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
-    """An order of the loops, the outer one first, that does not depend on how they are numbered.
+    """An order of the loops, the outer one first, that does not depend on their numbers.
 
-    By how near they are to the outer loop conformally. It jumps where two loops are alike, so compare shapes by
-    module_distance of two results, or give the order yourself. any_outer: the outer loop is chosen too.
+    The loops are sorted by conformal distance from the outer loop. The order jumps where two loops are alike, so
+    compare shapes by module_distance of two results, or give the order yourself.
+    any_outer: the outer loop is chosen, too.
     """
     return np.array(_koebe.canonical_order(*as_circles(result), flag(any_outer, "any_outer")), dtype=np.int32)
 
@@ -34,25 +35,25 @@ def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
 def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -> np.ndarray:
     """The conformal module of a circle domain (paper, Fig. 13): r_1, y_2, r_2, x_3, y_3, r_3, ...
 
-    order    the loops in the order wanted, the outer one, which may be any, first; None: as in the result;
+    order    the loops in the wanted order, the outer one first, which may be any loop; None: as in the result;
              'canonical': by canonical_order
     The second loop is moved to the middle of the unit disk and the third's centre onto the positive y axis. Returns
-    3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, none without: lengths in the unit disk. Equal if and only
-    if a conformal map that keeps orientation and numbering takes one surface to the other. Raises InputError, also
-    where circles are not those of the iteration, as the mesh is too coarse for them.
+    3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, 0 without holes: lengths in the unit disk. They are equal
+    if and only if a conformal map that keeps orientation and numbering takes one surface to the other. Raises
+    InputError, also if circles are not the iteration's, as the mesh is too coarse for them.
     """
     _require_own_circles(result)
     return _koebe.conformal_module(*as_circles(result), _chosen_order(result, order))
 
 
 def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None = None) -> np.ndarray:
-    """Error bars of conformal_module(result, order=order), lengths in the unit disk: what the mesh's resolution makes.
+    """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of the mesh.
 
-    The same surface is mapped on a mesh with four times as many faces, whose new vertices lie on the smooth surface
-    and the smooth rims that the mesh seems to be cut from; each bar is twice the change of its number, and the root
-    mean square of all changes. On exact domains 97 % of the errors lie within, and half of the bars are less than 5
-    times the error (docs/shapes.md). It takes about 5 times as long as the map, once for each result. Raises InputError
-    where circles are not the surface's, SolverError.
+    Maps the same surface on a mesh with four times as many faces, whose new vertices lie on the smooth surface and the
+    smooth rims that the mesh approximates. Each bar is twice the change of its number plus the root mean square of all
+    changes. On exact domains 97 % of the errors lie within the bars, and half of the bars are less than 5 times the
+    error (docs/shapes.md). Takes about 5 times as long as the map, once for each result.
+    Raises InputError if circles are not the surface's own, SolverError.
     """
     if not isinstance(result, UniformizeResult):
         raise TypeError(f"module_error takes a result of uniformize, not {type(result).__name__}")
@@ -89,7 +90,7 @@ def _chosen_order(result: Any, order: Sequence[int] | str | None) -> np.ndarray:
 
 
 def module_names(loop_count: int) -> list[str]:
-    """What the module's numbers are called: ['r_1', 'y_2', 'r_2', ...]."""
+    """The names of the module's numbers: ['r_1', 'y_2', 'r_2', ...]."""
     return _koebe.module_names(whole(loop_count, "loop_count", least=0))
 
 
@@ -107,8 +108,8 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray,
 
 
 def module_distance(a: Any, b: Any) -> float:
-    """L2 distance of two conformal modules, a length in the unit disk; of two results, that in the orders that
-    match_loops finds."""
+    """L2 distance of two conformal modules, a length in the unit disk. Two results are compared in the orders of
+    match_loops."""
     if hasattr(a, "radii") and hasattr(b, "radii"):
         return match_loops(a, b)[2]
     first, second = as_numbers(a, "the module"), as_numbers(b, "the module")
@@ -118,7 +119,7 @@ def module_distance(a: Any, b: Any) -> float:
 
 
 def mapped_surface(result: UniformizeResult) -> "_koebe.MappedSurface":
-    """The result as the native module takes it."""
+    """The result for the native module."""
     off = [np.sort(vertices).tolist() for vertices in result.off_circle]
     loops = [loop.tolist() for loop in result.loops]
     circles = result.centers, result.radii, result.own_circle.tolist()
@@ -130,10 +131,10 @@ class DomainAlignment:
 
     match       the target's loop for each of the source's
     residual    root of the mean over the holes of squared differences of centres and radii, lengths in the disk
-    largest, worst    the largest of them and its hole
-    misses      (L,) each loop's, in lengths of the disk: root of the squared differences of centre and radius
-    misses_in_radii    the same in radii of the source's loop: what is small in the disk may be large for a small hole
-    converged   whether no step made the residual smaller
+    largest, worst    the largest such root over the holes, and its hole
+    misses      (L,) of each loop, in lengths of the disk: root of the squared differences of centre and radius
+    misses_in_radii    the same in radii of the source's loop: a small miss in the disk may be large for a small hole
+    converged   whether the last step could not make the residual smaller
     """
 
     def __init__(self, native: "_koebe.DomainAlignment", radii: np.ndarray) -> None:
@@ -159,8 +160,8 @@ class DomainAlignment:
 def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
     """The automorphism of the unit disk that takes the target's circles nearest to the source's, by least squares.
 
-    match    the target's loop for each of the source's, 0 for 0; None: as match_loops finds them
-    With one hole the circles leave the rotation free, and without a hole everything: the free part is the identity's.
+    match    the target's loop for each of the source's, 0 for 0; None: by match_loops
+    With one hole the circles leave the rotation free, without holes everything: the free part is the identity's.
     Lengths are in the unit disk.
     """
     a, b = as_circles(source), as_circles(target)

@@ -1,4 +1,4 @@
-"""The options of the maps as type checkers know them: those of the table, options.json (tests hold them together)."""
+"""The options of the maps for type checkers, equal to the table options.json (tests compare them)."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, TypedDict
@@ -9,27 +9,27 @@ Progress = Callable[[float, str], Any]
 
 
 class RunOptions(TypedDict, total=False):
-    """Of each call that takes a while."""
+    """Options of each call that takes a while."""
 
     progress: Progress | None
     cancel: "_koebe.CancelToken | None"
 
 
 class MapOptions(TypedDict, total=False):
-    """Of all maps."""
+    """Options of all maps."""
 
     most_lost: float
 
 
 class SweepOptions(MapOptions, total=False):
-    """Of all maps that iterate."""
+    """Options of all maps that iterate."""
 
     tolerance: float
     max_sweeps: int
 
 
 class SequenceOptions(SweepOptions, total=False):
-    """Of `Surface`."""
+    """Options of `Surface`."""
 
     method: str
     outer: str | int
@@ -42,7 +42,7 @@ class SequenceOptions(SweepOptions, total=False):
 
 
 class UniformizeOptions(SequenceOptions, RunOptions, total=False):
-    """Of `uniformize`, but for `cut`."""
+    """Options of `uniformize`, except `cut`."""
 
     engine: str
     even: float
@@ -55,20 +55,20 @@ class UniformizeOptions(SequenceOptions, RunOptions, total=False):
 
 
 class TileOptions(SweepOptions, RunOptions, total=False):
-    """Of all maps but that to the disk."""
+    """Options of all maps but the map to the disk."""
 
     polygon: Any
 
 
 class TorusOptions(TileOptions, total=False):
-    """Of `torus_map`."""
+    """Options of `torus_map`."""
 
     even: float
     loops: str
 
 
 class RingOptions(TorusOptions, total=False):
-    """Of `ring_map`."""
+    """Options of `ring_map`."""
 
     outer: int | None
     inner: int | None
@@ -76,22 +76,23 @@ class RingOptions(TorusOptions, total=False):
 
 
 class SphereOptions(TileOptions, total=False):
-    """Of `sphere_map`."""
+    """Options of `sphere_map`."""
 
     layout: str
 
 
 class SchottkyOptions(TileOptions, total=False):
-    """Of `schottky_map`."""
+    """Options of `schottky_map`."""
 
     normalization: str
 
 
 class PartsOptions(MapOptions, RunOptions, total=False):
-    """Of `parts`."""
+    """Options of `parts`."""
 
     even: float | None
     loops: str
+    darts: float
     price: float | None
     cut: bool
     round_cuts: bool

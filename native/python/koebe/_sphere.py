@@ -1,4 +1,4 @@
-"""The map of a surface without handles to the sphere, its holes round caps."""
+"""Maps surfaces without handles to the sphere, with round caps as holes."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -11,33 +11,33 @@ from ._result import Source
 from ._signatures import SphereOptions
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class SphereMap(DomainMap):
     """A map to the unit sphere, its UVs, and its report.
 
     points           (V, 3) float64, unit vectors in the order of the vertices; read-only; seen from outside the faces
-                     are counter-clockwise as on the surface; vertices of no face are at (0, 0, 1)
+                     are counter-clockwise as on the surface; unused vertices are at (0, 0, 1)
     caps             (L, 4) float64 of the holes: a unit vector to the middle, and the radius as an angle in radians
-    uv               (F, 3, 2) float64, u and v of each triangle's corners; read-only; 32-bit floats all, cut in the UVs
-                     alone. Across the cut the pattern continues: equirectangular with the period 1 along u, u in
+    uv               (F, 3, 2) float64, u and v of each triangle's corners; read-only; all 32-bit floats, cut in the UVs
+                     only. Across the cut the pattern continues: equirectangular with the period 1 along u, u in
                      [0, 2); octahedral with half turns round the middles of the square's sides, u and v in [-1, 2].
-                     Triangles of a polygon lie side by side, if need be farther out, up to 2 from 0
-    layout           dict: kind; crossing, the faces that go on beyond the layout's edge; torn, those round a pole of
-                     the longitudes or round the middle of a side of the square, which fit to no UVs; flipped, those
-                     without a positive area in 32-bit UVs; below_resolution, those of them too small for these
+                     Triangles of a polygon lie side by side, if necessary farther out, up to 2 from 0
+    layout           dict: kind; crossing, the faces that go beyond the layout's edge; torn, the faces round a pole or
+                     round the middle of a side of the square, which no UVs fit; flipped, the faces without a positive
+                     area in 32-bit UVs; below_resolution, the flipped faces that are too small for 32-bit UVs
     loops            list of dicts, by falling length: vertices, center, radius (of the cap), roundness,
                      roundness_least_squares, off_circle
-    mean_point       length of the mean of the surface's points by area, 0 where the map is balanced
+    mean_point       length of the mean of the surface's points by area, 0 if the map is balanced
     converged, sweeps, changes    of the circles, or of the points of a closed surface, in each sweep
     turned           faces turned to the orientation of the others
     angle_error_deg, beltrami, area_distortion, conformal_energy    as in MapReport, of the flat faces between the
                      points
-    angle_error_stored_deg, lost_area, flipped, below_resolution, flipped_faces    as in MapReport, of the UVs, where a
-                     torn face counts as it lies
+    angle_error_stored_deg, lost_area, flipped, below_resolution, flipped_faces    as in MapReport, of the UVs; a torn
+                     face counts as it lies
     on_sphere        dict of counts: flipped, faces that are not upright on the sphere in exact arithmetic;
-                     below_resolution, those of them that are smaller than what 64-bit coordinates resolve there
+                     below_resolution, those that are smaller than the resolution of 64-bit coordinates there
     seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
     """
 
@@ -63,17 +63,17 @@ class SphereMap(DomainMap):
 
 @takes("sphere", SphereOptions, polygon=None, progress=None, cancel=None)
 def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOptions]") -> SphereMap:
-    """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, its holes round.
+    """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, with round holes.
 
-    Of all such maps this is the one with the least area distortion: the mean over the surface of the log of area on the
-    surface over area on the sphere. It is turned as the surface is.
+    Of all such maps this one has the least area distortion: the mean over the surface of the log of area on the surface
+    over area on the sphere. It is rotated like the surface.
 
-    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, whose corners have one UV each. None: each by
-                 itself, or as the mesh has them
-    progress, cancel    as of `uniformize`
+                 itself, or as in the mesh
+    progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: handles), SolverError, Cancelled, or
-    MemoryError. A map that is not one to one has converged = False, and a warning says why.
+    MemoryError. A map that is not one to one has converged = False, and a warning tells why.
     """
     return domain_map(SphereMap, _koebe.sphere_map, "sphere", _koebe.SphereOptions(), given, (vertices, triangles))

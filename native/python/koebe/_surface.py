@@ -1,4 +1,4 @@
-"""Many maps of one surface whose vertices move."""
+"""Maps a surface many times while its vertices move."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -14,17 +14,17 @@ from ._signatures import Progress, SequenceOptions
 from .errors import InputError
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class Surface:
     """A surface that is mapped again and again: an animation, a sculpting stroke, scans of one topology.
 
-    Topology, the order of elimination and the outer loop are found once; each map begins at the angles that the last
-    ones forecast. Up to an automorphism of the disk its circles are those that uniformize gives for the same positions
-    and outer loop: after a large move to rounding; after a small one, for which the last triangulation is kept, up to
-    what the mesh resolves (docs/labs.md has figures). Of the freedom that the options leave, as much as there is goes
-    into laying the loops over those of the first map, so that a texture stays in its place.
+    Topology, the order of elimination and the outer loop are found once. Each map starts at angles forecast from the
+    last maps. Up to an automorphism of the disk its circles are those of uniformize for the same positions and outer
+    loop: after a large move to rounding; after a small move, which keeps the last triangulation, up to the mesh's
+    resolution (docs/labs.md has figures). The freedom that the options leave is used to lay the loops over those of the
+    first map, so that a texture stays in its place.
 
     vertices, triangles, or a mesh of another package, and the options: as for uniformize. With outer='auto' or
     'longest' the first positions choose the outer loop, with balance='area' the first map does.
@@ -41,9 +41,9 @@ class Surface:
     def uniformize(
         self, vertices: Any = None, *, progress: Progress | None = None, cancel: "_koebe.CancelToken | None" = None
     ) -> UniformizeResult:
-        """The map with the vertices elsewhere.
+        """Map the surface with its vertices at new positions.
 
-        vertices   (V, 3) new positions, or a whole surface with the same faces; None: those the surface was made of
+        vertices   (V, 3) new positions, or a whole surface with the same faces; None: the surface's first positions
         progress, cancel   as for uniformize. After a cancel or an error the next map takes as long as a first one
         Calls of several threads wait for each other. Raises InputError, SolverError, Cancelled, or MemoryError.
         """
@@ -51,7 +51,7 @@ class Surface:
         source = self._source if vertices is None else self._moved(vertices)
         native = self._native.uniformize(source.vertices, progress, cancel)
         report = native.report()
-        # Other positions might choose another outer loop: with this one uniformize makes the map again.
+        # Other positions might choose another outer loop: this one makes uniformize repeat the map.
         options = {**self._options, "outer": int(report["loops"][0]["vertices"][0])}
         report = with_origin(report, source, options)
         return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
@@ -71,7 +71,7 @@ class Surface:
 
 
 def _faces(source: Source) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices at the corners of the polygons, and where each polygon begins."""
+    """Vertices at the corners of the polygons, and the first corner of each polygon."""
     if source.polygons is not None:
         return source.polygons.corners, source.polygons.begin
     return source.triangles.ravel(), np.arange(0, source.triangles.size + 1, 3)

@@ -1,4 +1,4 @@
-"""Maps to a flat torus and to a cylinder: UVs that are one tile, whose copies continue them."""
+"""Maps to a flat torus and to a cylinder: the UVs are one tile, whose copies continue them."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -11,23 +11,23 @@ from ._result import Source
 from ._signatures import RingOptions, TorusOptions
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack  # of typing itself from Python 3.11 on
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class TileMap(DomainMap):
-    """A map to a flat torus or a cylinder, cut in its UVs alone, and its report.
+    """A map to a flat torus or a cylinder, cut in its UVs only, and its report.
 
-    uv               (F, 3, 2) float64 in [0, 1]^2, u and v of each triangle's corners; read-only; 32-bit floats all:
+    uv               (F, 3, 2) float64 in [0, 1]^2, u and v of each triangle's corners; read-only; all 32-bit floats:
                      across the cut the two sides differ by whole multiples of the periods, to the last bit
-    periods          (2, 2) float64, u and v of the torus's two; (1, 2) of the cylinder's, along u
-    modulus          complex: of a torus the ratio of the periods, |Re| <= 1/2 and at least 1 in size; of a ring i times
-                     its height over its period, log(R / r) / 2 pi
-    loops            list of dicts: vertices, rim (of a ring's two rims), off_circle; of a torus center and radius of
-                     its circle in UVs (one of its copies), of a ring with holes='circles' those in the unit disk, both
-                     with roundness; with slits the two ends of the slit in UVs
+    periods          (2, 2) float64, u and v of the torus's two periods; (1, 2) for a cylinder, along u
+    modulus          complex: for a torus the ratio of the periods, |Re| <= 1/2 and at least 1 in size; for a ring i
+                     times its height over its period, log(R / r) / 2 pi
+    loops            list of dicts: vertices, rim (for a ring's two rims), off_circle; for a torus center and radius of
+                     its circle in UVs (one of its copies), for a ring with holes='circles' in the unit disk, both
+                     with roundness; for slits the two ends of the slit in UVs
     converged, sweeps, changes    of the circles in each sweep
     turned           faces turned to the orientation of the others
-    cut_length       of the cut in the UVs, over the root of the surface's area
+    cut_length       of the cut in the UVs, over the square root of the surface's area
     angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
     below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
     """
@@ -47,31 +47,31 @@ class TileMap(DomainMap):
 
 @takes("torus", TorusOptions, polygon=None, progress=None, cancel=None)
 def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOptions]") -> TileMap:
-    """Map a surface with one handle, and any number of holes, conformally to a flat torus, its holes round.
+    """Map a surface with one handle, and any number of holes, conformally to a flat torus, with round holes.
 
-    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
-                 as the mesh has them
-    progress, cancel    as of `uniformize`
+                 as in the mesh
+    progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
-    MemoryError. A map that is not one to one has converged = False, and a warning says why.
+    MemoryError. A map that is not one to one has converged = False, and a warning tells why.
     """
     return domain_map(TileMap, _koebe.torus_map, "torus", _koebe.TileOptions(), given, (vertices, triangles))
 
 
 @takes("ring", RingOptions, polygon=None, progress=None, cancel=None)
 def ring_map(vertices: Any, triangles: Any = None, **given: "Unpack[RingOptions]") -> TileMap:
-    """Map a surface of genus 0 with two loops and more conformally to a cylinder and unroll it.
+    """Map a surface of genus 0 with at least two loops conformally to a cylinder and unroll it.
 
-    Two loops become the rims, straight lines along u; v runs from the outer one to the inner one. The map's copies
+    Two loops become the rims, straight lines along u; v runs from the outer rim to the inner one. Copies of the map
     along u continue it.
 
-    vertices, triangles    as of `uniformize`, or a mesh of another package in place of both
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}
-    polygon      as of `torus_map`
-    progress, cancel    as of `uniformize`
+    polygon      as for `torus_map`
+    progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
-    not one to one has converged = False, and a warning says why.
+    not one to one has converged = False, and a warning tells why.
     """
     return domain_map(TileMap, _koebe.ring_map, "ring", _koebe.TileOptions(), given, (vertices, triangles))

@@ -1,4 +1,4 @@
-"""Points of one surface on another, through their circle domains."""
+"""Takes points of one surface to another, through their circle domains."""
 
 import dataclasses
 import warnings
@@ -21,17 +21,17 @@ from .errors import InputError
 class Correspondence:
     """A point of surface a for each vertex of surface b.
 
-    faces       (V_b,) int32 triangle of a that it lies in
-    weights     (V_b, 3) its barycentric coordinates there: at least 0, of sum 1
-    points      (V_b, 3) the same in space, in a's unit
-    distances   (V_b,) how far outside a's domain b's vertex was before it was put to the nearest point, disk lengths
-    alignment   of a's domain over b's: which loops correspond, and by how much the holes miss
-    fitted      whether the holes were then bent onto each other; False where that would have turned faces over
-    uv          (V_a, 2) a's domain as it was laid over b's; with landmarks inside faces, those are cut there, and the
-                map is linear in the pieces
-    beltrami    |mu| of the bending of a's aligned domain, mean and max over the faces, dimensionless: 0 without any
+    faces       (V_b,) int32 triangle of a that holds the point
+    weights     (V_b, 3) its barycentric coordinates there: at least 0, sum 1
+    points      (V_b, 3) the point in space, in a's unit
+    distances   (V_b,) how far outside a's domain b's vertex was before it took the nearest point, disk lengths
+    alignment   of a's domain over b's: the corresponding loops, and by how much the holes miss
+    fitted      whether the holes were then bent onto each other; False if that would have turned faces over
+    uv          (V_a, 2) a's domain as laid over b's; with landmarks inside faces, the faces are cut there, and the map
+                is linear in the pieces
+    beltrami    |mu| of the bending of a's aligned domain, mean and max over the faces, dimensionless: 0 without bending
     flipped     faces that the bending has turned over: 0
-    warnings    list of Warning: 'not_fitted' where fit=True and the holes could not be bent onto each other
+    warnings    list of Warning: 'not_fitted' if fit=True and the holes could not be bent onto each other
     """
 
     faces: np.ndarray
@@ -90,23 +90,23 @@ def transfer(
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
 ) -> Correspondence | np.ndarray:
-    """What surface a has at the points that correspond to the vertices of surface b, with as many loops.
+    """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
-    a's circle domain is laid over b's by the automorphism of the disk that brings the holes nearest (align_domains).
-    fit=True then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, no
-    face turns over, but it is quasi-conformal where the holes differ.
-    field      (V_a,) or (V_a, k) at a's vertices: its values at b's vertices, (V_b,) or (V_b, k) float64, are returned
-               None: the Correspondence itself
-    match      a's loop for each of b's, 0 for 0; None: as match_loops finds them, or, with landmarks and up to five
-               holes, as it brings circles and landmarks nearest
-    landmarks  pairs (on a, on b) that shall correspond: each a vertex, or a point (x, y, z), in the surface's unit,
-               which stands for the nearest of the surface. Then the domain is bent further, circles to circles. Of the
-               maps that take landmarks to landmarks exactly and turn no face over it is the one with the least fourth
-               power of |mu| over the surface. On a rim landmarks are vertices of both
-    Holes that could not be bent onto each other are a RuntimeWarning too. Without a hole, or with one, landmarks also
+    The automorphism of the disk that brings the holes nearest lays a's circle domain over b's (align_domains). fit=True
+    then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, and no face
+    turns over, but it is quasi-conformal where the holes differ.
+    field      (V_a,) or (V_a, k) at a's vertices: returns its values at b's vertices, (V_b,) or (V_b, k) float64
+               None: returns the Correspondence itself
+    match      a's loop for each of b's, 0 for 0; None: by match_loops or, with landmarks and up to five holes, the
+               match that brings circles and landmarks nearest
+    landmarks  pairs (on a, on b) that must correspond. Each is a vertex, or a point (x, y, z) in the surface's unit,
+               which stands for the nearest point of the surface. Then the domain is bent further, circles to circles.
+               Of the maps that take landmarks to landmarks exactly and turn no face over, it takes the one with the
+               least fourth power of |mu| over the surface. On a rim landmarks are vertices of both
+    Holes that could not be bent onto each other give a RuntimeWarning, too. Without a hole, or with one, landmarks also
     choose the automorphism of the disk: the one that brings them nearest.
-    Raises InputError, also where circles are not those of the surface and for landmarks that exclude each other, and
-    SolverError where no such map was found: `elements` are the landmarks, by their places in the list.
+    Raises InputError, also if circles are not the surface's own and for landmarks that exclude each other, and
+    SolverError if no such map was found: `elements` are the landmarks, by their places in the list.
     """
     for result in (a, b):
         if not isinstance(result, UniformizeResult):
@@ -134,7 +134,7 @@ def _pairs(landmarks: Any) -> list[Any]:
 
 
 def _places(result: UniformizeResult, points: list[Any]) -> "list[_koebe.SurfacePoint]":
-    """Where vertices and points lie on the surface."""
+    """The places of vertices and points on the surface."""
     if not points:
         return []
     numbers, positions = np.full(len(points), -1, np.int32), np.zeros((len(points), 3))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 class KoebeError(Exception):
     """Base of all errors.
 
-    elements   what offends, by number; edges by the two vertices of each
+    elements   the offending elements, by number; edges by their two vertices
     of         what the elements are: "vertices", "faces", "edges", "loops", "landmarks" or "none"
     """
 
@@ -17,7 +17,7 @@ class KoebeError(Exception):
 
 
 class InputError(KoebeError):
-    """The arrays are no mesh: shape, dtype, index range, NaN or infinity."""
+    """The arrays are not a mesh: shape, dtype, index range, NaN or infinity."""
 
 
 class OptionError(InputError, ValueError):
@@ -25,7 +25,7 @@ class OptionError(InputError, ValueError):
 
 
 class TopologyError(KoebeError):
-    """The mesh is no connected, orientable surface of genus 0 with boundary.
+    """The mesh is not a connected, orientable surface of genus 0 with boundary.
 
     ``kind`` is closed, genus, nonmanifold_edge, nonmanifold_vertex, nonorientable or disconnected.
     """

@@ -1,4 +1,4 @@
-// In place of the C++ runtime's own functions: the linker takes these, and leaves the runtime's out.
+// Replaces functions of the C++ runtime: the linker takes these and leaves the runtime's out.
 #include "bundle/exception_memory.h"
 
 namespace __cxxabiv1 {

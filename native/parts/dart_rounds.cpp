@@ -1,0 +1,264 @@
+#include "parts/dart_rounds.h"
+
+#include "execution/side_by_side.h"
+#include "parts/darts.h"
+#include "relax/even_forces.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr int most_dart_rounds = 8;
+constexpr EvenEffort trial_effort{4, 2};
+constexpr double least_surplus = 0.02;   // of a part's energy: what the darts of one round must promise
+constexpr double reach_of_darts = 0.25;  // on the surface, in roots of its area: what a dart changes
+constexpr double refused_around = 0.06;  // a dart's tip, if the dart did not pay
+
+constexpr double coarse_grid = 1 << 21;  // points in the unit square: an eighth of those of 32-bit floats
+
+using Edge = std::pair<Index, Index>;
+
+Edge edge_of(Index a, Index b) { return std::minmax(a, b); }
+
+/// The place of an edge that is no seam: a part and its half-edge.
+struct EdgePlace {
+    std::size_t part;
+    Index halfedge;
+};
+
+class DartRounds {
+public:
+    DartRounds(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)
+        : parts_(parts), refused_(parts.size()), even_(even), price_(price), threads_(threads), context_(context)
+    {
+        for (const HeldPart& part : parts) is_mirrored_ = is_mirrored_ || !part.flat.image.empty();
+    }
+
+    /// @return whether any darts were tried
+    bool round()
+    {
+        trials_.assign(parts_.size(), {});
+        for_each_part([&](std::size_t k, ExecutionContext&) {
+            refused_[k].resize(static_cast<std::size_t>(parts_[k].flat.points.rows()), 0);
+            trials_[k].darts = promising_darts(parts_[k].flat, even_, price_, refused_[k]);
+            double surplus = 0.0;
+            for (const Dart& dart : trials_[k].darts) surplus += dart.gain - dart.cost;
+            if (surplus < least_surplus * energies(parts_[k].flat).sum()) trials_[k].darts.clear();
+        });
+        if (is_mirrored_) pair_images();
+        if (std::ranges::all_of(trials_, [](const Trial& trial) { return trial.darts.empty(); })) return false;
+        for_each_part([&](std::size_t k, ExecutionContext& own) { open(k, own); });
+        const std::vector<std::vector<char>> pays = paying();
+        for_each_part([&](std::size_t k, ExecutionContext& own) { keep(k, pays[k], own); });
+        return true;
+    }
+
+private:
+    struct Trial {
+        std::vector<Dart> darts;
+        std::vector<std::pair<std::size_t, std::size_t>> image;  ///< part and place of each dart's; empty: of no mirror
+        std::optional<HeldPart> opened;                          ///< none if the darts cannot be opened
+        std::vector<double> gain;
+    };
+
+    template <typename Visit>
+    void for_each_part(Visit visit)
+    {
+        side_by_side(parts_.size(), threads_, context_, visit);
+    }
+
+    VectorXd energies(const FlatPart& flat) const
+    {
+        return even_forces(flat.vertices, flat.surface.triangles, flat.points, even_).energy;
+    }
+
+    void open(std::size_t k, ExecutionContext& context)
+    {
+        Trial& trial = trials_[k];
+        if (trial.darts.empty()) return;
+        HeldPart part = parts_[k];
+        const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, reach_of_darts);
+        const VectorXd before = energies(part.flat);
+        if (!open_darts(part.flat, trial.darts)) return;
+        FlatPart& flat = part.flat;
+        if (!make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, part.round}, even_,
+                       packed_side, context, trial_effort)
+                 .moved)
+            return;
+        if (!survives_storing(flat)) return;
+        const VectorXd released = before - energies(flat);
+        trial.gain.assign(trial.darts.size(), 0.0);
+        for (std::size_t f = 0; f < nearest.size(); ++f)
+            if (nearest[f] >= 0) trial.gain[nearest[f]] += released[static_cast<Eigen::Index>(f)];
+        trial.opened = std::move(part);
+    }
+
+    /// (parts, darts) 1 for those that pay, with their images.
+    std::vector<std::vector<char>> paying() const
+    {
+        const auto surplus = [&](std::size_t k, std::size_t i) {
+            return trials_[k].gain.empty() ? -trials_[k].darts[i].cost : trials_[k].gain[i] - trials_[k].darts[i].cost;
+        };
+        std::vector<std::vector<char>> pays(trials_.size());
+        for (std::size_t k = 0; k < trials_.size(); ++k)
+            for (std::size_t i = 0; i < trials_[k].darts.size(); ++i) {
+                bool opens = trials_[k].opened.has_value();
+                double sum = surplus(k, i);
+                if (!trials_[k].image.empty()) {
+                    const auto [other, place] = trials_[k].image[i];
+                    opens = opens && trials_[other].opened.has_value();
+                    sum = sum + surplus(other, place);
+                }
+                pays[k].push_back(opens && sum > 0.0);
+            }
+        return pays;
+    }
+
+    void keep(std::size_t k, const std::vector<char>& pays, ExecutionContext& context)
+    {
+        Trial& trial = trials_[k];
+        std::vector<Dart> kept;
+        for (std::size_t i = 0; i < pays.size(); ++i) {
+            if (pays[i])
+                kept.push_back(trial.darts[i]);
+            else
+                refuse(k, trial.darts[i].vertices.front());
+        }
+        if (kept.empty()) return;
+        if (kept.size() < trial.darts.size()) {
+            trial.darts = std::move(kept);
+            trial.opened.reset();
+            open(k, context);
+        }
+        if (trial.opened) parts_[k] = std::move(*trial.opened);
+    }
+
+    void refuse(std::size_t k, Index tip)
+    {
+        const Vertices& vertices = parts_[k].flat.vertices;
+        for (std::size_t v = 0; v < refused_[k].size(); ++v)
+            if ((vertices.row(static_cast<Eigen::Index>(v)) - vertices.row(tip)).norm() < refused_around)
+                refused_[k][v] = 1;
+    }
+
+    /// Leaves of the promising darts those that have an image, in this part or another, and adds the images. Of two
+    /// that are in each other's way the one of the earlier part, or of more promise, stays.
+    void pair_images()
+    {
+        std::map<Edge, EdgePlace> places;
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            const FlatPart& flat = parts_[k].flat;
+            if (flat.image.empty()) continue;
+            for (Index h = 0; h < static_cast<Index>(flat.surface.triangles.size()); ++h)
+                if (flat.surface.twin[h] > h)
+                    places.emplace(edge_of(flat.original[origin(flat.surface.triangles, h)],
+                                           flat.original[target(flat.surface.triangles, h)]),
+                                   EdgePlace{k, h});
+        }
+        std::vector<Trial> paired(trials_.size());
+        std::vector<std::vector<char>> taken(trials_.size());
+        for (std::size_t k = 0; k < trials_.size(); ++k)
+            taken[k].assign(static_cast<std::size_t>(parts_[k].flat.points.rows()), 0);
+        const auto is_free = [&](std::size_t k, const Dart& dart) {
+            return std::ranges::none_of(dart.vertices, [&](Index v) { return taken[k][v] != 0; });
+        };
+        const auto add = [&](std::size_t k, const Dart& dart) {
+            for (const Index v : dart.vertices) taken[k][v] = 1;
+            paired[k].darts.push_back(dart);
+            return paired[k].darts.size() - 1;
+        };
+        for (std::size_t k = 0; k < trials_.size(); ++k)
+            for (const Dart& dart : trials_[k].darts) {
+                if (parts_[k].flat.image.empty()) {
+                    add(k, dart);
+                    continue;
+                }
+                if (!is_free(k, dart)) continue;
+                const auto found = image_of(k, dart, places);
+                if (!found) continue;
+                const auto& [other, image] = *found;
+                if (other == k && image.vertices == dart.vertices) {
+                    const std::size_t i = add(k, dart);
+                    paired[k].image.emplace_back(k, i);
+                    continue;
+                }
+                const bool touch = other == k && std::ranges::any_of(image.vertices, [&](Index v) {
+                                       return std::ranges::count(dart.vertices, v) > 0;
+                                   });
+                if (touch || !is_free(other, image)) continue;
+                const std::size_t i = add(k, dart), j = add(other, image);
+                paired[k].image.resize(paired[k].darts.size());
+                paired[other].image.resize(paired[other].darts.size());
+                paired[k].image[i] = {other, j};
+                paired[other].image[j] = {k, i};
+            }
+        trials_ = std::move(paired);
+    }
+
+    std::optional<std::pair<std::size_t, Dart>> image_of(std::size_t k, const Dart& dart,
+                                                         const std::map<Edge, EdgePlace>& places) const
+    {
+        const FlatPart& flat = parts_[k].flat;
+        std::size_t other = parts_.size();
+        Dart image = dart;
+        image.halfedges.clear();
+        image.vertices.clear();
+        const auto number = [&](Index v) { return flat.image[v]; };
+        for (std::size_t i = 0; i + 1 < dart.vertices.size(); ++i) {
+            const Index a = number(dart.vertices[i]), b = number(dart.vertices[i + 1]);
+            const auto found = places.find(edge_of(a, b));
+            if (found == places.end() || (i > 0 && found->second.part != other)) return {};
+            other = found->second.part;
+            const FlatPart& there = parts_[other].flat;
+            const Index h = found->second.halfedge;
+            const Index from = origin(there.surface.triangles, h), to = target(there.surface.triangles, h);
+            const bool along = there.original[from] == a;
+            if (i == 0) image.vertices.push_back(along ? from : to);
+            if (image.vertices.back() != (along ? from : to)) return {};  // beside another side of a cut
+            image.vertices.push_back(along ? to : from);
+            image.halfedges.push_back(h);
+        }
+        if (!is_dart_of(parts_[other].flat, image)) return {};
+        return std::make_pair(other, std::move(image));
+    }
+
+    /// From inside to a rim that is not held.
+    static bool is_dart_of(const FlatPart& flat, const Dart& dart)
+    {
+        const std::vector<char> outside = boundary_mask(flat.surface);
+        for (std::size_t i = 0; i < dart.vertices.size(); ++i) {
+            const Index v = dart.vertices[i];
+            if (flat.held[v] || (outside[v] != 0) != (i + 1 == dart.vertices.size())) return false;
+        }
+        return true;
+    }
+
+    std::vector<HeldPart>& parts_;
+    std::vector<std::vector<char>> refused_;
+    std::vector<Trial> trials_;
+    double even_, price_;
+    int threads_;
+    ExecutionContext& context_;
+    bool is_mirrored_ = false;
+};
+
+}  // namespace
+
+bool survives_storing(const FlatPart& flat)
+{
+    const PlanarPoints uv = (flat.points.rowwise() - flat.points.colwise().minCoeff()) / packed_side;
+    return loops_apart(flat, (uv.array() * coarse_grid).round() / coarse_grid);
+}
+
+void cut_darts(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)
+{
+    DartRounds rounds(parts, even, price, threads, context);
+    for (int i = 0; i < most_dart_rounds; ++i)
+        if (!rounds.round()) return;
+}
+
+}  // namespace koebe

@@ -1,0 +1,306 @@
+#include "parts/darts.h"
+
+#include "core/errors.h"
+#include "cut/edge_graph.h"
+#include "planar/boundary_crossings.h"
+#include "planar/planar_predicates.h"
+#include "relax/even_forces.h"
+#include "relax/even_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr std::size_t most_darts = 16;  // at once
+constexpr double apart_by = 0.12;       // tips, in roots of the surface's area,
+constexpr double apart_in_part = 0.25;  // or of the part's, whichever is less
+constexpr double longest = 0.5;         // of a dart, in roots of the surface's area
+constexpr double price_of_one = 0.03;   // of a new dart, as a length
+constexpr double first_gap = 0.05;      // between the sides of a dart, over the least height of a face beside it
+
+Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
+
+SeamedMesh seamed(const FlatPart& flat)
+{
+    const Triangles& triangles = flat.surface.triangles;
+    SeamedMesh mesh;
+    mesh.corners = mesh.fans = triangles;
+    mesh.face.resize(static_cast<std::size_t>(triangles.rows()));
+    std::iota(mesh.face.begin(), mesh.face.end(), 0);
+    mesh.turned.assign(mesh.face.size(), 0);
+    mesh.twin = flat.surface.twin;
+    mesh.fan_count = flat.surface.vertex_count;
+    const Index count = mesh.halfedge_count();
+    for (Index h = 0; h < count; ++h) {
+        const Index a = origin(triangles, h), b = target(triangles, h), t = mesh.twin[h];
+        mesh.length.push_back((flat.vertices.row(a) - flat.vertices.row(b)).norm());
+        const bool within =
+            t != no_twin && !flat.polygon.empty() && flat.polygon[face_of(h)] == flat.polygon[face_of(t)];
+        const bool held = !flat.held.empty() && (flat.held[a] || flat.held[b]);
+        mesh.whole.push_back(t == no_twin || within || held);
+    }
+    return mesh;
+}
+
+/// The way to the boundary from a vertex. @return none for a vertex on it, or from which none leads there
+Dart way_out(const Triangles& triangles, const PathTree& tree, Index tip)
+{
+    Dart dart;
+    dart.halfedges = tree.path(tip);
+    dart.length = tree.distance[tip];
+    dart.vertices.push_back(tip);
+    for (const Index h : dart.halfedges) {
+        const Index a = origin(triangles, h), b = target(triangles, h);
+        dart.vertices.push_back(a == dart.vertices.back() ? b : a);
+    }
+    return dart;
+}
+
+/// By how much the two sides of a path are pulled apart.
+class Tension {
+public:
+    Tension(const FlatPart& flat, const EvenForces& forces)
+        : flat_(flat),
+          forces_(forces),
+          whole_(VectorXcd::Zero(flat.points.rows())),
+          leaving_(flat.points.rows(), no_twin)
+    {
+        const Triangles& triangles = flat.surface.triangles;
+        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
+            whole_[origin(triangles, h)] += forces.pull[face_of(h)][h % 3];
+            leaving_[origin(triangles, h)] = h;
+        }
+    }
+
+    double along(const Dart& dart) const
+    {
+        double sum = 0.0;
+        const std::vector<Index>& path = dart.vertices;
+        for (std::size_t i = 1; i < path.size(); ++i) {
+            const Index before = i + 1 < path.size() ? path[i + 1] : -1;
+            const Complex left = pull_of_left(path[i], path[i - 1], before);
+            const Complex way = place(flat_.points, path[i - 1]) - place(flat_.points, before >= 0 ? before : path[i]);
+            const double length = distance(way, 0.0);
+            if (length > 0.0) sum += dot(2.0 * left - whole_[path[i]], Complex(0.0, 1.0) * way / length);
+        }
+        return 0.5 * sum;
+    }
+
+private:
+    /// Of the faces from the edge to one neighbour counter-clockwise to that to another one, or to the boundary.
+    Complex pull_of_left(Index v, Index from, Index to) const
+    {
+        const Triangles& triangles = flat_.surface.triangles;
+        Complex sum = 0.0;
+        Index h = leaving_[v];
+        const Index first = h;
+        while (target(triangles, h) != from) {  // clockwise, and from the boundary on from its other end
+            const Index t = flat_.surface.twin[h];
+            h = t == no_twin ? last_counter_clockwise(h) : next_halfedge(t);
+            if (h == first) return 0.5 * whole_[v];
+        }
+        while (true) {
+            sum += forces_.pull[face_of(h)][h % 3];
+            const Index back = previous_halfedge(h);
+            if (origin(triangles, back) == to || flat_.surface.twin[back] == no_twin) return sum;
+            h = flat_.surface.twin[back];
+            if (target(triangles, h) == from) return sum;
+        }
+    }
+    Index last_counter_clockwise(Index h) const
+    {
+        while (flat_.surface.twin[previous_halfedge(h)] != no_twin) h = flat_.surface.twin[previous_halfedge(h)];
+        return h;
+    }
+
+    const FlatPart& flat_;
+    const EvenForces& forces_;
+    VectorXcd whole_;             // (V) of all faces round a vertex
+    std::vector<Index> leaving_;  // (V) a half-edge from each vertex
+};
+
+/// A vertex between its neighbours on the boundary, the surface on the left, moved into the surface.
+Complex drawn_in(const PlanarPoints& points, Index before, Index v, Index after, double by)
+{
+    const Complex out = place(points, after) - place(points, v), in = place(points, before) - place(points, v);
+    if (out == 0.0 || in == 0.0) return place(points, v);
+    double angle = std::arg(in / out);
+    if (angle <= 0.0) angle += 2.0 * std::numbers::pi;
+    return place(points, v) + std::polar(by, std::arg(out) + 0.5 * angle);
+}
+
+/// (V) the least height of the faces round each vertex.
+VectorXd least_heights(const FlatPart& flat)
+{
+    VectorXd least = VectorXd::Constant(flat.points.rows(), std::numeric_limits<double>::infinity());
+    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) {
+        const CornerPlaces at = corners_of(flat.points, flat.surface.triangles, f);
+        const double edge = std::max({distance(at[0], at[1]), distance(at[1], at[2]), distance(at[2], at[0])});
+        const double height = std::max(cross(at[1] - at[0], at[2] - at[0]), 0.0) / std::max(edge, 1e-300);
+        for (const Index v : flat.surface.triangles.row(f)) least[v] = std::min(least[v], height);
+    }
+    return least;
+}
+
+bool is_one_to_one(const FlatPart& flat)
+{
+    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) {
+        const CornerPlaces at = corners_of(flat.points, flat.surface.triangles, f);
+        if (!(cross(at[1] - at[0], at[2] - at[0]) > 0.0)) return false;
+    }
+    return crossing_boundary_edges(flat.surface.loops, flat.points, 0.0).empty() &&
+           turned_loops(flat.surface.loops, flat.points, 0.0).empty();
+}
+
+}  // namespace
+
+std::vector<Dart> promising_darts(const FlatPart& flat, double even, double price, const std::vector<char>& refused)
+{
+    const Triangles& triangles = flat.surface.triangles;
+    const std::vector<char> outside = boundary_mask(flat.surface);
+    std::vector<Index> sources;
+    for (Index v = 0; v < flat.surface.vertex_count; ++v)
+        if (outside[v] && !flat.held[v]) sources.push_back(v);
+    if (sources.empty()) return {};
+    const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
+    const EvenForces forces = even_forces(flat.vertices, triangles, flat.points, even);
+    const Tension tension(flat, forces);
+    const double t = area_weight(even), compliance = 2.0 * (1.0 + t) / (8.0 * t);
+    std::vector<std::pair<double, Dart>> found;
+    for (Index v = 0; v < flat.surface.vertex_count; ++v) {
+        if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
+            continue;
+        Dart dart = way_out(triangles, tree, v);
+        const double pulled = tension.along(dart);
+        if (!(pulled > 0.0)) continue;
+        dart.gain = compliance * pulled * pulled;
+        const bool is_longer = std::ranges::count(flat.tips, dart.vertices.back()) > 0;
+        dart.cost = price * (dart.length + (is_longer ? 0.0 : price_of_one));
+        const double gain = dart.gain - dart.cost;
+        if (gain > 0.0) found.emplace_back(gain, std::move(dart));
+    }
+    std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
+    double part_area = 0.0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const CornerPlaces at = corners_of(flat.points, triangles, f);
+        part_area += 0.5 * cross(at[1] - at[0], at[2] - at[0]);
+    }
+    const double gap = std::min(apart_by, apart_in_part * std::sqrt(std::max(part_area, 0.0)));
+    std::vector<char> taken(static_cast<std::size_t>(flat.surface.vertex_count), 0);
+    std::vector<Dart> darts;
+    for (auto& [gain, dart] : found) {
+        // A crack unloads what lies beside it, about as far as it is long.
+        const auto is_near = [&](const Dart& other) {
+            const auto between = flat.vertices.row(other.vertices.front()) - flat.vertices.row(dart.vertices.front());
+            return between.norm() < std::max({gap, dart.length, other.length});
+        };
+        if (std::ranges::any_of(darts, is_near) ||
+            std::ranges::any_of(dart.vertices, [&](Index v) { return taken[v]; }))
+            continue;
+        for (const Index v : dart.vertices) taken[v] = 1;
+        darts.push_back(std::move(dart));
+        if (darts.size() == most_darts) break;
+    }
+    return darts;
+}
+
+bool open_darts(FlatPart& flat, const std::vector<Dart>& darts)
+{
+    SeamedMesh mesh = seamed(flat);
+    for (const Dart& dart : darts)
+        for (const Index h : dart.halfedges) mesh.cut(h);
+    number_fans(mesh);
+    // A vertex keeps its number on its first side.
+    std::vector<Index> own(static_cast<std::size_t>(mesh.fan_count), -1), source;
+    std::vector<char> kept(static_cast<std::size_t>(flat.points.rows()), 0);
+    source.resize(kept.size());
+    std::iota(source.begin(), source.end(), 0);
+    Triangles opened(mesh.corners.rows(), 3);
+    for (Eigen::Index c = 0; c < opened.size(); ++c) {
+        const Index v = mesh.corners.data()[c];
+        Index& number = own[mesh.fans.data()[c]];
+        if (number < 0) {
+            number = std::exchange(kept[v], 1) ? static_cast<Index>(source.size()) : v;
+            if (number != v) source.push_back(v);
+        }
+        opened.data()[c] = number;
+    }
+    FlatPart after = flat;
+    try {
+        after.surface = require_bordered_genus_zero(opened, static_cast<Index>(source.size()));
+    } catch (const TopologyError&) {
+        return false;
+    }
+    if (after.surface.loops.size() != flat.surface.loops.size()) return false;
+    after.points = flat.points(source, Eigen::all);
+    after.vertices = flat.vertices(source, Eigen::all);
+    for (std::size_t i = kept.size(); i < source.size(); ++i) {
+        after.original.push_back(flat.original[source[i]]);
+        after.held.push_back(flat.held[source[i]]);
+        if (!flat.image.empty()) after.image.push_back(flat.image[source[i]]);
+    }
+    std::vector<Index> second(kept.size(), -1);
+    for (std::size_t i = kept.size(); i < source.size(); ++i) second[source[i]] = static_cast<Index>(i);
+    for (std::vector<Index>& rim : after.rims) {
+        const std::size_t count = rim.size();
+        for (std::size_t i = 0; i < count; ++i)
+            if (second[rim[i]] >= 0) rim.push_back(second[rim[i]]);
+    }
+    const VectorXd heights = least_heights(after);
+    std::vector<char> moves(source.size(), 0);
+    for (const Dart& dart : darts)
+        for (std::size_t i = 1; i < dart.vertices.size(); ++i) {
+            const Index v = dart.vertices[i];
+            moves[v] = 1;
+            if (second[v] >= 0) moves[second[v]] = 1;
+        }
+    const PlanarPoints before = after.points;
+    for (double gap = first_gap; gap > 1e-4; gap *= 0.25) {
+        for (const VertexLoop& loop : after.surface.loops)
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                if (!moves[loop[i]]) continue;
+                const Complex z = drawn_in(before, loop[(i + loop.size() - 1) % loop.size()], loop[i],
+                                           loop[(i + 1) % loop.size()], gap * heights[loop[i]]);
+                after.points.row(loop[i]) << z.real(), z.imag();
+            }
+        if (!is_one_to_one(after)) continue;
+        for (const Dart& dart : darts) {
+            std::erase(after.tips, dart.vertices.back());
+            after.tips.push_back(dart.vertices.front());
+            after.dart_length += dart.length;
+        }
+        flat = std::move(after);
+        return true;
+    }
+    return false;
+}
+
+std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach)
+{
+    SeamedMesh mesh = seamed(flat);
+    std::ranges::fill(mesh.whole, 0);
+    std::vector<Index> sources;
+    std::vector<int> label(static_cast<std::size_t>(flat.surface.vertex_count), -1);
+    for (std::size_t k = 0; k < darts.size(); ++k)
+        for (const Index v : darts[k].vertices) {
+            sources.push_back(v);
+            label[v] = static_cast<int>(k);
+        }
+    const PathTree tree = shortest_paths(EdgeGraph(mesh, 1.0), sources);
+    std::vector<Index> order(label.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](Index v) { return tree.distance[v]; });
+    for (const Index v : order)
+        if (tree.parent[v] != v && tree.distance[v] < reach) label[v] = label[tree.parent[v]];
+    std::vector<int> nearest(static_cast<std::size_t>(flat.surface.triangles.rows()));
+    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) nearest[f] = label[flat.surface.triangles(f, 0)];
+    return nearest;
+}
+
+}  // namespace koebe

@@ -1,0 +1,108 @@
+#include "mesh/topology.h"
+#include "parts/darts.h"
+#include "planar/boundary_crossings.h"
+#include "relax/even_forces.h"
+#include "relax/even_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace koebe;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr Index rings = 12, around = 48;
+constexpr double area_of_cone = 0.25;
+
+/// A cone with this angle round its tip, vertex 0, and its map onto a disk: rings onto rings.
+FlatPart cone(double angle)
+{
+    const double side = std::sqrt(2.0 * area_of_cone / angle);
+    FlatPart part;
+    const Index count = 1 + rings * around;
+    part.vertices = Vertices::Zero(count, 3);
+    part.points = PlanarPoints::Zero(count, 2);
+    Triangles triangles(around * (2 * rings - 1), 3);
+    const auto at = [](Index ring, Index k) { return ring == 0 ? 0 : 1 + (ring - 1) * around + (k + around) % around; };
+    for (Index ring = 1; ring <= rings; ++ring)
+        for (Index k = 0; k < around; ++k) {
+            const double r = side * ring / rings, turn = 2.0 * pi * k / around;
+            // Of more than a full turn: a saddle, whose rim goes up and down four times.
+            const double out = angle < 2.0 * pi ? r * angle / (2.0 * pi) : 0.8 * r;
+            const double up = angle < 2.0 * pi ? std::sqrt(r * r - out * out) : 0.45 * r * std::cos(4.0 * turn);
+            part.vertices.row(at(ring, k)) << out * std::cos(turn), out * std::sin(turn), up;
+            part.points.row(at(ring, k)) << r * std::cos(turn), r * std::sin(turn);
+        }
+    Index f = 0;
+    for (Index k = 0; k < around; ++k) triangles.row(f++) << 0, at(1, k), at(1, k + 1);
+    for (Index ring = 1; ring < rings; ++ring)
+        for (Index k = 0; k < around; ++k) {
+            triangles.row(f++) << at(ring, k), at(ring + 1, k), at(ring + 1, k + 1);
+            triangles.row(f++) << at(ring, k), at(ring + 1, k + 1), at(ring, k + 1);
+        }
+    part.surface = require_bordered_genus_zero(triangles, count);
+    for (Index v = 0; v < count; ++v) part.original.push_back(v);
+    part.held.assign(static_cast<std::size_t>(count), 0);
+    part.rims.push_back(part.surface.loops.front());
+    return part;
+}
+
+void relax(FlatPart& part, double even)
+{
+    std::vector<RoundLoop> free;
+    ExecutionContext context;
+    make_even({part.vertices, part.surface.triangles, part.surface.loops, part.points, free}, even, packed_side,
+              context);
+}
+
+double energy(const FlatPart& part, double even)
+{
+    return even_forces(part.vertices, part.surface.triangles, part.points, even).energy.sum();
+}
+
+}  // namespace
+
+TEST(Darts, one_dart_to_its_tip_lays_a_cone_flat)
+{
+    constexpr double even = 0.1;
+    FlatPart part = cone(1.5 * pi);
+    relax(part, even);
+    const double before = energy(part, even);
+    const std::vector<Dart> darts = promising_darts(part, even, 1e-3, {});
+    ASSERT_EQ(darts.size(), 1U);
+    EXPECT_EQ(darts.front().vertices.front(), 0);  // the tip of the dart is that of the cone
+    EXPECT_EQ(darts.front().vertices.size(), static_cast<std::size_t>(rings + 1));
+    EXPECT_NEAR(darts.front().length, std::sqrt(2.0 * area_of_cone / (1.5 * pi)), 1e-12);
+    ASSERT_TRUE(open_darts(part, darts));
+    EXPECT_EQ(part.surface.loops.size(), 1U);
+    EXPECT_EQ(part.points.rows(), 1 + rings * around + rings);
+    EXPECT_EQ(part.surface.loops.front().size(), static_cast<std::size_t>(around + 2 * rings));
+    for (Eigen::Index v = 0; v < part.points.rows(); ++v)
+        EXPECT_EQ(part.vertices.row(v), cone(1.5 * pi).vertices.row(part.original[v]));
+    relax(part, even);
+    EXPECT_LT(energy(part, even), 1e-5 * before);
+    // The plate's formula is for small strains: here the cone is a quarter of a turn short.
+    EXPECT_GT(darts.front().gain, before / 3.0);
+    EXPECT_LT(darts.front().gain, before * 3.0);
+}
+
+TEST(Darts, where_the_sides_would_have_to_overlap_there_is_none)
+{
+    FlatPart saddle = cone(2.6 * pi);
+    relax(saddle, 0.1);
+    for (const Dart& dart : promising_darts(saddle, 0.1, 1e-4, {})) EXPECT_NE(dart.vertices.front(), 0);
+}
+
+TEST(Darts, none_begins_at_a_rim_that_is_held_and_none_cuts_a_polygon)
+{
+    FlatPart held = cone(1.5 * pi);
+    relax(held, 0.1);
+    FlatPart whole = held;
+    for (const Index v : held.surface.loops.front()) held.held[v] = 1;
+    EXPECT_TRUE(promising_darts(held, 0.1, 1e-3, {}).empty());
+    whole.polygon.assign(static_cast<std::size_t>(whole.surface.triangles.rows()), 7);
+    EXPECT_TRUE(promising_darts(whole, 0.1, 1e-3, {}).empty());
+}
