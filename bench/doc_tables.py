@@ -19,6 +19,7 @@ from pathlib import Path
 import convergence
 import domain_figures
 import exact_surfaces
+import predicted_rates
 import print_choices
 import promises
 import shape_distances
@@ -329,6 +330,12 @@ TABLES = {
         [f"{title}, {engine}" for title in convergence.DOMAINS.values() for engine in ("mesh", "condensed")],
         rates,
         lambda row: [convergence.RATES],
+    ),
+    "predicted": Table(
+        predicted_rates.HEAD,
+        list(predicted_rates.DOMAINS),
+        lambda row: predicted_rates.cells(python_package(), row),
+        lambda row: [table_surfaces.MESHER],
     ),
     "table_1": Table(table_one.HEAD, list(table_one.ROWS), table_one.cells, lambda row: [KOEBE, table_surfaces.MESHER]),
     "table_2": Table(

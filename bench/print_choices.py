@@ -15,7 +15,7 @@ CHOICES = {
     "metric of the last image": {"metric": "planar"},
     "the same after the reflection τ": {"metric": "reflected"},
     "metric of the last image, annulus by the Yamabe flow": {"metric": "planar", "annulus": "yamabe"},
-    "the print: τ, partners that change, 1-forms": {"metric": "reflected", "partners": "changing"},
+    "τ, partners that change, 1-forms: nearest to the print": {"metric": "reflected", "partners": "changing"},
 }
 HEAD = [
     "choice", *(f"circles, {sweeps} sweeps" for sweeps in SWEEPS), *(f"degrees, {sweeps} sweeps" for sweeps in SWEEPS),
@@ -23,11 +23,11 @@ HEAD = [
 ]  # fmt: skip
 
 
-def domain(vertices):
+def domain(vertices, circles=CIRCLES):
     """Points (V, 3) on Enneper's surface, triangles, and a vertex on each circle."""
     spacing = np.sqrt(2.0 * np.pi / (np.sqrt(3.0) * vertices))
     polygons = []
-    for center, radius in CIRCLES:
+    for center, radius in circles:
         count = max(12, round(2.0 * np.pi * radius / spacing))
         z = center + radius * np.exp(2j * np.pi * np.arange(count) / count)
         polygons.append(np.column_stack([z.real, z.imag]))

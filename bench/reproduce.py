@@ -5,7 +5,7 @@
 
 Leaves out/reproduce/*.md, *.json and *.svg and prints the tables. --quick: the figures, the rates and the smallest
 surface of the tables. --publish: the pictures go to docs/images/paper_*.svg too. The tables of docs/reproduction.md
-are `make figures`'s: bench/doc_figures.py measure table_1 table_2 rates choices twin heads.
+are `make figures`'s: bench/doc_figures.py measure table_1 table_2 rates predicted choices twin heads.
 """
 
 import argparse
@@ -28,7 +28,7 @@ from scan_table import MESHES, RUNS, SURFACES, measure, result_cells  # noqa: E4
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "out" / "reproduce"
 IMAGES = ROOT / "docs" / "images"
-TABLES = ("table_1", "table_2", "choices", "twin", "heads")
+TABLES = ("table_1", "table_2", "predicted", "choices", "twin", "heads")
 QUICK = "Fig. 2"  # the rows that --quick measures begin so
 FIGURES = process_figures.FIGURES | domain_figures.FIGURES | two_heads.FIGURES
 

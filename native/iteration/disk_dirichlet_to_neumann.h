@@ -6,8 +6,9 @@
 namespace koebe {
 
 /// T(theta), (m, m), symmetric positive semidefinite, T 1 = 0. u' T u is the energy, the integral of |grad U|^2, of the
-/// harmonic function U with the values u_a at theta_a, as triangles between the nodes would give it. For m even nodes,
-/// d apart, the mode cos(k theta) has energy pi k (1 - k d^2 / 6) up to the fourth order.
+/// harmonic function U with the values u_a at theta_a, as equilateral faces between the nodes would give it. For m even
+/// nodes, d apart, the mode cos(k theta) has energy pi k (1 - k d^2 / 6 + zeta(3) / (4 pi^3) (k d)^3) up to the fourth
+/// order.
 ///
 /// T = S' G S - P. G is the Galerkin matrix of |d/d theta| on periodic hat functions (docs/method.md, "The condensed
 /// engine"): G_ab = W_(a-1)(b-1) - W_(a-1)b - W_a(b-1) + W_ab with W_ef = -(1/pi) times the mean of ln |2 sin((s - t) /

@@ -11,8 +11,8 @@
 
 namespace koebe {
 
-/// Coordinates of a circle domain in Teichmueller space (paper, Fig. 13): two surfaces of genus 0 with numbered
-/// boundary loops are conformally equivalent, orientation kept, if and only if their modules are equal.
+/// Coordinates of a circle domain in the moduli space of numbered loops (paper, Fig. 13): two surfaces of genus 0 with
+/// numbered boundary loops are conformally equivalent, orientation kept, if and only if their modules are equal.
 ///
 /// The loop order[0] goes to the unit circle, the centre of the loop order[1] to 0 and the centre of order[2] onto the
 /// positive y axis. The module is the rest, (r_1, y_2, r_2, x_3, y_3, r_3, x_4, …), lengths in the unit disk: 3n - 3

@@ -1,0 +1,51 @@
+"""The factors that bench/predicted_rates.py takes from the circles alone are those of the iteration."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bench"))
+
+import koebe  # noqa: E402
+import predicted_rates  # noqa: E402
+import table_surfaces  # noqa: E402
+
+CIRCLES = [(0j, 1.0), (-0.4 + 0.2j, 0.3), (0.45 - 0.1j, 0.25), (0.1 + 0.6j, 0.2)]
+
+
+@pytest.fixture(autouse=True)
+def fewer_modes(monkeypatch):
+    monkeypatch.setattr(predicted_rates, "MODES", 24)
+
+
+@pytest.mark.parametrize("radius", [0.3, 0.5])
+def test_ck_on_a_ring_gains_the_fourth_power_of_its_radius(radius):
+    found = predicted_rates.predicted([(0j, 1.0), (0j, radius)])
+    assert abs(found["CK"][0]) == pytest.approx(radius**4, rel=1e-3)
+    assert abs(found["first"][0]) == abs(found["GK"][0]) == abs(found["at once"][0]) == 0.0
+
+
+def moved(circle, a):
+    """By the automorphism of the disk that takes a to 0."""
+    center, radius = circle
+    w = [(z - a) / (1 - np.conj(a) * z) for z in center + radius * np.exp(2j * np.pi * np.arange(3) / 3)]
+    rows = [[2 * (z - w[0]).real, 2 * (z - w[0]).imag] for z in w[1:]]
+    middle = complex(*np.linalg.solve(rows, [abs(z) ** 2 - abs(w[0]) ** 2 for z in w[1:]]))
+    return middle, abs(w[0] - middle)
+
+
+def test_an_automorphism_of_the_disk_changes_no_factor():
+    there = predicted_rates.predicted([moved(circle, 0.3 + 0.1j) for circle in CIRCLES])
+    for run, values in predicted_rates.predicted(CIRCLES).items():
+        assert abs(there[run][0]) == pytest.approx(abs(values[0]), rel=1e-3)
+
+
+@pytest.mark.skipif(not table_surfaces.MESHER.exists(), reason="build/bench/planar_mesher is not built")
+@pytest.mark.parametrize("run", ["CK", "at once"])
+def test_the_iteration_has_the_factor_of_its_circles(run, monkeypatch):
+    monkeypatch.setattr(predicted_rates, "RUNS", {run: predicted_rates.RUNS[run]})
+    expected, found, _ = predicted_rates.factors(koebe, "2 holes, draw 1")
+    assert found[run] == pytest.approx(abs(expected[run][0]), rel=0.05)
