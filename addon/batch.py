@@ -72,7 +72,7 @@ from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all 
 from koebe_uv_batch.headless.flags import in_flags  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
-from koebe_uv_batch.jobs.domain_jobs import JOBS  # noqa: E402
+from koebe_uv_batch.jobs.domain_jobs import job_type  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.jobs.parts_job import PartsJob  # noqa: E402
 from koebe_uv_batch.jobs.sequence_job import SequenceJob  # noqa: E402
@@ -260,7 +260,7 @@ def job_of(objects: list[MeshObject], request: Request) -> Job:
         return PartsJob(objects, request.options, request.parts)
     if request.domain is None:
         return Job(objects, request.options)
-    return JOBS[request.domain.domain](objects, request.options, request.domain)
+    return job_type(request.domain)(objects, request.options, request.domain)
 
 
 def reasons(objects: list[MeshObject], request: Request) -> dict[str, str]:

@@ -217,6 +217,11 @@ def python_package():
     return koebe
 
 
+def of_package(head: list[str], rows: list[str], cells: Callable[..., list[str]]) -> Table:
+    """A table of what the Python package makes of surfaces that are made here."""
+    return Table(head, rows, lambda row: cells(python_package(), row), lambda row: [table_surfaces.MESHER])
+
+
 def annulus(name: str) -> list[str]:
     """The annulus map by a harmonic function and by the Yamabe flow: the radius of its hole and the angle error."""
     import numpy as np
@@ -339,24 +344,9 @@ TABLES = {
         table_two.cells,
         lambda row: [convergence.RATES, table_surfaces.MESHER],
     ),
-    "twin": Table(
-        domain_figures.TWIN_HEAD,
-        list(domain_figures.TWINS),
-        lambda row: domain_figures.twin_cells(python_package(), row),
-        lambda row: [table_surfaces.MESHER],
-    ),
-    "choices": Table(
-        print_choices.HEAD,
-        list(print_choices.CHOICES),
-        lambda row: print_choices.cells(python_package(), row),
-        lambda row: [table_surfaces.MESHER],
-    ),
-    "heads": Table(
-        two_heads.HEAD,
-        list(two_heads.HEADS),
-        lambda row: two_heads.cells(python_package(), row),
-        lambda row: [table_surfaces.MESHER],
-    ),
+    "twin": of_package(domain_figures.TWIN_HEAD, list(domain_figures.TWINS), domain_figures.twin_cells),
+    "choices": of_package(print_choices.HEAD, list(print_choices.CHOICES), print_choices.cells),
+    "heads": of_package(two_heads.HEAD, list(two_heads.HEADS), two_heads.cells),
     "limits": Table(
         ["surface", "faces", "exact radius", "relative error", "faces below resolution"],
         list(LIMITS),

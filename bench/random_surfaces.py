@@ -155,10 +155,15 @@ def grid(rng):
     return points, opened(plane, np.concatenate([first, second]), rng)
 
 
-def sphere(rng):
+def ball(rng):
+    """Points of the unit sphere, and its faces between them."""
     points = rng.normal(size=(int(rng.choice([6, 8, 13, 20, 50, 150, 400])), 3))
     points /= np.linalg.norm(points, axis=1, keepdims=True)
-    faces = convex_hull(points)
+    return points, convex_hull(points)
+
+
+def sphere(rng):
+    points, faces = ball(rng)
     if rng.random() < 0.4:
         points = points * rng.choice([1, 5, 30], 3)
     if rng.random() < 0.5:
@@ -359,9 +364,7 @@ def make(kind, seed):
 
 def closed(rng):
     """A sphere with all its faces, now and then with limbs."""
-    points = rng.normal(size=(int(rng.choice([6, 8, 13, 20, 50, 150, 400])), 3))
-    points /= np.linalg.norm(points, axis=1, keepdims=True)
-    faces = convex_hull(points)
+    points, faces = ball(rng)
     if rng.random() < 0.5:
         points = points * rng.choice([1, 3, 10], 3)
     for _ in range(rng.integers(3)):

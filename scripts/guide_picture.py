@@ -13,11 +13,15 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.dont_write_bytecode = True
+
+import studio  # noqa: E402
+
 ROOT = Path(__file__).resolve().parent.parent
 PIXELS = 256
 REPEATS = 12.0  # of the pattern around the vase: a whole number, so that it meets itself at the cut
 PAPER, INK = (0.93, 0.90, 0.82), (0.05, 0.13, 0.36)
-sys.dont_write_bytecode = True
 
 
 def addon_module(name):
@@ -29,6 +33,17 @@ def addon_module(name):
         sys.modules["koebe_uv"] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(sys.modules["koebe_uv"])
     return importlib.import_module(f"koebe_uv.{name}")
+
+
+def mapped(obj, domain, squares):
+    """Map the object to one of the domains beside the disk; returns what became of its island."""
+    options = addon_module("maps.options").Options(checker_size=squares)
+    choice = addon_module("maps.domains").DOMAINS[domain].choice()
+    job = addon_module("jobs.domain_jobs").job_type(choice)([obj], options, choice)
+    job.compute()
+    job.write()
+    (one,) = job.outcomes[0].mapped
+    return one
 
 
 def pattern():
@@ -62,16 +77,6 @@ def textured(image):
     return material
 
 
-def light_from_all_sides(scene):
-    """A light grey world."""
-    scene.world = bpy.data.worlds.new("world")
-    if scene.world.node_tree is None:
-        scene.world.use_nodes = True
-    background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
-    background.inputs["Color"].default_value = (0.75, 0.76, 0.78, 1.0)
-    background.inputs["Strength"].default_value = 0.7
-
-
 def main():
     output = Path(sys.argv[sys.argv.index("--") + 1]).absolute()
     scene = bpy.context.scene
@@ -82,15 +87,13 @@ def main():
     obj.data.materials.append(textured(pattern()))
     for polygon in obj.data.polygons:
         polygon.use_smooth = True
-    light_from_all_sides(scene)
+    studio.surround(scene, (0.75, 0.76, 0.78, 1.0), 0.7)
     render = scene.render
     render.engine = "CYCLES"
     scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", 64, False
     scene.view_settings.view_transform = "Standard"
     render.resolution_x, render.resolution_y, render.resolution_percentage = 560, 560, 100
-    render.image_settings.file_format, render.image_settings.quality = "JPEG", 85
-    render.filepath = str(output)
-    bpy.ops.render.render(write_still=True)
+    studio.render_jpeg(scene, output)
 
 
 if __name__ == "__main__":

@@ -29,17 +29,6 @@ RADIUS, MIDDLE = 0.46, (0.83, 0.46, 0.5)  # of the sphere
 WIDTH, HEIGHT, LOWER_LEFT = 1.5, 0.75, (0.08, -0.88)  # of the UV square
 
 
-def mapped(obj):
-    """Map the object; returns what became of it."""
-    module = guide_picture.addon_module
-    options = module("maps.options").Options(checker_size=SQUARES)
-    job = module("jobs.domain_job").SphereJob([obj], options, module("maps.options").SphereChoice())
-    job.compute()
-    job.write()
-    (one,) = job.outcomes[0].mapped
-    return one
-
-
 def on_sphere(one):
     """The sphere's points (V, 3) in the picture, by the mesh's vertices: seen as the surface is."""
     camera = bpy.context.scene.camera
@@ -71,7 +60,7 @@ def cut_edges(one, obj):
 def main():
     output = Path(sys.argv[sys.argv.index("--") + 1]).absolute()
     obj = next(obj for obj in bpy.context.scene.objects if obj.type == "MESH")
-    one = mapped(obj)
+    one = guide_picture.mapped(obj, "sphere", SQUARES)
     checker = studio.darker_behind(obj.material_slots[0].material.copy())
     vertex, uv, corners, sizes = uv_loops.read_uv_mesh(obj.data, LAYER)
     seen, sphere = render_uv.seen_points(obj, vertex), on_sphere(one)
@@ -84,12 +73,7 @@ def main():
         studio.add_ring(scene, np.array([place[v] for v in ends]), CUT)
         studio.add_ring(scene, sphere[ends], CUT)
         studio.add_ring(scene, in_the_plane(flat, 0.01), CUT)
-    studio.add_studio(scene, SIZE, 32)
-    for curve in bpy.data.curves:
-        curve.bevel_depth = 0.006
-    scene.render.image_settings.file_format, scene.render.image_settings.quality = "JPEG", 85
-    scene.render.filepath = str(output)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    studio.render_finely(scene, SIZE, output)
 
 
 if __name__ == "__main__":

@@ -147,12 +147,7 @@ def add_studio(scene, size, samples):
         lamp.location = place
         lamp.rotation_euler = Vector(place).to_track_quat("Z", "Y").to_euler()
         scene.collection.objects.link(lamp)
-    scene.world = bpy.data.worlds.new("world")
-    if scene.world.node_tree is None:
-        scene.world.use_nodes = True
-    background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
-    background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-    background.inputs["Strength"].default_value = 0.55
+    surround(scene, (1.0, 1.0, 1.0, 1.0), 0.55)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.data.type, camera.data.sensor_fit = "ORTHO", "HORIZONTAL"
     camera.data.ortho_scale = max(4.0, 2.0 * size[0] / size[1])
@@ -171,6 +166,31 @@ def add_studio(scene, size, samples):
     scene.cycles.adaptive_threshold = 0.02
     scene.cycles.max_bounces = 1
     scene.cycles.use_denoising = _can_denoise()
+
+
+def surround(scene, color, strength):
+    """A world that is light in this colour on all sides."""
+    scene.world = bpy.data.worlds.new("world")
+    if scene.world.node_tree is None:
+        scene.world.use_nodes = True
+    background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = color
+    background.inputs["Strength"].default_value = strength
+
+
+def render_jpeg(scene, path):
+    """Render the scene to a file."""
+    scene.render.image_settings.file_format, scene.render.image_settings.quality = "JPEG", 85
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+
+
+def render_finely(scene, size, path):
+    """Render the scene in the studio, all its rings equally thin."""
+    add_studio(scene, size, 32)
+    for curve in bpy.data.curves:
+        curve.bevel_depth = 0.006
+    render_jpeg(scene, path)
 
 
 def _can_denoise():

@@ -52,17 +52,6 @@ def bent_ring():
     return obj
 
 
-def mapped(obj):
-    """Map the object; returns what became of it."""
-    module = guide_picture.addon_module
-    options = module("maps.options").Options(checker_size=SQUARES)
-    job = module("jobs.tile_job").TileJob([obj], options, module("maps.options").TileChoice())
-    job.compute()
-    job.write()
-    (one,) = job.outcomes[0].mapped
-    return one
-
-
 def paler(material):
     """A copy of the checker with less of its ink."""
     copy = material.copy()
@@ -95,7 +84,7 @@ def uv_by_corner(obj):
 def main():
     output = Path(sys.argv[sys.argv.index("--") + 1]).absolute()
     obj = bent_ring()
-    one = mapped(obj)
+    one = guide_picture.mapped(obj, "torus", SQUARES)
     checker = studio.darker_behind(obj.material_slots[0].material.copy())
     pale = paler(checker)
     vertex, uv, corners, sizes = uv_loops.read_uv_mesh(obj.data, LAYER)
@@ -126,12 +115,7 @@ def main():
             )
     for path in cut_paths(one, obj, seen, vertex, lambda point: flat(point, 0.01)):
         studio.add_ring(scene, path, CUT)
-    studio.add_studio(scene, SIZE, 32)
-    for curve in bpy.data.curves:
-        curve.bevel_depth = 0.006
-    scene.render.image_settings.file_format, scene.render.image_settings.quality = "JPEG", 85
-    scene.render.filepath = str(output)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    studio.render_finely(scene, SIZE, output)
 
 
 if __name__ == "__main__":

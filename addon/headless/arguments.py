@@ -7,6 +7,7 @@ import dataclasses
 from typing import Any, NoReturn
 
 from ..maps import options
+from ..maps.domains import DOMAINS
 from ..maps.option_table import LARGEST, ROWS, Row, rows_of
 from .exit_and_signals import USAGE, Stop
 from .flags import flag
@@ -42,7 +43,7 @@ class Request:
     names: list[str] | None
     options: options.Options
     parts: options.PartsChoice | None
-    domain: options.OtherDomain | None
+    domain: options.Chosen | None
     sequence: options.SequenceChoice | None
     library: Library
     ends_with_input: bool
@@ -78,8 +79,8 @@ def parse(arguments: list[str]) -> Request:
     )  # fmt: skip
     parser.add_argument("--parts", action="store_true", help="cut into even parts, any surface")
     parser.add_argument(
-        "--domain", choices=(DISK, *options.CHOICES), default=DISK,
-        help="torus, ring: UVs that are a tile; sphere: its layout; schottky: handles cut open",
+        "--domain", choices=(DISK, *DOMAINS), default=DISK,
+        help="; ".join(f"{name}: {domain.title}" for name, domain in DOMAINS.items()),
     )  # fmt: skip
     parser.add_argument(
         "--sequence", choices=ROWS["source"].words, help="a map of each frame or shape key, laid over the first"
@@ -155,8 +156,8 @@ def _known(kind: Any, values: dict[str, Any]) -> dict[str, Any]:
 
 def _choice(of: str, values: dict[str, Any]) -> Any:
     """The choice for parts or for a domain. Raises OptionError."""
-    kind = options.PartsChoice if of == "parts" else options.CHOICES[of]
-    return kind(**({"domain": of} if kind is options.TileChoice else {}), **_known(kind, values))
+    kind = options.PartsChoice if of == "parts" else DOMAINS[of].choice
+    return kind(**_known(kind, values))
 
 
 def _wrong(error: options.OptionError) -> Stop:

@@ -10,8 +10,6 @@ from ..blender import checker, map_writing
 from ..blender.copied_object import add_copied_object
 from ..blender.transaction import Transaction
 from ..maps.domain_outcomes import DomainOutcome, map_domain
-from ..maps.handles import SchottkyOutcome
-from ..maps.options import SchottkyChoice, SphereChoice
 from ..maps.outcomes import Progress, Task
 from ..maps.sphere_copy import sphere_copy
 from ..maps.spheres import SphereOutcome
@@ -23,12 +21,10 @@ OTHER_PERIODS = "its tiles have other periods: the checker runs over the cuts of
 
 
 class DomainJob(ChoiceJob):
-    """Has outcomes of another domain, of the type named by a subclass."""
-
-    outcome_type: type[DomainOutcome]
+    """Maps to the domain of its choice."""
 
     def _map(self, task: Task, progress: Progress | None) -> DomainOutcome:
-        return map_domain(self.koebe, self.outcome_type, task, self.choice, progress, self.cancel_token)
+        return map_domain(self.koebe, task, self.choice, progress, self.cancel_token)
 
     def _pattern(self, plan: map_writing.Plan, size: float) -> Pattern:
         """The checker that continues over the cuts."""
@@ -42,9 +38,6 @@ class DomainJob(ChoiceJob):
 class SphereJob(DomainJob):
     """Maps to spheres. On request adds the spheres as objects, beside their sources."""
 
-    choice: SphereChoice
-    outcome_type = SphereOutcome
-
     def _write_one(
         self, run: Transaction, outcome: SphereOutcome, plan: map_writing.Plan, material: bpy.types.Material | None
     ) -> None:
@@ -55,10 +48,3 @@ class SphereJob(DomainJob):
             right = origin.x + float(across.max() + BESIDE * np.ptp(across))
             place, copy = (right, origin.y, origin.z), sphere_copy(outcome)
             add_copied_object(run, bpy.context, plan.obj, copy, self.options.layer, plan.uv, place, "Sphere")
-
-
-class SchottkyJob(DomainJob):
-    """Maps to fundamental domains of Schottky groups."""
-
-    choice: SchottkyChoice
-    outcome_type = SchottkyOutcome

@@ -2,34 +2,24 @@
 """The outcome of a surface mapped to other domains than the disk. Each island has the UV square to itself."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+import functools
+from collections.abc import Sequence
 from types import ModuleType
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
-from .domains import DOMAINS
+from .domain import Domain
 from .errors import MapError
 from .islands import cut_into_islands
 from .mapping import check_area, failing_alone
+from .options import Chosen
 from .outcomes import LATER, Outcome, Progress, Task, in_numbers, share_of
 from .seams import cut_edges
 from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
+from .triangles import density_ratio, signed_areas
 from .wording import UNEVEN_TEXELS, counted, in_mesh, too_uneven
-
-
-class DomainChoice(Protocol):
-    """What to compute: one of `options.OtherDomain`."""
-
-    @property
-    def domain(self) -> str: ...
-    @property
-    def tolerance(self) -> float: ...
-    @property
-    def max_sweeps(self) -> int: ...
-    @property
-    def most_lost(self) -> float: ...
 
 
 @dataclasses.dataclass
@@ -59,9 +49,15 @@ class DomainIsland:
         return self.stored.angle_error
 
     @property
+    def texel_uv(self) -> np.ndarray:
+        """(t, 3, 2) the UVs whose texel density counts."""
+        return self.result.uv
+
+    @functools.cached_property
     def density_ratio(self) -> float:
         """Texel density at 95 % of the area over the density at 5 %."""
-        raise NotImplementedError
+        corners = np.arange(3 * len(self.texel_uv)).reshape(-1, 3)
+        return density_ratio(self.island.areas, np.abs(signed_areas(self.texel_uv.reshape(-1, 2), corners)))
 
     @property
     def flipped_faces(self) -> np.ndarray:
@@ -72,17 +68,19 @@ class DomainIsland:
         """The surface's faces of the island's triangles."""
         return np.unique(self.island.triangle_face[np.asarray(triangles, dtype=np.int64)]).tolist()
 
-    def map(self, koebe: ModuleType, task: Task, choice: Any, loops: list[np.ndarray], **run: Any) -> None:
+    def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
         """Compute the result, and take its UVs.
 
         loops  the island's boundary loops; their number fits the domain
         run    progress and cancel, for the native package
         """
-        raise NotImplementedError
+        result = self._solve(koebe, choice, **run)
+        self.take_corners(task.surface, result.uv.astype(np.float32))
+        self.result = result
 
-    def _solve(self, function: Callable[..., Any], choice: Any, **arguments: Any) -> Any:
-        """Call a function of the native package, with the arguments common to all."""
-        return function(
+    def _solve(self, koebe: ModuleType, choice: Chosen, **arguments: Any) -> Any:
+        """Call the domain's function of the native package, with the arguments common to all."""
+        return getattr(koebe, f"{choice.domain.name}_map")(
             self.island.vertices, self.island.triangles, polygon=self.island.triangle_face,
             **choice.solver_arguments(), **arguments,
         )  # fmt: skip
@@ -120,7 +118,7 @@ class DomainOutcome(Outcome):
     kind: ClassVar[type[DomainIsland]]
 
     islands: list[Any]
-    choice: Any
+    choice: Chosen
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
         found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # already reported
@@ -134,7 +132,7 @@ class DomainOutcome(Outcome):
         """One line: domains and their figures, angles, flips, seconds."""
         mapped = self.mapped
         words = [
-            counted(len(mapped), DOMAINS[self.choice.domain].title),
+            counted(len(mapped), self.choice.domain.title),
             *self.figures(),
             f"angle error {max(one.angle_error for one in mapped):.2f}°",
             counted(sum(len(one.flipped) for one in mapped), "flip"),
@@ -159,7 +157,7 @@ class DomainOutcome(Outcome):
         if one.error is not None:  # too much area is lost: it is not finished
             result["converged"] = False
         result["warnings"] = self.warnings(one)
-        return {**result, **entry, "domain": self.choice.domain}
+        return {**result, **entry, "domain": self.choice.domain.name}
 
     def _adapt(self, one: Any, result: dict[str, Any]) -> None:
         """Change the native result's dict to the mesh's numbers and to the UVs as written."""
@@ -167,7 +165,7 @@ class DomainOutcome(Outcome):
     def _row(self, one: Any) -> dict[str, Any]:
         result = one.result
         return {
-            "sweeps": result.sweeps, "domain": self.choice.domain, "angle_error": one.angle_error,
+            "sweeps": result.sweeps, "domain": self.choice.domain.name, "angle_error": one.angle_error,
             "seconds": result.seconds["total"], "flipped": len(one.flipped),
             "flipped_faces": one.flipped_faces.tolist(), "uneven": too_uneven(one),
             "cut_edges": np.flatnonzero(one.cuts).tolist(),
@@ -203,17 +201,13 @@ def islands_to_map(surface: Surface) -> list[Island]:
 
 
 def map_domain(
-    koebe: ModuleType,
-    outcome_type: type[DomainOutcome],
-    task: Task,
-    choice: DomainChoice,
-    progress: Progress | None = None,
-    cancel: Any = None,
-) -> Any:
-    """Map each island of the selected faces of a surface to a domain. Polygons stay whole.
+    koebe: ModuleType, task: Task, choice: Chosen, progress: Progress | None = None, cancel: Any = None
+) -> DomainOutcome:
+    """Map each island of the selected faces of a surface to the domain of the choice. Polygons stay whole.
 
     Errors are those of their islands; `koebe.Cancelled` goes on.
     """
+    outcome_type: type[DomainOutcome] = choice.domain.outcome
     ones = [outcome_type.kind(island) for island in islands_to_map(task.surface)]
     done, total = 0, sum(len(one.island.triangles) for one in ones)
     for one in ones:
@@ -226,11 +220,11 @@ def map_domain(
     return outcome_type(task, ones, choice)
 
 
-def checked_loops(koebe: ModuleType, island: Island, domain: str) -> list[np.ndarray]:
+def checked_loops(koebe: ModuleType, island: Island, domain: Domain) -> list[np.ndarray]:
     """The boundary loops of an island that has an area and can be mapped to a domain; else raises."""
     check_area(island)
     loops: list[np.ndarray] = koebe.boundary_loops(island.triangles, vertex_count=len(island.vertices))
-    DOMAINS[domain].check(handles_of(island, loops), len(loops))
+    domain.check(handles_of(island, loops), len(loops))
     return loops
 
 

@@ -2,18 +2,17 @@
 """Maps surfaces with handles to fundamental domains of Schottky groups, with UV coordinates per corner."""
 
 import dataclasses
-import functools
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
+from .domain import Domain, DomainError
 from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import MapError, elements_of, kind_of
-from .options import SchottkyChoice
+from .options import Chosen
 from .outcomes import LATER, Task, in_numbers
 from .rounding import RESOLUTION
-from .triangles import density_ratio, signed_areas
 from .wording import counted
 
 ROUND = 1e-3  # largest distance of a round hole's vertices from its circle, over the radius
@@ -38,39 +37,28 @@ class SchottkyIsland(DomainIsland):
 
     circles: list[tuple[tuple[float, float], float]] = LATER
 
-    @functools.cached_property
-    def density_ratio(self) -> float:
-        """Texel density at 95 % of the area over the density at 5 %."""
-        uv = self.result.uv
-        corners = np.arange(3 * len(uv)).reshape(-1, 3)
-        return density_ratio(self.island.areas, np.abs(signed_areas(uv.reshape(-1, 2), corners)))
-
     def cut(self) -> str:
         """What the UVs are cut along, in words."""
         return "circles" if self.result.by_circles else "edges"
 
-    def map(
-        self, koebe: ModuleType, task: Task, choice: SchottkyChoice, loops: list[np.ndarray], **run: Any
-    ) -> None:
+    def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
         """As in `DomainIsland`, with its handles cut open."""
         island = self.island
         try:
-            result = self._solve(koebe.schottky_map, choice, **run)
+            super().map(koebe, task, choice, loops, **run)
         except koebe.TopologyError as error:
             if kind_of(error) != "genus":
                 raise
             known = [vertex for vertex in elements_of(error) if vertex < len(island.vertices)]
             raise CutError(str(error), known) from error  # the handles are not the fault
-        self.take_corners(task.surface, result.uv.astype(np.float32))
-        self.circles = [_circle(koebe, island.triangles, result.uv, loop["vertices"]) for loop in result.loops]
-        self.result = result
+        triangles, uv, found = island.triangles, self.result.uv, self.result.loops
+        self.circles = [_circle(koebe, triangles, uv, loop["vertices"]) for loop in found]
 
 
 class SchottkyOutcome(DomainOutcome):
     """The outcome of one surface with its islands mapped into the disk, their handles cut open."""
 
     kind = SchottkyIsland
-    choice: SchottkyChoice
 
     def figures(self) -> list[str]:
         results = [one.result for one in self.mapped]
@@ -105,3 +93,17 @@ def _circle(
         if off < ROUND * radius + RESOLUTION:
             return (float(center[0]), float(center[1])), radius
     return (0.0, 0.0), 0.0
+
+
+def _check_schottky(handles: int, loops: int) -> None:
+    if not handles:
+        raise DomainError(
+            "this surface has no handle: Unwrap Handles needs one at least", "uniformize" if loops else "sphere"
+        )
+
+
+SCHOTTKY = Domain(
+    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID", _check_schottky, SchottkyOutcome,
+    "Unwrap a surface with any number of handles, closed or with holes, into the disk: angles are kept, holes are "
+    "round, and both sides of each cut through a handle differ by a Möbius map. The cuts are in the UVs alone",
+)  # fmt: skip

@@ -10,9 +10,6 @@ from .option_table import ROWS, Row, rows_of
 
 WRITTEN = ("layer", "checker", "checker_size", "checker_even")  # written by all maps beside the UVs
 OF_RUNS = (*WRITTEN, "threads")  # in the `Options` of every run
-TILE_DOMAINS = ("torus", "ring")
-SPHERE = "sphere"
-SCHOTTKY = "schottky"
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
 MAX_LAYER_NAME_BYTES = 63
@@ -55,13 +52,11 @@ class Chosen:
 
     def solver_arguments(self) -> dict[str, Any]:
         """Keyword arguments of the solver's function, except vertices and values computed for each island."""
-        of = getattr(self, "domain", None)
         return {
             row.name: getattr(self, row.name)
             for row in self.rows
             if row.is_native and row.kind in ("number", "integer", "flag", "choice") and row.name != "cut"
-            and (of is None or of in row.maps)
-        }  # fmt: skip
+        }
 
 
 Kind = TypeVar("Kind", bound=type[Chosen])
@@ -103,38 +98,6 @@ class PartsChoice(Chosen):
     """How a surface is cut into parts."""
 
 
-@of_map("ring", *OF_RUNS)
-class TileChoice(Chosen):
-    """The choice for a map whose UVs are a tile: of a torus, or of a ring, which has holes and rims."""
-
-    domain: str = "torus"
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.domain not in TILE_DOMAINS:
-            raise OptionError("domain", f"{self.domain!r} is not one of {', '.join(TILE_DOMAINS)}")
-
-
-@of_map(SPHERE, *OF_RUNS)
-class SphereChoice(Chosen):
-    """The choice for a map to the sphere."""
-
-    @property
-    def domain(self) -> str:
-        """As in `TileChoice`."""
-        return SPHERE
-
-
-@of_map(SCHOTTKY, *OF_RUNS)
-class SchottkyChoice(Chosen):
-    """The choice for a map to a fundamental domain of a Schottky group."""
-
-    @property
-    def domain(self) -> str:
-        """As in `TileChoice`."""
-        return SCHOTTKY
-
-
 @dataclasses.dataclass(frozen=True)
 class SequenceChoice:
     """The shapes of a mesh to map one after another, and where to keep their UVs.
@@ -168,10 +131,6 @@ class SequenceChoice:
 def label_of(shape: str | int) -> str:
     """The shape's name in messages."""
     return f"frame {shape}" if isinstance(shape, int) else f"key {shape!r}"
-
-
-OtherDomain = TileChoice | SphereChoice | SchottkyChoice  # for maps to other domains than the disk
-CHOICES = {"torus": TileChoice, "ring": TileChoice, SPHERE: SphereChoice, SCHOTTKY: SchottkyChoice}
 
 
 def _check_layer_name(name: str) -> None:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from .domain import Domain, DomainError, takers
 from .domain_outcomes import DomainIsland, DomainOutcome
-from .options import SphereChoice
+from .options import Chosen
 from .outcomes import LATER, Task
 from .triangles import areas, density_ratio
 from .wording import counted
@@ -36,19 +37,16 @@ class SphereIsland(DomainIsland):
         """Faces of the surface with torn triangles."""
         return np.unique(self.island.triangle_face[self.torn])
 
-    def map(self, koebe: ModuleType, task: Task, choice: SphereChoice, loops: list[np.ndarray], **run: Any) -> None:
+    def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
         """As in `DomainIsland`."""
-        result = self._solve(koebe.sphere_map, choice, **run)
-        self.take_corners(task.surface, result.uv.astype(np.float32))
-        self.torn = np.asarray(result.layout["torn"], dtype=np.int64)
-        self.result = result
+        super().map(koebe, task, choice, loops, **run)
+        self.torn = np.asarray(self.result.layout["torn"], dtype=np.int64)
 
 
 class SphereOutcome(DomainOutcome):
     """The outcome of one surface: each island has the layout to itself."""
 
     kind = SphereIsland
-    choice: SphereChoice
 
     def notes(self) -> list[tuple[SphereIsland, str]]:
         """Notes on torn faces."""
@@ -72,3 +70,16 @@ class SphereOutcome(DomainOutcome):
 
     def _loop_row(self, one: SphereIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
         return {"radius": of_loop["radius"], "name": f"{number + 1}"}
+
+
+def _check_sphere(handles: int, loops: int) -> None:
+    if handles:
+        had = counted(handles, "handle")
+        raise DomainError(f"this surface has {had}: a sphere has none", *takers(handles))
+
+
+SPHERE = Domain(
+    "sphere", "sphere", "Unwrap to Sphere", "MESH_UVSPHERE", _check_sphere, SphereOutcome,
+    "Unwrap a surface without handles, closed or with holes, to the sphere and this to UVs: angles are kept on the "
+    "sphere, holes are round caps. The cut is in the UVs alone",
+)  # fmt: skip

@@ -27,7 +27,7 @@ class FittedTile:
 
 
 def fitted(uv: np.ndarray, triangles: np.ndarray, periods: np.ndarray, fit: str) -> FittedTile:
-    """A tile of `koebe.torus_map` or `koebe.ring_map`, (t, 3, 2) and (k, 2), with the fit of a `TileChoice`.
+    """A tile of `koebe.torus_map` or `koebe.ring_map`, (t, 3, 2) and (k, 2), as the choice `fit` has it.
 
     Raises MapError if it is too long.
     """

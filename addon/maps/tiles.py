@@ -2,19 +2,18 @@
 """Maps surfaces to tiles of flat tori and cylinders, with UV coordinates per corner."""
 
 import dataclasses
-import functools
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .domain import Domain, DomainError, takers
 from .domain_outcomes import DomainIsland, DomainOutcome
 from .errors import MapError
-from .options import TileChoice
+from .options import Chosen
 from .outcomes import LATER, Task
 from .surface import Island
 from .tile_fit import FittedTile, fitted
-from .triangles import density_ratio, signed_areas
 from .wording import counted, own_warning
 
 if TYPE_CHECKING:
@@ -32,12 +31,9 @@ class TileIsland(DomainIsland):
 
     tile: FittedTile = LATER
 
-    @functools.cached_property
-    def density_ratio(self) -> float:
-        """Texel density at 95 % of the area over the density at 5 %."""
-        count = len(self.tile.uv)
-        corners = np.arange(3 * count).reshape(-1, 3)
-        return density_ratio(self.island.areas, np.abs(signed_areas(self.tile.uv.reshape(-1, 2), corners)))
+    @property
+    def texel_uv(self) -> np.ndarray:
+        return self.tile.uv
 
     def circle(self, loop: dict[str, Any], fit: str) -> tuple[tuple[float, float], float]:
         """Centre and radius in the UVs of a loop that is a circle there, else 0 and 0."""
@@ -47,13 +43,13 @@ class TileIsland(DomainIsland):
         x, y = matrix @ np.array(loop["center"]) + offset
         return (float(x), float(y)), float(loop["radius"] * matrix[0, 0])
 
-    def map(self, koebe: ModuleType, task: Task, choice: TileChoice, loops: list[np.ndarray], **run: Any) -> None:
+    def map(self, koebe: ModuleType, task: Task, choice: Chosen, loops: list[np.ndarray], **run: Any) -> None:
         """As in `DomainIsland`."""
         arguments: dict[str, Any] = {}
-        if choice.domain == "ring":
+        if choice.domain.name == "ring":
             outer, inner = rims_of(self.island, loops, choice.rims, task.picked)
             arguments = {"outer": outer, "inner": inner}
-        result = self._solve(getattr(koebe, f"{choice.domain}_map"), choice, **arguments, **run)
+        result = self._solve(koebe, choice, **arguments, **run)
         self.tile = fitted(result.uv, self.island.triangles, result.periods, choice.fit)
         self.take_corners(task.surface, self.tile.uv)
         self.result = result
@@ -63,7 +59,6 @@ class TileOutcome(DomainOutcome):
     """The outcome of one surface: each island fills the UV square by itself."""
 
     kind = TileIsland
-    choice: TileChoice
 
     def warnings(self, one: TileIsland) -> list[dict[str, Any]]:
         lost = len(np.setdiff1d(one.flipped, one.result.flipped_faces))
@@ -85,7 +80,7 @@ class TileOutcome(DomainOutcome):
         for loop in result["loops"]:
             if "slit" in loop:
                 loop["slit"] = (np.array(loop["slit"]) @ matrix.T + offset).tolist()
-            if "center" in loop and self.choice.domain == "torus":
+            if "center" in loop and self.choice.domain.name == "torus":
                 if is_square:  # an ellipse
                     del loop["center"], loop["radius"]
                 else:
@@ -101,7 +96,7 @@ class TileOutcome(DomainOutcome):
 
     def _loop_row(self, one: TileIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
         center, radius = one.circle(of_loop, self.choice.fit)
-        holes_before = number + 1 - 2 * (self.choice.domain == "ring")
+        holes_before = number + 1 - 2 * (self.choice.domain.name == "ring")
         name = ("Rim", "Rim 2")[number] if of_loop["rim"] else f"{holes_before}"
         return {"uv_center": center, "uv_radius": radius, "name": name}
 
@@ -142,3 +137,34 @@ def rims_of(island: Island, loops: list[np.ndarray], rims: str, picked: np.ndarr
 def _length(island: Island, loop: np.ndarray) -> float:
     points = island.vertices[loop]
     return float(np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1).sum())
+
+
+def _check_torus(handles: int, loops: int) -> None:
+    if handles == 1:
+        return
+    if handles:
+        raise DomainError(f"this surface has {handles} handles: a torus tile needs exactly one", *takers(handles))
+    raise DomainError(
+        "this surface has no handle: a torus tile needs one, like that of a mug", "ring" if loops > 1 else "parts"
+    )
+
+
+def _check_ring(handles: int, loops: int) -> None:
+    if handles:
+        had = counted(handles, "handle")
+        raise DomainError(f"this surface has {had}: a cylinder has none", *takers(handles))
+    if loops < 2:
+        had = "one boundary loop" if loops else "no boundary loop"
+        raise DomainError(f"this surface has {had}: a cylinder needs two, its rims", "parts")
+
+
+TORUS = Domain(
+    "torus", "torus tile", "Unwrap to Torus Tile", "MESH_TORUS", _check_torus, TileOutcome,
+    "Unwrap a surface with one handle to a tile of a flat torus: angles are kept, holes are round, and a pattern with "
+    "its periods has no seam. The cut is in the UVs alone",
+)  # fmt: skip
+RING = Domain(
+    "ring", "cylinder", "Unwrap to Cylinder", "MESH_CYLINDER", _check_ring, TileOutcome,
+    "Unwrap a surface with two rims to a cylinder, unrolled: angles are kept, the rims are straight, and a pattern "
+    "with its period has no seam. The cut is in the UVs alone",
+)  # fmt: skip

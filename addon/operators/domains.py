@@ -6,11 +6,11 @@ import bpy
 
 from ..blender.targets import target_objects
 from ..jobs.domain_job import DomainJob
-from ..jobs.domain_jobs import JOBS
+from ..jobs.domain_jobs import job_type
+from ..maps.domain import Domain
 from ..maps.domains import DOMAINS
 from ..state.option_properties import ACCURACY_NAMES, choice_of, mixin, option_names, written_options_of
 from .run_operator import MapOperator
-from .tooltip import tooltip
 
 
 def shown(domain: str) -> tuple[str, ...]:
@@ -19,50 +19,26 @@ def shown(domain: str) -> tuple[str, ...]:
 
 
 class DomainOperator(MapOperator):
-    """Mixin of these operators. `domain` is a name in maps/domains.py."""
+    """Mixin of these operators. `domain` is a row of maps/domains.py."""
 
-    domain: str
+    domain: Domain
 
     def __init_subclass__(cls) -> None:
-        cls.bl_idname = f"uv.koebe_{cls.domain}"
-        cls.bl_label = f"Koebe {DOMAINS[cls.domain].button}"
-        cls.bl_description = tooltip(cls.__doc__)
-        cls.options_shown = shown(cls.domain)
+        cls.bl_idname = f"uv.koebe_{cls.domain.name}"
+        cls.bl_label = f"Koebe {cls.domain.button}"
+        cls.bl_description = cls.domain.tooltip
+        cls.options_shown = shown(cls.domain.name)
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> DomainJob:
-        choice = choice_of(self.domain, self)
-        return JOBS[self.domain](target_objects(context), written_options_of(self), choice, selected_only, refused=[])
+        choice = choice_of(self.domain.name, self)
+        return job_type(choice)(target_objects(context), written_options_of(self), choice, selected_only, refused=[])
 
 
-class UV_OT_koebe_torus(DomainOperator, mixin("TorusProperties", option_names("torus")), bpy.types.Operator):
-    """Unwrap a surface with one handle to a tile of a flat torus: angles are kept, holes are round, and a pattern with
-    its periods has no seam. The cut is in the UVs alone"""
-
-    domain = "torus"
-
-
-class UV_OT_koebe_ring(DomainOperator, mixin("RingProperties", option_names("ring")), bpy.types.Operator):
-    """Unwrap a surface with two rims to a cylinder, unrolled: angles are kept, the rims are straight, and a pattern
-    with its period has no seam. The cut is in the UVs alone"""
-
-    domain = "ring"
+def _operator(domain: Domain) -> type[DomainOperator]:
+    properties = mixin(f"{domain.name.title()}Properties", option_names(domain.name))
+    bases = (DomainOperator, properties, bpy.types.Operator)
+    return type(f"UV_OT_koebe_{domain.name}", bases, {"domain": domain, "__doc__": domain.tooltip})
 
 
-class UV_OT_koebe_sphere(DomainOperator, mixin("SphereProperties", option_names("sphere")), bpy.types.Operator):
-    """Unwrap a surface without handles, closed or with holes, to the sphere and this to UVs: angles are kept on the
-    sphere, holes are round caps. The cut is in the UVs alone"""
-
-    domain = "sphere"
-
-
-class UV_OT_koebe_schottky(DomainOperator, mixin("SchottkyProperties", option_names("schottky")), bpy.types.Operator):
-    """Unwrap a surface with any number of handles, closed or with holes, into the disk: angles are kept, holes are
-    round, and both sides of each cut through a handle differ by a Möbius map. The cuts are in the UVs alone"""
-
-    domain = "schottky"
-
-
-OPERATORS = {
-    kind.domain: kind for kind in (UV_OT_koebe_torus, UV_OT_koebe_ring, UV_OT_koebe_sphere, UV_OT_koebe_schottky)
-}
+OPERATORS = {name: _operator(domain) for name, domain in DOMAINS.items()}
 register, unregister = bpy.utils.register_classes_factory(tuple(OPERATORS.values()))

@@ -7,8 +7,9 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
+from ..maps.domains import DOMAINS
 from ..maps.option_table import ROWS, rows_of
-from ..maps.options import CHOICES, WRITTEN, Options, PartsChoice, TileChoice
+from ..maps.options import WRITTEN, Options, PartsChoice
 
 PROPERTIES = {"number": FloatProperty, "integer": IntProperty, "flag": BoolProperty, "text": StringProperty,
               "weights": StringProperty}  # fmt: skip
@@ -83,10 +84,9 @@ def sequence_options_of(properties: Any) -> Options:
 
 def choice_of(of: str, properties: Any) -> Any:
     """The `PartsChoice` of an operator, or its domain's choice. Raises OptionError."""
-    kind: Any = PartsChoice if of == "parts" else CHOICES[of]
+    kind: Any = PartsChoice if of == "parts" else DOMAINS[of].choice
     known = {field.name for field in dataclasses.fields(kind)}.intersection(option_names(of))
-    own = {"domain": of} if kind is TileChoice else {}
-    return kind(**own, **{name: getattr(properties, name) for name in known})
+    return kind(**{name: getattr(properties, name) for name in known})
 
 
 def written_options_of(properties: Any) -> Options:

@@ -1,9 +1,14 @@
 """Balls of polygons, closed and with holes, and what the layouts of spheres promise, told without the add-on."""
 
+import sys
+from pathlib import Path
+
 import bmesh
-import bpy
 import numpy as np
 import scenes
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "python"))
+from sphere_surfaces import led_back  # noqa: E402,F401
 
 LAYOUTS = ("equirectangular", "octahedral")
 
@@ -58,28 +63,6 @@ def join_faces(random, obj, share):
     return obj
 
 
-def led_back(uv, layout):
-    """The points of the sphere that UVs (n, 2) show, wherever the pattern continues."""
-    uv = np.asarray(uv, float)
-    if layout == "equirectangular":
-        longitude, latitude = 2 * np.pi * uv[:, 0] - np.pi, np.pi * uv[:, 1] - np.pi / 2
-        return np.stack([np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude), np.sin(latitude)],
-                        axis=1)  # fmt: skip
-    at = 2 * uv - 1
-    for _ in range(6):  # half turns round the middles of the square's sides, until it is inside
-        for axis in (0, 1):
-            for side in (1, -1):
-                over = side * at[:, axis] > 1
-                middle = np.zeros(2)
-                middle[axis] = side
-                at[over] = 2 * middle - at[over]
-    z = 1 - np.abs(at).sum(axis=1)
-    x = np.where(z < 0, np.copysign(1 - np.abs(at[:, 1]), at[:, 0]), at[:, 0])
-    y = np.where(z < 0, np.copysign(1 - np.abs(at[:, 0]), at[:, 1]), at[:, 1])
-    back = np.stack([x, y, z], axis=1)
-    return back / np.linalg.norm(back, axis=1, keepdims=True)
-
-
 def sides_of_edges(mesh, uv):
     """Of each edge with two faces: of each end the UVs on both sides (n, 2, 2, 2), and the faces (n, 2)."""
     found = {}
@@ -106,8 +89,3 @@ def are_continued(ends, layout):
     turn = here + there
     turned = (turn[:, 0] == turn[:, 1]).all(axis=1) & (np.rint(turn) == turn).all(axis=(1, 2))
     return (alike & (shift[:, 0].sum(axis=1) % 2 == 0)) | (turned & (turn[:, 0].sum(axis=1) % 2 == 1))
-
-
-def last_run():
-    (entry,) = bpy.context.window_manager.koebe_uv.islands
-    return entry

@@ -10,7 +10,7 @@ import sys
 import bpy
 import pytest
 
-pytest.register_assert_rewrite("scenes", "faults", "states")
+pytest.register_assert_rewrite("scenes", "faults", "states", "wild")
 
 if sys.platform == "win32":  # which has no such signals, terminals and limits
     collect_ignore = ["test_batch_ends.py", "test_batch_files.py"]

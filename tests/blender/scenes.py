@@ -150,6 +150,37 @@ def mesh_state(mesh, but_layer=None):
     return {key: value.tobytes() for key, value in state.items()}
 
 
+def last_run():
+    """The report's entry, which is the only one."""
+    (entry,) = bpy.context.window_manager.koebe_uv.islands
+    return entry
+
+
+def written_faces(obj, layer="Koebe"):
+    """Numbers of the faces with UVs that are not all the same."""
+    uv = corner_uv(obj.data, layer)
+    written = [np.ptp(uv[list(face.loop_indices)], axis=0).max() > 0.0 for face in obj.data.polygons]
+    return np.flatnonzero(written).tolist()
+
+
+def of_the_package(obj, function, **options):
+    """What a map of the package makes of Blender's own triangles: the UVs of the corners, the result, and the polygon
+    of each triangle."""
+    vertices = read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
+    corner_vertex, corners = triangles(obj.data)
+    polygon = read(obj.data.loop_triangles, "polygon_index", np.int32)
+    result = function(vertices, corner_vertex, polygon=polygon, **options)
+    uv = np.zeros((len(obj.data.loops), 2), np.float32)
+    uv[corners] = result.uv
+    assert np.array_equal(uv[corners], result.uv), "a corner of a polygon has two places"
+    return uv, result, polygon
+
+
+def domain_job(addon, obj, choice):
+    """The job of an operator that maps to a domain beside the disk."""
+    return addon("jobs.domain_jobs").job_type(choice)([obj], addon("maps.options").Options(), choice)
+
+
 def boundary_loops(mesh):
     """Vertices of each boundary loop, in order, found edge by edge."""
     uses = np.bincount(read(mesh.loops, "edge_index", np.int32), minlength=len(mesh.edges))
@@ -185,6 +216,15 @@ def signed_areas(mesh, layer):
     a, b, c = np.moveaxis(corner_uv(mesh, layer).astype(np.float64)[corners], 1, 0)
     one, two = b - a, c - a
     return 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+
+
+def polygon_areas(obj):
+    """UV areas of the faces, twice over."""
+    uv = corner_uv(obj.data, "Koebe").astype(float)
+    return np.array([
+        sum(uv[i][0] * uv[j][1] - uv[j][0] * uv[i][1] for i, j in zip(loops, [*loops[1:], loops[0]]))
+        for loops in (list(face.loop_indices) for face in obj.data.polygons)
+    ])  # fmt: skip
 
 
 def loop_uv(mesh, layer, loop):

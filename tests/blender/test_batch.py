@@ -104,7 +104,7 @@ def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
     assert done.returncode == 0, done.stderr
     assert f"Ball: 1 sphere, {layout}, 1 cap, " in done.stdout
     assert bpy.ops.uv.koebe_sphere(layer="Own", layout=layout) == {"FINISHED"}
-    expected, flipped = scenes.corner_uv(obj.data, "Own").copy(), balls.last_run().flipped
+    expected, flipped = scenes.corner_uv(obj.data, "Own").copy(), scenes.last_run().flipped
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
     assert np.array_equal(scenes.corner_uv(bpy.data.objects["Ball"].data, "Own"), expected)
     (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]

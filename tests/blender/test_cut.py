@@ -8,6 +8,7 @@ import fingerprint
 import numpy as np
 import pytest
 import scenes
+import wild
 from test_bad_meshes import FAN, moebius_strip, torus_with_hole
 from test_parts import added
 
@@ -274,23 +275,7 @@ def damaged(random):
         vertices, faces = klein(8, 6)
     else:
         vertices, faces = moebius_strip(8)
-    vertices, faces = np.array(vertices, dtype=float), [list(face) for face in faces]
-    for _ in range(random.integers(0, 4)):
-        act, pick = random.integers(5), random.integers(len(faces))
-        if act == 0 and len(faces) > 4:
-            faces.pop(pick)
-        elif act == 1:
-            faces.append(faces[pick][1:] + faces[pick][:1])
-        elif act == 2:
-            faces[pick] = faces[pick][::-1]
-        elif act == 3:  # a fin on an edge
-            vertices = np.vstack([vertices, vertices.mean(axis=0) + random.normal(size=3)])
-            faces.append([faces[pick][0], faces[pick][1], len(vertices) - 1])
-        else:  # two vertices become one
-            one, two = random.choice(len(vertices), 2, replace=False)
-            glued = [[int(one) if v == two else v for v in face] for face in faces]
-            faces = [face for face in glued if len(set(face)) == len(face)]
-    return vertices, faces
+    return wild.damaged(random, vertices, faces)
 
 
 def test_what_cannot_be_painted_on_is_said():

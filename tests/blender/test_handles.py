@@ -5,30 +5,18 @@ import json
 import os
 
 import bpy
-import fingerprint
 import numpy as np
 import pytest
 import scenes
-from balls import add_ball, join_faces, last_run
+from balls import join_faces
 from handles import HOLE, HOLES, THREE, add_plate, plate_arrays
+from scenes import last_run
 from tori import add_torus, block
-from wild import damaged, wild
+from wild import damaged, map_or_refuse, wild
 
 
 def unwrap(**options):
     return bpy.ops.uv.koebe_schottky(**options)
-
-
-def of_the_package(koebe, obj, normalization="area"):
-    """The map and the UVs of the corners as the package has them, of Blender's own triangles."""
-    vertices = scenes.read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
-    triangles, corners = scenes.triangles(obj.data)
-    polygon = scenes.read(obj.data.loop_triangles, "polygon_index", np.int32)
-    result = koebe.schottky_map(vertices, triangles, normalization=normalization, polygon=polygon)
-    uv = np.zeros((len(obj.data.loops), 2), np.float32)
-    uv[corners] = result.uv
-    assert np.array_equal(uv[corners], result.uv), "a corner of a polygon has two places"
-    return uv, result
 
 
 def signed_areas(uv, corners):
@@ -56,7 +44,7 @@ def test_it_is_what_the_package_makes_of_it(koebe, case, polygons):
         scenes.with_polygons(obj)
     before = scenes.mesh_state(obj.data)
     assert unwrap(normalization=normalization, checker=False) == {"FINISHED"}
-    expected, result = of_the_package(koebe, obj, normalization)
+    expected, result, _ = scenes.of_the_package(obj, koebe.schottky_map, normalization=normalization)
     if normalization == "area":  # equal circles may have no room, then the report says so
         assert result.converged and result.flipped == result.below_resolution <= (case == "three")
     uv = scenes.corner_uv(obj.data, "Koebe")
@@ -109,47 +97,7 @@ def test_the_checker_is_plain():
         assert nodes["Fine"].inputs["Scale"].default_value == 20.0 and "Across" not in nodes
 
 
-def test_one_step_of_undo():
-    obj = add_plate()
-    bpy.ops.ed.undo_push(message="before")
-    assert bpy.ops.uv.koebe_schottky("EXEC_DEFAULT", True) == {"FINISHED"}
-    after = scenes.corner_uv(obj.data, "Koebe").copy()
-    bpy.ops.ed.undo()
-    obj = bpy.data.objects["Plate"]
-    assert len(obj.data.uv_layers) == 0 and len(obj.material_slots) == 0
-    bpy.ops.ed.redo()
-    obj = bpy.data.objects["Plate"]
-    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), after) and len(obj.material_slots) == 1
-
-
-# ---------------------------------------------------------------- what has no handle, and what has too many for others
-
-WRONG = {
-    "a ball": ("schottky", add_ball, "this surface has no handle: Unwrap Handles needs one at least", "sphere"),
-    "a panel": ("schottky", scenes.add_panel, "this surface has no handle", "uniformize"),
-    "two in a torus tile": ("torus", add_plate, "this surface has 2 handles: a torus tile needs", "schottky parts"),
-    "two in a sphere": ("sphere", add_plate, "this surface has 2 handles: a sphere has none", "schottky parts"),
-    "two in a cylinder": ("ring", add_plate, "this surface has 2 handles: a cylinder has none", "schottky parts"),
-}
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-@pytest.mark.parametrize("wrong", WRONG)
-def test_what_is_refused_is_told_and_stays_as_it_is(wrong, mode):
-    kind, make, text, offer = WRONG[wrong]
-    obj = make()
-    scenes.select(obj)
-    if mode == "EDIT":
-        scenes.select_faces(obj)
-    before = fingerprint.fingerprint()
-    with pytest.raises(RuntimeError, match=f"Koebe UV: nothing was mapped. {obj.name}: {text}"):
-        getattr(bpy.ops.uv, f"koebe_{kind}")()
-    changed = fingerprint.differences(before, fingerprint.fingerprint())
-    allowed = ("file: report", f"mesh {obj.data.name}: history", f"mesh {obj.data.name}: active face")
-    assert [key for key in changed if key not in allowed] == []
-    entry = last_run()
-    assert not entry.mapped and entry.offer == offer and entry.message.startswith(text)
-    assert len(obj.data.uv_layers) == 0
+# ---------------------------------------------------------------- what cannot be cut, seams
 
 
 def test_handles_that_cannot_be_cut_are_shown(addon, koebe, monkeypatch):
@@ -170,30 +118,6 @@ def test_handles_that_cannot_be_cut_are_shown(addon, koebe, monkeypatch):
     assert len(obj.data.uv_layers) == 0 and last_run().offer == ""
 
 
-def test_several_objects_one_of_them_bad():
-    good, bad = add_plate(), add_ball()
-    scenes.select(good, bad)
-    assert unwrap() == {"FINISHED"}
-    told = {entry.object_name: entry.mapped for entry in bpy.context.window_manager.koebe_uv.islands}
-    assert told == {"Plate": True, "Ball": False}
-    assert len(bad.data.uv_layers) == 0 and len(bad.material_slots) == 0
-
-
-def test_in_edit_mode_the_selected_faces():
-    """A part of a surface with two handles that has one, and a hole."""
-    obj = add_plate()
-    left = [face.index for face in obj.data.polygons if face.center.x < 6.0]
-    scenes.select_faces(obj, left)
-    assert unwrap() == {"FINISHED"}
-    assert bpy.context.mode == "EDIT_MESH"
-    bpy.ops.object.mode_set(mode="OBJECT")
-    uv = scenes.corner_uv(obj.data, "Koebe")
-    written = np.array([np.ptp(uv[list(face.loop_indices)], axis=0).max() > 0.0 for face in obj.data.polygons])
-    assert np.flatnonzero(written).tolist() == left
-    entry = last_run()
-    assert entry.handles == 1 and len(entry.loops) == 1
-
-
 def test_seams_divide_islands():
     """Each half has a handle, the square to itself, and a rim."""
     obj = add_plate()
@@ -205,53 +129,13 @@ def test_seams_divide_islands():
     assert [(entry.mapped, entry.handles, len(entry.loops)) for entry in entries] == [(True, 1, 1)] * 2
 
 
-def test_cuts_and_loops_can_be_selected():
-    obj = add_plate(holes=HOLES)
-    unwrap()
-    uv = scenes.corner_uv(obj.data, "Koebe")
-    assert bpy.ops.uv.koebe_select_cuts() == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    places = collections.defaultdict(set)
-    for face in obj.data.polygons:
-        corners = list(face.loop_indices)
-        for here, there in zip(corners, [*corners[1:], corners[0]]):
-            ends = sorted((obj.data.loops[i].vertex_index, *uv[i].tolist()) for i in (here, there))
-            places[obj.data.loops[here].edge_index].add(tuple(ends))
-    cut = sorted(edge for edge, ends in places.items() if len(ends) > 1)
-    assert len(cut) > 8 and np.flatnonzero(scenes.read(obj.data.edges, "select", bool)).tolist() == cut
-    assert bpy.ops.uv.koebe_select_loop(loop=1) == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    chosen = np.flatnonzero(scenes.read(obj.data.vertices, "select", bool)).tolist()
-    assert chosen in [sorted(loop) for loop in scenes.boundary_loops(obj.data)]
-
-
-def new_job(addon, obj, normalization="area"):
-    options = addon("maps.options")
-    return addon("jobs.domain_job").SchottkyJob([obj], options.Options(), options.SchottkyChoice(normalization))
-
-
-def test_esc_before_the_end_changes_nothing(addon):
-    obj = add_plate()
-    job = new_job(addon, obj)
-    job.cancel_token.cancel()
-    with pytest.raises(job.koebe.Cancelled):
-        job.compute()
-    assert len(obj.data.uv_layers) == 0
-    heard = []
-    job = new_job(addon, obj)
-    job.compute(lambda fraction, stage: heard.append((fraction, stage)))
-    shares = [fraction for fraction, _ in heard]
-    assert shares == sorted(shares) and shares[-1] == 1.0
-    assert {stage for _, stage in heard} <= addon("operators.modal_run").STAGES.keys()
-
-
 def test_the_report_has_the_meshs_numbers(addon):
     """Of the two halves of a plate, as JSON."""
     obj = add_plate()
     x = scenes.read(obj.data.vertices, "co", np.float32, 3)[:, 0]
     ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
     obj.data.edges.foreach_set("use_seam", (np.abs(x[ends] - 6.0) < 0.1).all(axis=1))
-    job = new_job(addon, obj)
+    job = scenes.domain_job(addon, obj, addon("maps.domains").SCHOTTKY.choice())
     job.compute()
     job.write()
     (outcome,) = job.outcomes
@@ -316,21 +200,9 @@ def test_wild_surfaces_are_cut_open_or_refused(addon, seed):
     for _ in range(10):
         obj = wild_plate(random)
         bpy.context.view_layer.update()
-        state = scenes.mesh_state(obj.data)
-        job = new_job(addon, obj, str(random.choice(["area", "circles"])))
-        job.compute()
-        (outcome,) = job.outcomes
-        for one in outcome.mapped:
-            assert_is_cut_open(outcome, one)
-            mapped[f"{len(one.result.handles)} handles, converged: {one.result.converged}"] += 1
-        for one in outcome.failed:
-            assert "nobody foresaw" not in str(one.error)
-            refused[getattr(one.error, "kind", None) or f"{type(one.error).__name__}: {one.error}"] += 1
-        if outcome.mapped:
-            job.write()
-            assert outcome.line() and json.dumps(job.entries(outcome))
-        assert scenes.mesh_state(obj.data, but_layer="Koebe").items() >= {
-            key: value for key, value in state.items() if key not in ("uv Koebe", "face material")
-        }.items()
+        choice = addon("maps.domains").SCHOTTKY.choice(str(random.choice(["area", "circles"])))
+        done, failed = map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_cut_open)
+        mapped.update(f"{len(one.result.handles)} handles, converged: {one.result.converged}" for one in done)
+        refused.update(getattr(one.error, "kind", None) or f"{type(one.error).__name__}: {one.error}" for one in failed)
         bpy.data.objects.remove(obj)
     print(f"mapped {dict(mapped)}, refused {dict(refused)}")

@@ -5,6 +5,7 @@ import fingerprint
 import numpy as np
 import pytest
 import scenes
+from scenes import last_run
 
 
 def unwrap(**options):
@@ -18,15 +19,6 @@ def added(make, **options):
     while obj.data.uv_layers:
         obj.data.uv_layers.remove(obj.data.uv_layers[0])
     return obj
-
-
-def signed_areas(obj):
-    """UV areas of the faces, twice over, by the shoelace formula."""
-    uv = scenes.corner_uv(obj.data, "Koebe").astype(float)
-    return np.array([
-        sum(uv[i][0] * uv[j][1] - uv[j][0] * uv[i][1] for i, j in zip(loops, [*loops[1:], loops[0]]))
-        for loops in (list(face.loop_indices) for face in obj.data.polygons)
-    ])  # fmt: skip
 
 
 MODELS = {
@@ -47,7 +39,7 @@ def test_any_model_gets_uvs_without_flips_in_the_square(model):
     assert unwrap(checker=False) == {"FINISHED"}
     uv = scenes.corner_uv(obj.data, "Koebe")
     assert np.isfinite(uv).all() and uv.min() >= 0.0 and uv.max() <= 1.0 and np.ptp(uv) > 0.3
-    assert (signed_areas(obj) > 0.0).all()
+    assert (scenes.polygon_areas(obj) > 0.0).all()
     (entry,) = bpy.context.window_manager.koebe_uv.islands
     assert entry.mapped and entry.flipped == 0 and entry.parts >= 1 and not entry.loops
     changed = fingerprint.differences(before, fingerprint.fingerprint())
@@ -171,11 +163,6 @@ def cuts_of(obj):
     return np.array(sorted(edge for edge, sides in places.items() if len(sides) > 1), dtype=int)
 
 
-def last_run():
-    (entry,) = bpy.context.window_manager.koebe_uv.islands
-    return entry
-
-
 @pytest.mark.alike
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 @pytest.mark.parametrize("model", [*MODELS, "finger"])
@@ -197,7 +184,7 @@ def test_cuts_become_seams_and_the_next_run_cuts_along_them(model, mode):
         assert unwrap(checker=False, seams=seams) == {"FINISHED"}
         assert set(cuts) <= set(cuts_of(obj)), seams
         assert seams == "add" or (last_run().parts == first and set(cuts) == set(cuts_of(obj)))
-        assert (signed_areas(obj) > 0.0).all()
+        assert (scenes.polygon_areas(obj) > 0.0).all()
 
 
 @pytest.mark.alike

@@ -261,17 +261,8 @@ def test_a_map_that_loses_a_limb_is_not_done(run):
     assert not entry.mapped and entry.offer == "parts"
     lost = json.loads(entry.offenders)[1]
     assert operator(most_lost=1.0, checker=False) == {"FINISHED"}
-    areas = shoelace(obj)
+    areas = scenes.polygon_areas(obj)
     assert set(np.flatnonzero(areas <= 0.0)) <= set(lost) and islands()[0].flipped >= len(lost) > 0
-
-
-def shoelace(obj):
-    """UV areas of the faces, twice over."""
-    uv = scenes.corner_uv(obj.data, "Koebe").astype(float)
-    return np.array([
-        sum(uv[i][0] * uv[j][1] - uv[j][0] * uv[i][1] for i, j in zip(loops, [*loops[1:], loops[0]]))
-        for loops in (list(face.loop_indices) for face in obj.data.polygons)
-    ])  # fmt: skip
 
 
 def test_one_map_of_a_limb_is_written_and_says_first_what_is_lost(capfd):

@@ -5,32 +5,20 @@ import json
 import os
 
 import bpy
-import fingerprint
 import numpy as np
 import pytest
 import scenes
-from balls import LAYOUTS, add_ball, are_continued, ball_arrays, join_faces, last_run, led_back, sides_of_edges
+from balls import LAYOUTS, add_ball, are_continued, ball_arrays, join_faces, led_back, sides_of_edges
+from scenes import last_run
 from test_handles import signed_areas
 from tori import add_torus
-from wild import damaged, wild
+from wild import damaged, map_or_refuse, wild
 
 HOLES = ((1, 2), (2, 2), (9, 5), (9, 6), (10, 5))
 
 
 def sphere(**options):
     return bpy.ops.uv.koebe_sphere(**options)
-
-
-def of_the_package(koebe, obj, layout):
-    """The sphere and the UVs of the corners as the package has them, of Blender's own triangles."""
-    vertices = scenes.read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
-    triangles, corners = scenes.triangles(obj.data)
-    polygon = scenes.read(obj.data.loop_triangles, "polygon_index", np.int32)
-    ball = koebe.sphere_map(vertices, triangles, layout=layout, polygon=polygon)
-    uv = np.zeros((len(obj.data.loops), 2), np.float32)
-    uv[corners] = ball.uv
-    assert np.array_equal(uv[corners], ball.uv), "a corner of a polygon has two places"
-    return uv, ball, polygon
 
 
 @pytest.mark.alike
@@ -43,7 +31,7 @@ def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
         scenes.with_polygons(obj)
     before = scenes.mesh_state(obj.data)
     assert sphere(layout=layout, checker=False) == {"FINISHED"}
-    expected, ball, polygon = of_the_package(koebe, obj, layout)
+    expected, ball, polygon = scenes.of_the_package(obj, koebe.sphere_map, layout=layout)
     assert ball.converged
     uv = scenes.corner_uv(obj.data, "Koebe")
     assert np.array_equal(uv, expected)
@@ -155,7 +143,7 @@ def test_the_sphere_is_added_beside_its_source(koebe, mode):
         assert bpy.context.mode == "EDIT_MESH"
         bpy.ops.object.mode_set(mode="OBJECT")
     added = bpy.data.objects["Ball Sphere"]
-    _, ball, _ = of_the_package(koebe, obj, "equirectangular")
+    _, ball, _ = scenes.of_the_package(obj, koebe.sphere_map)
     corners = [scenes.read(one.data.loops, "vertex_index", np.int32) for one in (obj, added)]
     places = scenes.read(added.data.vertices, "co", np.float32, 3)
     obj.data.calc_loop_triangles()
@@ -191,48 +179,6 @@ def test_nothing_is_added_where_nothing_is_mapped():
     assert [obj.name for obj in bpy.data.objects] == ["Torus"] and len(bpy.data.meshes) == 1
 
 
-# ---------------------------------------------------------------- what is no sphere
-
-WRONG = {
-    "a torus": (add_torus, "this surface has 1 handle: a sphere has none", "torus"),
-    "two handles": (lambda: pretzel(), "this surface has 2 handles: a sphere has none", "schottky parts"),
-}
-
-
-def pretzel():
-    from test_tiles import two_handles
-
-    return two_handles()
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-@pytest.mark.parametrize("wrong", WRONG)
-def test_what_is_no_sphere_is_told_and_stays_as_it_is(wrong, mode):
-    make, text, offer = WRONG[wrong]
-    obj = make()
-    scenes.select(obj)
-    if mode == "EDIT":
-        scenes.select_faces(obj)
-    before = fingerprint.fingerprint()
-    with pytest.raises(RuntimeError, match=f"Koebe UV: nothing was mapped. {obj.name}: {text}"):
-        sphere()
-    changed = fingerprint.differences(before, fingerprint.fingerprint())
-    allowed = ("file: report", f"mesh {obj.data.name}: history", f"mesh {obj.data.name}: active face")
-    assert [key for key in changed if key not in allowed] == []
-    entry = last_run()
-    assert not entry.mapped and entry.offer == offer and entry.message.startswith(text)
-    assert len(obj.data.uv_layers) == 0
-
-
-def test_several_objects_one_of_them_bad():
-    good, bad = add_ball(), add_torus()
-    scenes.select(good, bad)
-    assert sphere() == {"FINISHED"}
-    told = {entry.object_name: entry.mapped for entry in bpy.context.window_manager.koebe_uv.islands}
-    assert told == {"Ball": True, "Torus": False}
-    assert len(bad.data.uv_layers) == 0 and len(bad.material_slots) == 0
-
-
 def test_seams_divide_islands_and_others_do_not():
     """A ring of seams makes two spheres of a ball; a path of seams none."""
     obj = add_ball()
@@ -248,50 +194,13 @@ def test_seams_divide_islands_and_others_do_not():
     assert [(entry.mapped, len(entry.loops)) for entry in entries] == [(True, 1), (True, 1)]
 
 
-def test_in_edit_mode_the_selected_faces():
-    obj = add_ball()
-    belt = [face.index for face in obj.data.polygons if face.index % 9 < 4 and face.index < 144]
-    scenes.select_faces(obj, belt)
-    assert sphere() == {"FINISHED"}
-    assert bpy.context.mode == "EDIT_MESH"
-    bpy.ops.object.mode_set(mode="OBJECT")
-    uv = scenes.corner_uv(obj.data, "Koebe")
-    written = np.array([np.ptp(uv[list(face.loop_indices)], axis=0).max() > 0.0 for face in obj.data.polygons])
-    assert np.flatnonzero(written).tolist() == belt
-
-
-def test_cuts_loops_and_torn_faces_can_be_selected():
+def test_torn_faces_can_be_selected():
     obj = add_ball(holes=HOLES)
     sphere()
-    uv, torn = scenes.corner_uv(obj.data, "Koebe"), json.loads(last_run().torn_faces)
+    torn = json.loads(last_run().torn_faces)
     assert bpy.ops.uv.koebe_select_torn() == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
     assert np.flatnonzero(scenes.read(obj.data.polygons, "select", bool)).tolist() == torn
-    assert bpy.ops.uv.koebe_select_cuts() == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    ends, _ = sides_of_edges(obj.data, uv)
-    apart = (ends[:, :, 0] != ends[:, :, 1]).any(axis=(1, 2))
-    assert scenes.read(obj.data.edges, "select", bool).sum() == apart.sum() > 0
-    assert bpy.ops.uv.koebe_select_loop(loop=1) == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    chosen = np.flatnonzero(scenes.read(obj.data.vertices, "select", bool)).tolist()
-    assert chosen in [sorted(loop) for loop in scenes.boundary_loops(obj.data)]
-
-
-def test_esc_before_the_end_changes_nothing(addon):
-    obj = add_ball()
-    options = addon("maps.options")
-    job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice())
-    job.cancel_token.cancel()
-    with pytest.raises(job.koebe.Cancelled):
-        job.compute()
-    assert len(obj.data.uv_layers) == 0
-    heard = []
-    job = addon("jobs.domain_job").SphereJob([obj], job.options, job.choice)
-    job.compute(lambda fraction, stage: heard.append((fraction, stage)))
-    shares = [fraction for fraction, _ in heard]
-    assert shares == sorted(shares) and shares[-1] == 1.0
-    assert {stage for _, stage in heard} <= addon("operators.modal_run").STAGES.keys()
 
 
 def test_the_report_has_the_meshs_numbers(addon):
@@ -299,8 +208,7 @@ def test_the_report_has_the_meshs_numbers(addon):
     obj = add_ball()
     ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
     obj.data.edges.foreach_set("use_seam", (ends % 10 == 4).all(axis=1))
-    options = addon("maps.options")
-    job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice("octahedral"))
+    job = scenes.domain_job(addon, obj, addon("maps.domains").SPHERE.choice("octahedral"))
     job.compute()
     job.write()
     (outcome,) = job.outcomes
@@ -334,9 +242,9 @@ def wild_ball(random):
     return join_faces(random, obj, random.choice([0.0, 0.2, 0.8]))
 
 
-def assert_is_a_layout(outcome, one, layout):
+def assert_is_a_layout(outcome, one):
     """Corners at their points, and both sides of edges the same in the continued pattern, but for torn faces."""
-    surface, result = outcome.task.surface, one.result
+    surface, result, layout = outcome.task.surface, one.result, outcome.choice.layout
     uv = np.full((len(surface.corner_vertex), 2), np.nan)
     uv[one.corners] = one.uv
     assert np.isfinite(one.uv).all() and one.uv.min() >= -2 and one.uv.max() <= 2
@@ -372,22 +280,9 @@ def test_wild_surfaces_become_spheres_or_are_refused(addon, seed):
     for _ in range(10):
         obj = wild_ball(random)
         bpy.context.view_layer.update()
-        state = scenes.mesh_state(obj.data)
-        options, layout = addon("maps.options"), str(random.choice(LAYOUTS))
-        job = addon("jobs.domain_job").SphereJob([obj], options.Options(), options.SphereChoice(layout))
-        job.compute()
-        (outcome,) = job.outcomes
-        for one in outcome.mapped:
-            assert_is_a_layout(outcome, one, layout)
-            mapped += 1
-        for one in outcome.failed:
-            assert "nobody foresaw" not in str(one.error)
-            refused[getattr(one.error, "kind", None) or type(one.error).__name__] += 1
-        if outcome.mapped:
-            job.write()
-            assert outcome.line() and job.entries(outcome)
-        assert scenes.mesh_state(obj.data, but_layer="Koebe").items() >= {
-            key: value for key, value in state.items() if key not in ("uv Koebe", "face material")
-        }.items()
+        choice = addon("maps.domains").SPHERE.choice(str(random.choice(LAYOUTS)))
+        done, failed = map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_a_layout)
+        mapped += len(done)
+        refused.update(getattr(one.error, "kind", None) or type(one.error).__name__ for one in failed)
         bpy.data.objects.remove(obj)
     print(f"{mapped} islands mapped, refused {dict(refused)}")

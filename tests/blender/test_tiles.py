@@ -4,10 +4,10 @@ import math
 import os
 
 import bpy
-import fingerprint
 import numpy as np
 import pytest
 import scenes
+from scenes import last_run
 from tori import (
     GRID,
     add_torus,
@@ -16,13 +16,12 @@ from tori import (
     assert_torus,
     block,
     grid_points,
-    last_run,
     polygon_areas,
     shifts,
     torus_arrays,
     tube_arrays,
 )
-from wild import damaged, wild
+from wild import damaged, map_or_refuse, wild
 
 
 def torus(**options):
@@ -41,17 +40,6 @@ def unwrap(kind, **options):
     return getattr(bpy.ops.uv, f"koebe_{kind}")(**options)
 
 
-def of_the_package(koebe, obj, function, **options):
-    """UVs of the corners as the package has them, of Blender's own triangles."""
-    vertices = scenes.read(obj.data.vertices, "co", np.float32, 3).astype(np.float64)
-    triangles, corners = scenes.triangles(obj.data)
-    polygon = scenes.read(obj.data.loop_triangles, "polygon_index", np.int32)
-    tile = function(vertices, triangles, polygon=polygon, **options)
-    uv = np.zeros((len(obj.data.loops), 2), np.float32)
-    uv[corners] = tile.uv
-    return uv, tile
-
-
 HOLES = (*block(2, 3), *block(9, 7, 3))
 
 
@@ -64,7 +52,7 @@ def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
         scenes.with_polygons(obj)
     before = scenes.mesh_state(obj.data)
     assert torus(checker=False) == {"FINISHED"}
-    expected, tile = of_the_package(koebe, obj, koebe.torus_map)
+    expected, tile, _ = scenes.of_the_package(obj, koebe.torus_map)
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected)
     assert scenes.mesh_state(obj.data, but_layer="Koebe") == before
     found = assert_torus(obj)
@@ -91,7 +79,7 @@ def test_a_cylinder_is_what_the_package_makes_of_it(koebe, how, polygons):
     loops = sorted(scenes.boundary_loops(obj.data), key=len)[-2:]
     heights = [np.mean([obj.data.vertices[v].co.z for v in loop]) for loop in loops]
     low, high = (loops[k][0] for k in np.argsort(heights))
-    expected, tile = of_the_package(koebe, obj, koebe.ring_map, outer=low, inner=high, holes=how)
+    expected, tile, _ = scenes.of_the_package(obj, koebe.ring_map, outer=low, inner=high, holes=how)
     assert tile.converged
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected)
     assert scenes.mesh_state(obj.data, but_layer="Koebe") == before
@@ -205,62 +193,6 @@ def test_a_checker_of_a_tile_is_no_other_objects():
     assert_runs_over_the_cuts(one)
 
 
-# ---------------------------------------------------------------- what is no such domain
-
-
-def two_handles():
-    """Two tori joined by a tube between two of their faces."""
-    vertices, faces = torus_arrays(holes=((0, 0),))
-    other = vertices * (-1.0, 1.0, 1.0) + (7.0, 0.0, 0.0)
-    count = len(vertices)
-    mirrored = [tuple(v + count for v in face[::-1]) for face in faces]
-    gap = torus_arrays()[1][0]  # as no vertex is lost with one face
-    tube = [(a, b, b + count, a + count) for a, b in zip(gap, [*gap[1:], gap[0]])]
-    obj = scenes.add_object("Pretzel", np.concatenate([vertices, other]), [*faces, *mirrored, *tube])
-    scenes.select(obj)
-    return obj
-
-
-WRONG = {
-    "two handles": ("torus", two_handles, "this surface has 2 handles: a torus tile needs", "schottky parts"),
-    "a panel": ("torus", scenes.add_panel, "this surface has no handle: a torus tile needs one", "ring"),
-    "a cube": ("torus", scenes.add_cube, "this surface has no handle", "parts"),
-    "a torus": ("ring", add_torus, "this surface has 1 handle: a cylinder has none", "torus"),
-    "a pretzel": ("ring", two_handles, "this surface has 2 handles: a cylinder has none", "schottky parts"),
-    "a closed cube": ("ring", scenes.add_cube, "this surface has no boundary loop: a cylinder needs two", "parts"),
-    "a cup": ("ring", lambda: scenes.add_cube(closed=False), "this surface has one boundary loop", "parts"),
-}
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-@pytest.mark.parametrize("wrong", WRONG)
-def test_what_is_no_such_domain_is_told_and_stays_as_it_is(wrong, mode):
-    kind, make, text, offer = WRONG[wrong]
-    obj = make()
-    scenes.select(obj)
-    if mode == "EDIT":
-        scenes.select_faces(obj)
-    before = fingerprint.fingerprint()
-    with pytest.raises(RuntimeError, match=f"Koebe UV: nothing was mapped. {obj.name}: {text}"):
-        unwrap(kind)
-    changed = fingerprint.differences(before, fingerprint.fingerprint())
-    allowed = ("file: report", f"mesh {obj.data.name}: history", f"mesh {obj.data.name}: active face")
-    assert [key for key in changed if key not in allowed] == []
-    entry = last_run()
-    assert not entry.mapped and entry.offer == offer and entry.message.startswith(text)
-    assert len(obj.data.uv_layers) == 0
-
-
-def test_several_objects_one_of_them_bad():
-    good, bad = add_torus(), scenes.add_panel()
-    scenes.select(good, bad)
-    assert torus() == {"FINISHED"}
-    told = {entry.object_name: entry.mapped for entry in bpy.context.window_manager.koebe_uv.islands}
-    assert told == {"Torus": True, "Panel": False}
-    assert len(bad.data.uv_layers) == 0 and len(bad.material_slots) == 0
-    assert_torus(good)
-
-
 def test_a_shared_mesh_counts_once():
     obj = add_torus()
     other = bpy.data.objects.new("Other", obj.data)
@@ -340,20 +272,6 @@ def test_two_tori_of_other_periods_are_told():
     assert all("other periods" in entry.message for entry in bpy.context.window_manager.koebe_uv.islands)
 
 
-def test_in_edit_mode_the_selected_faces():
-    """A belt of a torus is a cylinder; the rest keeps its UVs, and the artist stays there."""
-    obj = add_torus()
-    belt = [k for k in range(len(obj.data.polygons)) if k // 12 < 5]
-    scenes.select_faces(obj, belt)
-    assert ring() == {"FINISHED"}
-    assert bpy.context.mode == "EDIT_MESH"
-    bpy.ops.object.mode_set(mode="OBJECT")
-    uv = scenes.corner_uv(obj.data, "Koebe")
-    written = np.array([np.ptp(uv[list(face.loop_indices)], axis=0).max() > 0.0 for face in obj.data.polygons])
-    assert np.flatnonzero(written).tolist() == belt
-    assert len(last_run().loops) == 2
-
-
 def pick(obj, vertices):
     """Edit Mode with only these vertices selected."""
     bpy.ops.object.mode_set(mode="EDIT")
@@ -394,26 +312,6 @@ def test_rims_that_are_not_two_are_an_error():
         ring()
 
 
-def test_the_cuts_and_the_loops_can_be_selected():
-    obj = add_torus(holes=HOLES)
-    torus()
-    points = grid_points(obj)
-    assert bpy.ops.uv.koebe_select_cuts() == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    cut = np.flatnonzero(scenes.read(obj.data.edges, "select", bool))
-    places = {}
-    for face in obj.data.polygons:
-        loops = list(face.loop_indices)
-        for here, there in zip(loops, [*loops[1:], loops[0]]):
-            ends = frozenset((obj.data.loops[i].vertex_index, *points[i].tolist()) for i in (here, there))
-            places.setdefault(obj.data.loops[here].edge_index, set()).add(ends)
-    assert cut.tolist() == sorted(edge for edge, sides in places.items() if len(sides) > 1)
-    assert bpy.ops.uv.koebe_select_loop(loop=1) == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    chosen = np.flatnonzero(scenes.read(obj.data.vertices, "select", bool)).tolist()
-    assert chosen in [sorted(loop) for loop in scenes.boundary_loops(obj.data)]
-
-
 def test_circles_of_the_report_lie_on_the_holes():
     obj = add_torus(holes=HOLES)
     for fit in ("inside", "period"):
@@ -444,25 +342,6 @@ def test_uvs_are_stored_as_they_were_written(tmp_path):
     obj = bpy.data.objects["Torus"]
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected)
     assert_torus(obj)
-
-
-@pytest.mark.parametrize("kind", ["torus", "ring"])
-def test_esc_before_the_end_changes_nothing(addon, kind):
-    obj = add(kind)
-    job = addon("jobs.tile_job").TileJob(
-        [obj], addon("maps.options").Options(), addon("maps.options").TileChoice(kind)
-    )
-    job.cancel_token.cancel()
-    with pytest.raises(job.koebe.Cancelled):
-        job.compute()
-    assert len(obj.data.uv_layers) == 0
-    heard = []
-    job = addon("jobs.tile_job").TileJob([obj], job.options, job.choice)
-    job.compute(lambda fraction, stage: heard.append((fraction, stage)))
-    shares = [fraction for fraction, _ in heard]
-    assert shares == sorted(shares) and shares[-1] == 1.0
-    stages = addon("operators.modal_run").STAGES
-    assert {stage for _, stage in heard} <= stages.keys()
 
 
 def test_what_is_chosen_in_the_panel_is_kept_and_reset():
@@ -496,10 +375,10 @@ def wild_surface(random):
     return scenes.add_object("Wild", points, faces)
 
 
-def assert_is_a_tile(outcome, one, choice):
+def assert_is_a_tile(outcome, one):
     """UVs on a grid, the sides of each edge of the island apart by whole periods, and no face of an island that is
     promised to be one to one turned over."""
-    surface, tile = outcome.task.surface, one.tile
+    surface, tile, choice = outcome.task.surface, one.tile, outcome.choice
     uv = np.full((len(surface.corner_vertex), 2), np.nan)
     uv[one.corners] = one.uv
     steps = one.uv.astype(np.float64) / tile.grid
@@ -530,28 +409,14 @@ def assert_is_a_tile(outcome, one, choice):
 @pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))))
 def test_wild_surfaces_become_tiles_or_are_refused(addon, seed):
     random = np.random.default_rng(seed)
-    mapped = 0
+    domains, mapped = addon("maps.domains"), 0
     for _ in range(6):
         obj = wild_surface(random)
         bpy.context.view_layer.update()
-        state = scenes.mesh_state(obj.data)
-        make = addon("maps.options").TileChoice
-        for domain in ("torus", "ring"):
-            choice = make(domain, *(str(random.choice(of)) for of in (
-                ["circles", "concentric", "radial"], ["auto"], ["inside", "period", "square"])))  # fmt: skip
-            job = addon("jobs.tile_job").TileJob([obj], addon("maps.options").Options(), choice)
-            job.compute()
-            (outcome,) = job.outcomes
-            for one in outcome.mapped:
-                assert_is_a_tile(outcome, one, choice)
-                mapped += 1
-            for one in outcome.failed:
-                assert "nobody foresaw" not in str(one.error)
-            if outcome.mapped:
-                job.write()
-                assert outcome.line() and job.entries(outcome)
-        assert scenes.mesh_state(obj.data, but_layer="Koebe").items() >= {
-            key: value for key, value in state.items() if key not in ("uv Koebe", "face material")
-        }.items()
+        fit, holes = (str(random.choice(of)) for of in (
+            ["inside", "period", "square"], ["circles", "concentric", "radial"]))  # fmt: skip
+        for choice in (domains.TORUS.choice(fit=fit), domains.RING.choice(fit=fit, holes=holes)):
+            done, _ = map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_a_tile)
+            mapped += len(done)
         bpy.data.objects.remove(obj)
     print(f"{mapped} islands mapped")

@@ -2,7 +2,6 @@
 
 import math
 
-import bpy
 import numpy as np
 import scenes
 
@@ -72,11 +71,6 @@ def add_tube(name="Tube", finger=None, **options):
     obj = scenes.add_object(name, *(arrays if finger is None else with_finger(*arrays, finger)))
     scenes.select(obj)
     return obj
-
-
-def last_run():
-    (entry,) = bpy.context.window_manager.koebe_uv.islands
-    return entry
 
 
 def grid_points(obj, layer="Koebe"):

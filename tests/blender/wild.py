@@ -1,5 +1,7 @@
 """Meshes of all shapes, whole and damaged, with what an artist may have on them, from one number."""
 
+import json
+
 import bmesh
 import bpy
 import numpy as np
@@ -181,3 +183,22 @@ def _flags(random, obj):
         group.add([vertex], float(random.random()), "REPLACE")
     obj.data.materials.append(bpy.data.materials.new("Own"))
     obj.data["own"] = 7
+
+
+def map_or_refuse(obj, job, assert_is_right):
+    """Run a job on an object: each island is mapped right, or has a reason, and the mesh stays. Returns the islands
+    that were mapped, and those that were not."""
+    state = scenes.mesh_state(obj.data)
+    job.compute()
+    (outcome,) = job.outcomes
+    for one in outcome.mapped:
+        assert_is_right(outcome, one)
+    for one in outcome.failed:
+        assert "nobody foresaw" not in str(one.error)
+    if outcome.mapped:
+        job.write()
+        assert outcome.line() and json.dumps(job.entries(outcome))
+    assert scenes.mesh_state(obj.data, but_layer="Koebe").items() >= {
+        key: value for key, value in state.items() if key not in ("uv Koebe", "face material")
+    }.items()
+    return outcome.mapped, outcome.failed

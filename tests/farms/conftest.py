@@ -1,6 +1,5 @@
 """What the tests of farms share: a library of surfaces, what one run makes of it, and how results compare."""
 
-import json
 import subprocess
 import sys
 import time
@@ -10,27 +9,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "python"))
-from cli_support import COMMAND, koebe, obj_text, perforated  # noqa: E402,F401
+from cli_support import COMMAND, contents, koebe, obj_text, perforated  # noqa: E402,F401
 
 FILES = 40
 HOLES = ((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))
-
-
-def lasting(value):
-    """A report without what is measured anew in each run."""
-    if isinstance(value, dict):
-        return {key: lasting(one) for key, one in value.items() if key not in ("seconds", "peak_memory_mb")}
-    return [lasting(one) for one in value] if isinstance(value, list) else value
-
-
-def contents(folder):
-    """Every file of a folder of results, hidden ones too, without what is measured anew."""
-    found = {}
-    for path in Path(folder).rglob("*"):
-        if path.is_file() and path.suffix != ".csv":
-            name, content = path.relative_to(folder).as_posix(), path.read_bytes()
-            found[name] = lasting(json.loads(content)) if path.suffix == ".json" else content
-    return found
 
 
 @pytest.fixture(scope="session")
@@ -55,13 +37,3 @@ def undisturbed(library, tmp_path_factory):
     words = [COMMAND, "batch", str(library), "--output", str(out), "--workers", "1"]
     assert subprocess.run(words, capture_output=True, timeout=900).returncode == 3
     return out, time.monotonic() - begin
-
-
-@pytest.fixture(scope="session")
-def counting_command(tmp_path_factory):
-    """The command, and a file that has a line for every map that was begun."""
-    folder = tmp_path_factory.mktemp("counted")
-    program, log = folder / "koebe", folder / "begun"
-    program.write_text(f"#!/bin/sh\necho \"$2\" >>{log}\nexec {COMMAND} \"$@\"\n")
-    program.chmod(0o755)
-    return program, log

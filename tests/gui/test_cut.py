@@ -1,5 +1,7 @@
 """Koebe Uniformize of a model that is closed: its button, the report's cuts, and a circle tool on the result."""
 
+from window import ENTRY
+
 MODEL = """
 for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
 bpy.ops.mesh.primitive_torus_add(major_segments=64, minor_segments=24)
@@ -7,7 +9,6 @@ obj = bpy.context.object
 while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
 bpy.ops.object.shade_smooth()
 """
-ENTRY = "bpy.context.window_manager.koebe_uv.islands[0]"
 
 
 def test_a_closed_model_is_mapped_by_the_button_and_its_cuts_are_shown(window):
@@ -23,7 +24,5 @@ def test_a_closed_model_is_mapped_by_the_button_and_its_cuts_are_shown(window):
     window.picture("65_cut")
     window.run("bpy.ops.uv.koebe_select_cuts()")
     window.settle()
-    window.move(*window.middle("IMAGE_EDITOR"))
-    window.key("Home")
-    window.picture("66_cuts_selected")
+    window.picture_of_uvs("66_cuts_selected")
     assert window.ask("bpy.context.mode") == "EDIT_MESH"

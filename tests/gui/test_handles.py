@@ -1,6 +1,6 @@
 """Unwrap Handles by its button, offered where a torus tile refuses two handles."""
 
-from test_tiles import DONE, ENTRY, prepare
+from window import ENTRY
 
 PLATE = """
 import numpy as np
@@ -23,17 +23,8 @@ bpy.ops.object.shade_smooth()
 
 
 def test_two_handles_by_the_button_that_the_report_offers(window):
-    window.workspace("UV Editing")
-    prepare(window, PLATE)
-    window.press("uv.koebe_torus")
-    window.wait(DONE, 30.0)
-    window.settle()
-    window.picture("85_two_handles_refused")
-    assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.offer]") == [False, "schottky parts"]
-    window.click(*window.find_button("VIEW_3D", "koebe_schottky"))
-    window.wait(f"{DONE} and {ENTRY}.domain == 'schottky'", 60.0)
+    window.prepare(PLATE)
+    assert window.follow_offer("torus", "schottky", "85_two_handles_refused") == "schottky parts"
     window.show_textures()
-    window.move(*window.middle("IMAGE_EDITOR"))
-    window.key("Home")
-    window.picture("86_handles")
+    window.picture_of_uvs("86_handles")
     assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.converged, {ENTRY}.handles, {ENTRY}.flipped]") == [True, True, 2, 0]

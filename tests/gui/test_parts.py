@@ -21,9 +21,7 @@ def test_the_button_cuts_a_model_into_parts(window):
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "
                 "and bpy.context.window_manager.koebe_uv.islands[0].parts > 1", 30.0)  # fmt: skip
     window.show_textures()
-    window.move(*window.middle("IMAGE_EDITOR"))
-    window.key("Home")
-    window.picture("60_parts")
+    window.picture_of_uvs("60_parts")
     entry = "bpy.context.window_manager.koebe_uv.islands[0]"
     assert window.ask(f"{entry}.flipped") == 0 and window.ask(f"{entry}.mapped")
 
@@ -46,8 +44,4 @@ def test_a_sample_in_parts_and_one_step_back(window, open_sample):
     window.picture("62_hand_in_parts")
     entry = "bpy.context.window_manager.koebe_uv.islands[0]"
     assert window.ask(f"{entry}.flipped") == 0 and window.ask(f"{entry}.mapped")
-    layers = "len(bpy.context.view_layer.objects.active.data.uv_layers)"
-    assert window.ask(layers) == 1
-    window.move(*window.middle("VIEW_3D"))
-    window.key("ctrl+z")
-    window.wait(f"{layers} == 0", 20.0)
+    window.undo()

@@ -2,7 +2,6 @@
 
 import pytest
 from test_escape import HOLD
-from test_tiles import prepare
 from window import ROOT, xdotool
 
 MODEL = f"""
@@ -23,17 +22,14 @@ FRAME = "bpy.context.scene.frame_current"
 
 
 def test_the_button_maps_the_frames_of_the_scene(window):
-    window.workspace("UV Editing")
-    prepare(window, MODEL)
+    window.prepare(MODEL)
     window.open_part("sequence")
     window.picture("90_sequence_options")
     window.choose(target="LAYERS", scene_range=False, frame_start=1, frame_end=4)
     window.click(*window.find_button("VIEW_3D", "koebe_sequence"))
     window.wait(f"not heart.computing and len({REPORT}) == 4", 30.0)
     window.show_textures()
-    window.move(*window.middle("IMAGE_EDITOR"))
-    window.key("Home")
-    window.picture("91_sequence")
+    window.picture_of_uvs("91_sequence")
     layers = "[layer.name for layer in bpy.context.view_layer.objects.active.data.uv_layers]"
     assert window.ask(layers) == [f"Koebe {frame:04d}" for frame in range(1, 5)]
     assert window.ask(f"[[e.mapped, e.flipped] for e in {REPORT}]") == [[True, 0]] * 4
@@ -46,8 +42,7 @@ def test_the_button_maps_the_frames_of_the_scene(window):
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 @pytest.mark.parametrize("while_it", ["reads", "maps"])
 def test_esc(window, mode, while_it):
-    window.workspace("UV Editing")
-    prepare(window, MODEL)
+    window.prepare(MODEL)
     window.run(HOLD)
     if mode == "EDIT":
         window.move(*window.middle("VIEW_3D"))

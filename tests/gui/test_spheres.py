@@ -1,6 +1,7 @@
 """Unwrap to Sphere by its button, in both layouts, and the button that helps where there is a handle."""
 
-from test_tiles import DONE, ENTRY, MODEL, prepare
+from test_tiles import MODEL
+from window import DONE, ENTRY
 
 BODY = """
 import math
@@ -18,8 +19,7 @@ bpy.ops.object.shade_smooth()
 
 
 def test_a_body_by_its_button_in_both_layouts(window):
-    window.workspace("UV Editing")
-    prepare(window, BODY)
+    window.prepare(BODY)
     window.open_part("domains")
     window.settle()
     window.picture("80_sphere_button")
@@ -31,29 +31,15 @@ def test_a_body_by_its_button_in_both_layouts(window):
         window.click(*window.find_button("VIEW_3D", "koebe_sphere"))
         window.wait(DONE, 30.0)
         window.show_textures()
-        window.move(*window.middle("IMAGE_EDITOR"))
-        window.key("Home")
-        window.picture(f"8{number + 1}_{layout}")
+        window.picture_of_uvs(f"8{number + 1}_{layout}")
         assert window.ask(f"[{ENTRY}.domain, {ENTRY}.layout, {ENTRY}.mapped, {ENTRY}.converged]") == [
             "sphere", layout, True, True
         ]
         assert window.ask(f"{ENTRY}.flipped") <= (2 if layout == "equirectangular" else 0)  # beside a pole
-    window.move(*window.middle("VIEW_3D"))
-    layers = "len(bpy.context.view_layer.objects.active.data.uv_layers)"
-    assert window.ask(layers) == 1
-    window.key("ctrl+z")
-    window.key("ctrl+z")
-    window.wait(f"{layers} == 0", 20.0)
+    window.undo(times=2)
 
 
 def test_a_torus_is_no_sphere_and_the_report_has_the_button(window):
-    window.workspace("UV Editing")
-    prepare(window, MODEL)
-    window.press("uv.koebe_sphere")
-    window.wait(DONE, 30.0)
-    window.settle()
-    window.picture("83_no_sphere")
-    assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.offer]") == [False, "torus"]
-    window.click(*window.find_button("VIEW_3D", "koebe_torus"))
-    window.wait(f"{DONE} and {ENTRY}.domain == 'torus'", 30.0)
+    window.prepare(MODEL)
+    assert window.follow_offer("sphere", "torus", "83_no_sphere") == "torus"
     assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.flipped]") == [True, 0]

@@ -20,6 +20,9 @@ FIRST_PART, PART = 279, 26  # pixels from a sidebar's top to the first title bef
 SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
 
 
+ENTRY = "bpy.context.window_manager.koebe_uv.islands[0]"
+DONE = "not heart.computing and len(bpy.context.window_manager.koebe_uv.islands) == 1"
+LAYERS = "len(bpy.context.view_layer.objects.active.data.uv_layers)"
 IN_VIEW = """
 window = bpy.context.window_manager.windows[{window}]
 area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')
@@ -125,6 +128,42 @@ class Window:
         xdotool("mousemove_relative", "1", "0")  # what has changed is drawn with the next event
         self.settle()
         subprocess.run(["import", "-window", "root", str(PICTURES / f"{name}.png")], check=True)
+
+    def prepare(self, model):
+        """The model of this code selected in the 3D View, the sidebar open, and no report."""
+        self.workspace("UV Editing")
+        self.run(model)
+        self.run("bpy.ops.ed.undo_push(message='made')\nbpy.context.window_manager.koebe_uv.islands.clear()")
+        self.open_tab("VIEW_3D")
+        self.move(*self.middle("VIEW_3D"))
+        self.key("KP_Decimal")
+
+    def follow_offer(self, refusing, taking, name):
+        """Press the operator of a domain that refuses the model, keep a picture, and click the operator of another
+        domain in the report. Returns what the report offered."""
+        self.press(f"uv.koebe_{refusing}")
+        self.wait(DONE, 30.0)
+        self.settle()
+        self.picture(name)
+        refused, offer = self.ask(f"[not {ENTRY}.mapped, {ENTRY}.offer]")
+        assert refused
+        self.click(*self.find_button("VIEW_3D", f"koebe_{taking}"))
+        self.wait(f"{DONE} and {ENTRY}.domain == {taking!r}", 60.0)
+        return offer
+
+    def picture_of_uvs(self, name):
+        """Keep what the screen shows with all of the UVs in view."""
+        self.move(*self.middle("IMAGE_EDITOR"))
+        self.key("Home")
+        self.picture(name)
+
+    def undo(self, times=1):
+        """Undo in the 3D View what made the only UV layer."""
+        self.move(*self.middle("VIEW_3D"))
+        assert self.ask(LAYERS) == 1
+        for _ in range(times):
+            self.key("ctrl+z")
+        self.wait(f"{LAYERS} == 0", 20.0)
 
     # ---- where things are
 

@@ -13,7 +13,7 @@ import pytest
 distributed = pytest.importorskip("distributed")
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
-from cli_support import obj_text, perforated  # noqa: E402
+from cli_support import new_program, obj_text, perforated  # noqa: E402
 
 FILES = 16
 # In the place of Blender: notes that it ran, takes a moment, writes a result.
@@ -41,10 +41,7 @@ def library(tmp_path):
 
 @pytest.fixture
 def blender(tmp_path):
-    program = tmp_path / "stand_in"
-    program.write_text(STAND_IN.format(python=sys.executable))
-    program.chmod(0o755)
-    return program
+    return new_program(tmp_path / "stand_in", STAND_IN.format(python=sys.executable))
 
 
 @pytest.fixture

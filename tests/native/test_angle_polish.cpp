@@ -1,9 +1,9 @@
-#include "circle_domain.h"
 #include "foldover/angle_map.h"
 #include "foldover/angle_newton.h"
 #include "foldover/angle_polish.h"
 #include "foldover/angle_relaxation.h"
 #include "pipeline/uniformize.h"
+#include "planar_map.h"
 #include "quality/distortion.h"
 
 #include <gtest/gtest.h>
@@ -18,12 +18,8 @@ namespace {
 
 /// A planar circle domain as the surface, mapped to itself with every vertex out of its place: those inside by up to a
 /// share of their shortest edge, those of the loops along their circles.
-struct Jittered {
-    explicit Jittered(CircleDomain d)
-        : domain(std::move(d)),
-          vertices(lift(domain.points, Lift::plane)),
-          surface(require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()))),
-          uv(vertices.leftCols<2>())
+struct Jittered : PlanarMap {
+    explicit Jittered(CircleDomain d) : PlanarMap(std::move(d))
     {
         constexpr double share = 0.15;
         VectorXd shortest = VectorXd::Constant(uv.rows(), 1.0);
@@ -57,11 +53,6 @@ struct Jittered {
         ExecutionContext context;
         return polish_angles(vertices, surface, domain.loops, domain.circles, off_circle, uv, context);
     }
-
-    CircleDomain domain;
-    Vertices vertices;
-    Surface surface;
-    PlanarPoints uv;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "pipeline/outer_loop.h"
 #include "pipeline/uniformize.h"
+#include "planar_map.h"
 
 #include <gtest/gtest.h>
 
@@ -11,17 +12,6 @@
 
 using namespace koebe;
 using namespace koebe::test;
-
-namespace {
-
-PlanarPoints planar(const VectorXcd& points)
-{
-    PlanarPoints uv(points.size(), 2);
-    uv << points.real(), points.imag();
-    return uv;
-}
-
-}  // namespace
 
 TEST(AreaBalance, undoes_an_automorphism_of_the_flat_disk)
 {

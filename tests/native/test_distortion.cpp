@@ -1,4 +1,5 @@
 #include "circle_domain.h"
+#include "planar_map.h"
 #include "quality/distortion.h"
 
 #include <gtest/gtest.h>
@@ -8,18 +9,6 @@
 
 using namespace koebe;
 using namespace koebe::test;
-
-namespace {
-
-PlanarPoints planar(const VectorXcd& z)
-{
-    PlanarPoints points(z.size(), 2);
-    points.col(0) = z.real();
-    points.col(1) = z.imag();
-    return points;
-}
-
-}  // namespace
 
 TEST(Distortion, of_a_similarity_is_none)
 {

@@ -5,6 +5,7 @@
 #include "pipeline/refinement.h"
 #include "pipeline/uniformize.h"
 #include "planar/boundary_crossings.h"
+#include "planar_map.h"
 
 #include <gtest/gtest.h>
 
@@ -14,22 +15,11 @@
 using namespace koebe;
 using namespace koebe::test;
 
-namespace {
-
-PlanarPoints rows(const VectorXcd& points)
-{
-    PlanarPoints result(points.size(), 2);
-    result << points.real(), points.imag();
-    return result;
-}
-
-}  // namespace
-
 /// A good map with one thing made wrong.
 class Promise : public testing::Test {
 protected:
     CircleDomain domain = make_circle_domain(five_circles(), 800);
-    PlanarPoints uv = rows(domain.points);
+    PlanarPoints uv = planar(domain.points);
     std::vector<Circle> circles = domain.circles;
     MapFaults faults() const { return find_faults(domain.triangles, domain.loops, uv, circles); }
     Index inner_vertex() const { return static_cast<Index>(domain.points.size()) - 1; }

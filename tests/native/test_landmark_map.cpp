@@ -2,6 +2,7 @@
 
 #include "circle_domain.h"
 #include "core/errors.h"
+#include "loop_circles.h"
 #include "mesh/connectivity.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <random>
 
 using namespace koebe;
+using namespace koebe::test;
 using koebe::test::CircleDomain;
 
 namespace {
@@ -24,13 +26,6 @@ MappedSurface flat_domain(Index faces)
         surface.loops.push_back(
             {.vertices = domain.loops[k], .circle = domain.circles[k], .roundness = {}, .off_circle = {}});
     return surface;
-}
-
-std::vector<Circle> circles_of(const MappedSurface& surface)
-{
-    std::vector<Circle> circles;
-    for (const LoopReport& loop : surface.loops) circles.push_back(loop.circle);
-    return circles;
 }
 
 double signed_area(const PlanarPoints& uv, const Triangles& triangles, Eigen::Index f)
@@ -92,7 +87,8 @@ TEST(LandmarkMap, landmarks_lie_exactly_and_rims_stay_on_their_circles)
         const Eigen::RowVector2d here = points.back().of(surface.uv, surface.triangles);
         places[i] = Complex(here[0], here[1]) + 0.02 * std::polar(1.0, 1.7 * i);
     }
-    const LandmarkMap map = map_with_landmarks(surface, circles_of(surface), surface.uv, surface.uv, points, places);
+    const LandmarkMap map =
+        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places);
     for (Index i = 0; i < 6; ++i) {
         EXPECT_GE(map.mesh.vertex[i], count);
         EXPECT_EQ(Complex(map.uv(map.mesh.vertex[i], 0), map.uv(map.mesh.vertex[i], 1)), places[i]);
@@ -109,7 +105,8 @@ TEST(LandmarkMap, a_landmark_that_stays_moves_nothing)
     const std::vector<SurfacePoint> points{{700, {0.2, 0.5, 0.3}}};
     const Eigen::RowVector2d here = points[0].of(surface.uv, surface.triangles);
     const VectorXcd places = VectorXcd::Constant(1, Complex(here[0], here[1]));
-    const LandmarkMap map = map_with_landmarks(surface, circles_of(surface), surface.uv, surface.uv, points, places);
+    const LandmarkMap map =
+        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places);
     EXPECT_LT((map.uv.topRows(surface.uv.rows()) - surface.uv).cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -118,7 +115,7 @@ TEST(LandmarkMap, what_excludes_itself_is_named)
     const MappedSurface surface = flat_domain(400);
     const std::vector<SurfacePoint> points{{10, {0.2, 0.5, 0.3}}, {10, {0.2, 0.5, 0.3}}};
     try {
-        map_with_landmarks(surface, circles_of(surface), surface.uv, surface.uv, points,
+        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points,
                            (VectorXcd(2) << Complex(0.1, 0.0), Complex(0.0, 0.1)).finished());
         FAIL();
     } catch (const InputError& error) {

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "embedding/embedded_map.h"
 #include "flap_domain.h"
+#include "loop_circles.h"
 #include "pipeline/final_check.h"
 #include "pipeline/normalization.h"
 #include "pipeline/uniformize.h"
@@ -65,13 +66,6 @@ Moebius automorphism(const PlanarPoints& plain, const UniformizeOptions& options
     const Complex image = result(at(plain, options.point));
     result.turn = std::conj(image) / std::abs(image);
     return result;
-}
-
-std::vector<Circle> circles_of(const UniformizeResult& result)
-{
-    std::vector<Circle> circles;
-    for (const LoopReport& loop : result.loops) circles.push_back(loop.circle);
-    return circles;
 }
 
 void expect_in_place(const UniformizeResult& result, const UniformizeOptions& options)
@@ -148,7 +142,7 @@ TEST(Normalization, changes_no_inversive_distance)
     const UniformizeResult plain = uniformize(surface, domain.triangles, outer_options(domain));
     const UniformizeResult moved = uniformize(surface, domain.triangles, placed(domain, {0.2, -0.8}));
     EXPECT_GT(std::abs(moved.loops[1].circle.center - plain.loops[1].circle.center), 0.1);
-    EXPECT_LT(inversive_distance_error(circles_of(moved), circles_of(plain)), 1e-11);
+    EXPECT_LT(inversive_distance_error(circles_of(moved.loops), circles_of(plain.loops)), 1e-11);
 }
 
 TEST(Normalization, the_center_alone_turns_nothing_and_the_point_alone_only_turns)

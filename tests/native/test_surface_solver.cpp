@@ -2,6 +2,7 @@
 #include "circles/boundary_angles.h"
 #include "circles/point_alignment.h"
 #include "core/errors.h"
+#include "loop_circles.h"
 #include "pipeline/surface_solver.h"
 #include "pipeline/uniformize.h"
 #include "surface/intrinsic_metric.h"
@@ -39,13 +40,6 @@ UniformizeOptions on_loop_of(Index vertex)
     return options;
 }
 
-std::vector<Circle> circles_of(const UniformizeResult& result)
-{
-    std::vector<Circle> circles;
-    for (const LoopReport& loop : result.loops) circles.push_back(loop.circle);
-    return circles;
-}
-
 /// How far the circles are from others, up to an automorphism of the disk.
 double difference(const UniformizeResult& a, const UniformizeResult& b)
 {
@@ -54,7 +48,7 @@ double difference(const UniformizeResult& a, const UniformizeResult& b)
     for (const LoopReport& loop : a.loops)
         for (const LoopReport& other : b.loops)
             if (other.vertices == loop.vertices) ordered.push_back(other.circle);
-    return inversive_distance_error(ordered, circles_of(a));
+    return inversive_distance_error(ordered, circles_of(a.loops));
 }
 
 }  // namespace

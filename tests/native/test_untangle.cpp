@@ -1,5 +1,5 @@
-#include "circle_domain.h"
 #include "foldover/untangle.h"
+#include "planar_map.h"
 #include "quality/distortion.h"
 
 #include <gtest/gtest.h>
@@ -14,24 +14,13 @@ using namespace koebe::test;
 
 namespace {
 
-struct Tangled {
-    explicit Tangled(CircleDomain d)
-        : domain(std::move(d)),
-          vertices(lift(domain.points, Lift::plane)),
-          surface(require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()))),
-          uv(vertices.leftCols<2>())
-    {
-    }
+struct Tangled : PlanarMap {
+    using PlanarMap::PlanarMap;
 
     UntangleReport run(const UntangleOptions& options = {})
     {
         return untangle(vertices, surface, domain.loops, domain.circles, {}, uv, {}, options);
     }
-
-    CircleDomain domain;
-    Vertices vertices;
-    Surface surface;
-    PlanarPoints uv;
 };
 
 /// A hole of eight corners, five sides of which one vertex alone sees: too many for any place outside the hole, as the

@@ -3,6 +3,7 @@
 The command is build/koebe, or what the environment variable KOEBE_COMMAND names.
 """
 
+import json
 import os
 import struct
 import subprocess
@@ -18,6 +19,30 @@ USAGE, CANNOT_BE_MAPPED, NOT_CONVERGED, INTERRUPTED = 2, 3, 4, 130
 
 def koebe(*args, **options):
     return subprocess.run([COMMAND, *map(str, args)], capture_output=True, text=True, timeout=120, **options)
+
+
+def lasting(value):
+    """A report without what is measured anew in each run."""
+    if isinstance(value, dict):
+        return {key: lasting(one) for key, one in value.items() if key not in ("seconds", "peak_memory_mb")}
+    return [lasting(one) for one in value] if isinstance(value, list) else value
+
+
+def contents(folder):
+    """Every file of a folder of results, hidden ones too, without what is measured anew."""
+    found = {}
+    for path in Path(folder).rglob("*"):
+        if path.is_file() and path.suffix != ".csv":
+            name, content = path.relative_to(folder).as_posix(), path.read_bytes()
+            found[name] = lasting(json.loads(content)) if path.suffix == ".json" else content
+    return found
+
+
+def new_program(path, text):
+    """A program of these lines at the path."""
+    path.write_text(text)
+    path.chmod(0o755)
+    return path
 
 
 def perforated(n=24, holes=((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))):

@@ -178,3 +178,28 @@ def opened_slit_ring(steps, upright, columns=4, rows=2):
     w[on_slit] = (t + 1j * np.sign(side) * np.sqrt(1 - t**2))[on_slit]
     vertices, triangles, _ = merged(on_sphere(w), faces)
     return vertices, triangles.astype(np.int32), rows / columns, middle, half
+
+
+def damaged(random, vertices, triangles, noise=0.03):
+    """A surface with some of what happens to meshes, its vertices moved by up to about `noise`."""
+    vertices, triangles = vertices.copy(), triangles.copy()
+    if random.random() < 0.5:
+        vertices *= np.exp(random.normal(0, random.uniform(0, 1.5), 3))
+    if random.random() < 0.5:
+        vertices += random.normal(0, random.uniform(0, noise), vertices.shape)
+    if random.random() < 0.5:
+        triangles = np.delete(triangles, random.choice(len(triangles), random.integers(1, 12), replace=False), 0)
+    if random.random() < 0.2:
+        face = random.integers(0, len(triangles))
+        triangles[face] = triangles[face][[0, 2, 1]]
+    if random.random() < 0.1:
+        vertices = np.round(vertices, 1)
+    if random.random() < 0.1:
+        vertices[random.integers(0, len(vertices))] = vertices[random.integers(0, len(vertices))]
+    if random.random() < 0.1:
+        vertices[random.integers(0, len(vertices))] = np.nan
+    if random.random() < 0.15:
+        vertices *= 10.0 ** random.uniform(-300, 150)
+    if random.random() < 0.1:
+        vertices = np.concatenate([vertices, vertices[:2]])
+    return vertices, triangles

@@ -103,3 +103,25 @@ def inversive(first, second):
     """Of two caps: what no Moebius map changes."""
     a, b = first[3], second[3]
     return (np.cos(a) * np.cos(b) - first[:3] @ second[:3]) / (np.sin(a) * np.sin(b))
+
+
+def led_back(uv, layout):
+    """The points of the sphere that UVs (n, 2) show, wherever the pattern continues."""
+    uv = np.asarray(uv, float)
+    if layout == "equirectangular":
+        longitude, latitude = 2 * np.pi * uv[:, 0] - np.pi, np.pi * uv[:, 1] - np.pi / 2
+        return np.stack([np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude), np.sin(latitude)],
+                        axis=-1)  # fmt: skip
+    at = 2 * uv - 1
+    for _ in range(6):  # half turns round the middles of the square's sides, until it is inside
+        for axis in (0, 1):
+            for side in (1, -1):
+                over = side * at[:, axis] > 1
+                middle = np.zeros(2)
+                middle[axis] = side
+                at[over] = 2 * middle - at[over]
+    z = 1 - np.abs(at).sum(axis=1)
+    x = np.where(z < 0, np.copysign(1 - np.abs(at[:, 1]), at[:, 0]), at[:, 0])
+    y = np.where(z < 0, np.copysign(1 - np.abs(at[:, 0]), at[:, 1]), at[:, 1])
+    back = np.stack([x, y, z], axis=-1)
+    return back / np.linalg.norm(back, axis=-1, keepdims=True)

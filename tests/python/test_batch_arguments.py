@@ -145,14 +145,14 @@ def test_the_options_of_a_tile(batch):
     assert parse(OUT).domain is None
     words = ["--domain", "ring", "--holes", "radial", "--fit", "period", "--max-sweeps", "7", "--layer", "Own"]
     request = parse([*OUT, *words])
-    choice = batch("maps.options").TileChoice
-    assert request.domain == choice("ring", "radial", "auto", "period", 1e-6, 7) and request.options.layer == "Own"
-    assert parse([*OUT, "--domain", "torus"]).domain == choice()
+    domains = batch("maps.domains")
+    assert request.domain == domains.RING.choice("radial", "auto", "period", 1e-6, 7) and request.options.layer == "Own"
+    assert parse([*OUT, "--domain", "torus"]).domain == domains.TORUS.choice()
     assert request.library.each == ["--domain=ring", "--holes=radial", "--fit=period", "--max-sweeps=7", "--layer=Own"]
-    sphere = batch("maps.options").SphereChoice
+    sphere = domains.SPHERE.choice
     assert parse([*OUT, "--domain", "sphere", "--layout", "octahedral"]).domain == sphere("octahedral")
     assert parse([*OUT, "--domain", "sphere", "--tolerance", "1e-4"]).domain == sphere(tolerance=1e-4)
-    handles = batch("maps.options").SchottkyChoice
+    handles = domains.SCHOTTKY.choice
     words = ["--domain", "schottky", "--normalization", "circles"]
     assert parse([*OUT, *words, "--max-sweeps", "9"]).domain == handles("circles", max_sweeps=9)
     assert parse([*OUT, "--domain", "schottky"]).domain == handles()

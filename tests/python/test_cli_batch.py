@@ -22,7 +22,9 @@ from cli_support import (
     INTERRUPTED,
     NOT_CONVERGED,
     USAGE,
+    contents,
     koebe,
+    new_program,
     obj_text,
     off_text,
     perforated,
@@ -85,9 +87,7 @@ def library(tmp_path):
 @pytest.fixture
 def blends(tmp_path):
     """A maker of .blend files that say what the program in Blender's place does, and that program."""
-    program = tmp_path / "stand_in"
-    program.write_text(STAND_IN.format(python=sys.executable))
-    program.chmod(0o755)
+    program = new_program(tmp_path / "stand_in", STAND_IN.format(python=sys.executable))
     folder = tmp_path / "blends"
     folder.mkdir()
 
@@ -126,23 +126,6 @@ def start(*words, before=as_from_a_terminal):
 def rows(folder):
     """The table, by name."""
     return {row["name"]: row for row in json.loads((folder / "summary.json").read_text())["files"]}
-
-
-def lasting(value):
-    """A report without what is measured anew in each run."""
-    if isinstance(value, dict):
-        return {key: lasting(one) for key, one in value.items() if key not in ("seconds", "peak_memory_mb")}
-    return [lasting(one) for one in value] if isinstance(value, list) else value
-
-
-def contents(folder):
-    """Every file of a folder of results, hidden ones too, without what is measured anew."""
-    found = {}
-    for path in folder.rglob("*"):
-        if path.is_file() and path.suffix != ".csv":
-            name, content = path.relative_to(folder).as_posix(), path.read_bytes()
-            found[name] = lasting(json.loads(content)) if path.suffix == ".json" else content
-    return found
 
 
 def until(condition, seconds=20):
@@ -193,44 +176,35 @@ def test_other_domains_are_those_of_their_commands(tiles, tmp_path, words):
     assert "unchanged" not in other.stdout
 
 
-@pytest.mark.parametrize("layout", ["equirectangular", "octahedral"])
-def test_spheres_are_those_of_the_command(tiles, tmp_path, layout):
-    """The tetrahedron and the annulus are; the layout is a part of the recipe."""
-    out, words = tmp_path / "out", ["--domain", "sphere", "--layout", layout]
-    done = batch(tiles, "--output", out, *words)
-    assert done.returncode == CANNOT_BE_MAPPED and done.stdout.startswith("3 files: 2 done, 1 failed;")
+# Of a domain: its option and the words of this, whose surfaces are mapped, and whose have the wrong number of handles.
+WORDS = {
+    "sphere": ("layout", ["equirectangular", "octahedral"], ["ring.obj", "closed.off"], ["torus.obj"]),
+    "schottky": ("normalization", ["area", "circles"], ["torus.obj"], ["ring.obj", "closed.off"]),
+}
+
+
+@pytest.mark.parametrize("chosen", [0, 1])
+@pytest.mark.parametrize("domain", WORDS)
+def test_spheres_and_handles_are_those_of_the_command(tiles, tmp_path, domain, chosen):
+    """The word of the option is a part of the recipe."""
+    option, words, fitting, others = WORDS[domain]
+    asked, other = (["--domain", domain, f"--{option}", words[k]] for k in (chosen, 1 - chosen))
+    out = tmp_path / "out"
+    done = batch(tiles, "--output", out, *asked)
+    counts = f"3 files: {len(fitting)} done, {len(others)} failed;"
+    assert done.returncode == CANNOT_BE_MAPPED and done.stdout.startswith(counts)
     table = rows(out)
-    assert table["torus.obj"]["error"] == "TopologyError(genus)"
-    for source in ("ring.obj", "closed.off"):
+    assert {table[source]["error"] for source in others} == {"TopologyError(genus)"}
+    for source in fitting:
         row = table[source]
         assert row["options"] == {
-            "domain": "sphere", "layout": layout, "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01}  # fmt: skip
+            "domain": domain, option: words[chosen], "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01
+        }  # fmt: skip
         assert row["flipped"] == 0 and row["faces"] > 0 and row["angle_error_deg"] > 0
-        koebe("sphere", tiles / source, tmp_path / "alone.obj", "--layout", layout)
+        koebe(domain, tiles / source, tmp_path / "alone.obj", f"--{option}", words[chosen])
         assert (tmp_path / "alone.obj").read_bytes() == (out / source).with_suffix(".obj").read_bytes()
-    assert "(3 unchanged)" in batch(tiles, "--output", out, *words).stdout
-    other = {"equirectangular": "octahedral", "octahedral": "equirectangular"}[layout]
-    assert "unchanged" not in batch(tiles, "--output", out, "--domain", "sphere", "--layout", other).stdout
-
-
-@pytest.mark.parametrize("normalization", ["area", "circles"])
-def test_handles_are_those_of_the_command(tiles, tmp_path, normalization):
-    """The torus has one; the normalization is a part of the recipe."""
-    out, words = tmp_path / "out", ["--domain", "schottky", "--normalization", normalization]
-    done = batch(tiles, "--output", out, *words)
-    assert done.returncode == CANNOT_BE_MAPPED and done.stdout.startswith("3 files: 1 done, 2 failed;")
-    table = rows(out)
-    assert [table[name]["error"] for name in ("ring.obj", "closed.off")] == ["TopologyError(genus)"] * 2
-    row = table["torus.obj"]
-    assert row["options"] == {
-        "domain": "schottky", "normalization": normalization, "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01
-    }  # fmt: skip
-    assert row["flipped"] == 0 and row["faces"] > 0 and row["angle_error_deg"] > 0
-    koebe("schottky", tiles / "torus.obj", tmp_path / "alone.obj", "--normalization", normalization)
-    assert (tmp_path / "alone.obj").read_bytes() == (out / "torus.obj").read_bytes()
-    assert "(3 unchanged)" in batch(tiles, "--output", out, *words).stdout
-    other = {"area": "circles", "circles": "area"}[normalization]
-    assert "unchanged" not in batch(tiles, "--output", out, "--domain", "schottky", "--normalization", other).stdout
+    assert "(3 unchanged)" in batch(tiles, "--output", out, *asked).stdout
+    assert "unchanged" not in batch(tiles, "--output", out, *other).stdout
 
 
 @pytest.mark.parametrize("words", [

@@ -7,7 +7,7 @@ import koebe
 import numpy as np
 import pytest
 from cli_support import COMMAND
-from domain_surfaces import holed_ring, holed_torus, opened_slit_ring
+from domain_surfaces import damaged, holed_ring, holed_torus, opened_slit_ring
 
 GRID = 2.0**24
 
@@ -209,31 +209,6 @@ def test_slits_lie_along_one_line_to_the_last_bit():
             places = np.remainder(places, tile.periods[0, 0]) if axis == 0 else places
             assert np.unique(places).size == 1
             assert abs(loop["slit"][0][axis] - loop["slit"][1][axis]) < 1e-12
-
-
-def damaged(random, vertices, triangles):
-    """A surface with some of what happens to meshes."""
-    vertices, triangles = vertices.copy(), triangles.copy()
-    if random.random() < 0.5:
-        vertices *= np.exp(random.normal(0, random.uniform(0, 1.5), 3))
-    if random.random() < 0.5:
-        vertices += random.normal(0, random.uniform(0, 0.03), vertices.shape)
-    if random.random() < 0.5:
-        triangles = np.delete(triangles, random.choice(len(triangles), random.integers(1, 12), replace=False), 0)
-    if random.random() < 0.2:
-        face = random.integers(0, len(triangles))
-        triangles[face] = triangles[face][[0, 2, 1]]
-    if random.random() < 0.1:
-        vertices = np.round(vertices, 1)
-    if random.random() < 0.1:
-        vertices[random.integers(0, len(vertices))] = vertices[random.integers(0, len(vertices))]
-    if random.random() < 0.1:
-        vertices[random.integers(0, len(vertices))] = np.nan
-    if random.random() < 0.15:
-        vertices *= 10.0 ** random.uniform(-300, 150)
-    if random.random() < 0.1:
-        vertices = np.concatenate([vertices, vertices[:2]])
-    return vertices, triangles
 
 
 @pytest.mark.parametrize("seed", range(24))

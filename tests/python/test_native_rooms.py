@@ -12,7 +12,7 @@ NATIVE = ROOT / "native"
 ROOMS = sorted(path.name for path in NATIVE.iterdir() if path.is_dir())
 FRONTS = {"cli", "python"}  # nothing includes them
 OTHERS = {"bundle", "options"}  # what the library is built from, where that is built too; the table of options
-WITH_THE_COMMAND = {"batch"}  # built with it, by a list of its own
+WITH_THE_COMMAND = {"batch"}  # built with it
 
 
 def included(source):
@@ -66,23 +66,6 @@ def test_circles_know_no_mesh():
 def test_every_room_is_on_the_map():
     page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     assert set(re.findall(r"\bnative/(\w+)/", page)) == set(ROOMS)
-
-
-def test_every_source_is_built():
-    built = (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8")
-    listed = set(re.findall(r"^ +(\w+/[\w/]+\.cpp)$", built, re.MULTILINE))
-    sources = {path.relative_to(NATIVE) for path in NATIVE.rglob("*.cpp")}
-    there = {path.as_posix() for path in sources if path.parts[0] not in FRONTS | WITH_THE_COMMAND | OTHERS}
-    assert listed == there
-
-
-@pytest.mark.parametrize("room", sorted(FRONTS | WITH_THE_COMMAND))
-def test_every_source_of_a_room_with_a_list_of_its_own_is_built(room):
-    built = (NATIVE / room / "CMakeLists.txt").read_text(encoding="utf-8")
-    folder = NATIVE / room
-    others = {path.parent for path in folder.glob("*/CMakeLists.txt")}
-    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*.cpp") if path.parent not in others}
-    assert there == set(re.findall(r"\b[\w/]+\.cpp\b", built))
 
 
 NAMED = re.compile(

@@ -219,9 +219,8 @@ def addon():
 
 def test_the_addon_hands_every_option_to_the_solver(addon):
     options = addon("maps.options")
-    chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(), "sphere": options.SphereChoice(),
-              "torus": options.TileChoice("torus"), "ring": options.TileChoice("ring"),
-              "schottky": options.SchottkyChoice()}  # fmt: skip
+    chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(),
+              **{name: domain.choice() for name, domain in addon("maps.domains").DOMAINS.items()}}  # fmt: skip
     by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "even", "loops"}
     engine = {row["name"] for row in TABLE if "with" in row}
     for of, choice in chosen.items():

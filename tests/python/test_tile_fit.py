@@ -128,7 +128,7 @@ def test_flipped_triangles_are_counted_with_their_direction():
 ])  # fmt: skip
 def test_what_is_no_such_domain_is_offered_another(handles, loops, domain, offer):
     domains = maps_module("domains")
-    with pytest.raises(domains.DomainError, match="this surface has") as caught:
+    with pytest.raises(maps_module("domain").DomainError, match="this surface has") as caught:
         domains.DOMAINS[domain].check(handles, loops)
     assert caught.value.offer == tuple(offer.split())
     domains.DOMAINS["torus"].check(1, loops)

@@ -2,7 +2,13 @@
 #pragma once
 
 #include "cli/commands/map_run.h"
+#include "cli/commands/subcommand.h"
+#include "cli/options/option_table.h"
+#include "cli/process/end_with_input.h"
 #include "io/corner_uvs.h"
+
+#include <functional>
+#include <memory>
 
 namespace koebe::cli {
 
@@ -34,6 +40,46 @@ MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen
     kind.write_mesh = corner_writer<Result>(request.format);
     kind.report = [](const Result& result) { return to_json(result); };
     return kind;
+}
+
+/// What is asked of such a map, by its options.
+template <typename Options>
+struct CornerMapRequest : MapRequest {
+    Options chosen;
+    bool ends_with_input = false;
+};
+
+/// What the help of such a map says.
+struct CornerMapHelp {
+    const char* name;  ///< of the command, and of the map in the table of options
+    const char* does;
+    const char* surface;
+    const char* picture;
+    const char* uvs = "texture coordinates of corners in [0, 1]^2";
+    const char* sphere = nullptr;  ///< what the file of --sphere has; null where there is no such option
+};
+
+/// Adds the command of such a map.
+template <typename Options>
+Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
+                          const std::function<int(const CornerMapRequest<Options>&)>& run)
+{
+    auto request = std::make_shared<CornerMapRequest<Options>>();
+    CLI::App* options = app.add_subcommand(help.name, help.does);
+    add_mesh_arguments(*options, *request, help.surface, help.uvs);
+    add_options(*options, help.name, request->chosen);
+    if (help.sphere != nullptr) options->add_option("--sphere", request->sphere, help.sphere)->type_name("FILE");
+    add_report_options(*options, *request, help.picture);
+    options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
+    options->callback([request, name = help.name] {
+        check_map_files(*request);
+        if (!request->sphere.empty()) required_format(request->sphere);
+        request->entries["options"] = option_report(name, request->chosen);
+    });
+    return {options, [request, run] {
+                if (request->ends_with_input) end_with_input();
+                return run(*request);
+            }};
 }
 
 }  // namespace koebe::cli

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A run on Blender objects that maps them to tiles of flat tori or cylinders. It chooses the faces to map."""
+"""A run on Blender objects that maps them to cylinders. It chooses the faces to map."""
 
 import dataclasses
 
@@ -8,28 +8,19 @@ import numpy as np
 from ..blender import mesh_reading
 from ..blender.mesh_object import MeshObject
 from ..maps.domain_outcomes import islands_to_map
-from ..maps.options import TileChoice
 from ..maps.outcomes import Task
 from ..maps.surface import Surface
-from ..maps.tiles import TileOutcome
 from .domain_job import DomainJob
 
 
-class TileJob(DomainJob):
-    """Maps to tiles of flat tori or cylinders. In Edit Mode selected vertices can choose the rims."""
-
-    choice: TileChoice
-    outcome_type = TileOutcome
-
-    @property
-    def _picks_rims(self) -> bool:
-        return self.choice.domain == "ring" and self.selected_only
+class RingJob(DomainJob):
+    """Maps to cylinders. In Edit Mode selected vertices can choose the rims."""
 
     def _surface(self, obj: MeshObject) -> Surface:
         """The surface, in Edit Mode of the selected faces. If selected vertices choose the rims, because that is an
         option or no face is selected, it is the whole of the islands with such vertices."""
         surface = super()._surface(obj)
-        if not self._picks_rims or (self.choice.rims != "selected" and surface.selected.any()):
+        if not self.selected_only or (self.choice.rims != "selected" and surface.selected.any()):
             return surface
         picked = mesh_reading.selected_vertices(obj)
         shown = dataclasses.replace(surface, selected=mesh_reading.shown_faces(obj))
@@ -40,5 +31,5 @@ class TileJob(DomainJob):
         return dataclasses.replace(surface, selected=selected)
 
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
-        picked = mesh_reading.selected_vertices(obj) if self._picks_rims else None
+        picked = mesh_reading.selected_vertices(obj) if self.selected_only else None
         return dataclasses.replace(super()._task(obj, surface), picked=picked)
