@@ -14,6 +14,8 @@ FLAGS = {
     "Fit: Inside": "--fit inside",
     "Target: Attributes": "--sequence-target attribute",
     "set Balance to Area": "take --balance area",
+    "set Even to 0": "take --even 0",
+    "set Holes to Circles": "take --holes circles",
     "choose another layer name": "choose another name with --layer",
     "layer: ": "--layer: ",
 }

@@ -38,6 +38,7 @@ class IslandOutcome:
     opening     what was cut to get this piece, with others, or None
     symmetry    the island made symmetric, or None
     remark      why something that was asked for was not done with it, or empty
+    has_circles whether its loops are held on circles
     """
 
     island: Island
@@ -54,6 +55,7 @@ class IslandOutcome:
     opening: Opening | None = None
     symmetry: Symmetry | None = None
     remark: str = ""
+    has_circles: bool = True
 
     @property
     def unrolled(self) -> bool:
@@ -243,10 +245,10 @@ class SurfaceOutcome(Outcome):
         return {
             "sweeps": result.sweeps, "angle_error": one.angle_error, "roundness": float(result.roundness.max()),
             "flipped": len(one.flipped), "flipped_faces": one.flipped_faces.tolist(),
-            "seconds": result.seconds["total"], "uneven": too_uneven(one),
+            "seconds": result.seconds["total"], "uneven": too_uneven(one), "even": result.even,
             "loops": [
                 {
-                    "uv_center": center, "uv_radius": 0.0 if one.unrolled else float(uv_radius),
+                    "uv_center": center, "uv_radius": float(uv_radius) if one.has_circles and not one.unrolled else 0.0,
                     "vertices": one.island.source_vertex[vertices].tolist(),
                     "radius": float(radius), "roundness": float(roundness),
                 }

@@ -110,7 +110,7 @@ class PartsOutcome(Outcome):
         return {
             "parts": len(result.parts), "angle_error": result.angle_error_stored_deg["mean"],
             "flipped": result.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
-            "density": result.density_ratio_5_95, "cut_length": result.cut_length,
+            "density": result.density_ratio_5_95, "cut_length": result.cut_length, "even": result.even,
             **({"cut_edges": np.flatnonzero(one.cuts).tolist()} if one.cuts.any() else {}),
         }  # fmt: skip
 

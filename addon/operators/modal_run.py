@@ -21,6 +21,7 @@ STAGES = {
     "polish": "polishing the angles",
     "split": "cutting into parts",
     "pack": "packing the parts",
+    "even": "making the texels even",
 }
 POLL_SECONDS = 0.05  # how often a running computation is looked at: Esc acts within this and one checkpoint
 READ_SECONDS = 0.1  # how long Blender's data is read between two looks at the keys, if one step takes no longer

@@ -21,6 +21,8 @@ NEEDS = {  # options that matter with others alone
     "margin": lambda options: options.placement != "keep",
     "importance": lambda options: options.balance == "area",
     "evenness": lambda options: options.seams == "add",
+    "even": lambda options: not getattr(options, "keep_angles", False),
+    "loops": lambda options: getattr(options, "keep_angles", False) or options.even > 0.0,
     "checker_size": lambda options: options.checker,
     "checker_even": lambda options: options.checker,
     "play": lambda options: options.source == "FRAMES" and options.target == "ATTRIBUTE",

@@ -56,6 +56,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
     density: FloatProperty(description="Density at 95 % of the area over that at 5 %, of a sphere on it")
+    even: FloatProperty(description="How even it was made: 0 is conformal, 1 true to size")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     domain: StringProperty(description="The domain: torus, ring, sphere or schottky; else empty")

@@ -125,6 +125,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     of_domain = {"sphere": of_sphere, "schottky": of_handles}.get(entry.domain, of_tile)
     for name, value in (
         ("Angle error", f"{entry.angle_error:.2f}°"),
+        *([("Even", f"{entry.even:.2f}")] if entry.even else []),
         *(of_parts if entry.parts else of_domain if entry.domain else of_circles),
         ("Flipped", counted(len(json.loads(entry.flipped_faces or "[]")), "face")),
         ("Time", f"{entry.seconds:.2f} s"),

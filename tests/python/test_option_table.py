@@ -222,7 +222,7 @@ def test_the_addon_hands_every_option_to_the_solver(addon):
     chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(), "sphere": options.SphereChoice(),
               "torus": options.TileChoice("torus"), "ring": options.TileChoice("ring"),
               "schottky": options.SchottkyChoice()}  # fmt: skip
-    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "even", "loops"}
+    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance"}
     engine = {row["name"] for row in TABLE if "with" in row}
     for of, choice in chosen.items():
         assert {*choice.solver_arguments()} == {*rows_in("python", of)} - by_island - engine, of
