@@ -77,7 +77,9 @@ def parse(arguments: list[str]) -> Request:
         "--objects", action="append", metavar="A,B,...",
         help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
     )  # fmt: skip
-    parser.add_argument("--parts", action="store_true", help="cut into even parts, any surface; without --even as even as angles allow")
+    parser.add_argument(
+        "--parts", action="store_true", help="cut into parts, any surface; without --even as even as angles allow"
+    )
     parser.add_argument(
         "--domain", choices=(DISK, *options.CHOICES), default=DISK,
         help="torus, ring: UVs that are a tile; sphere: its layout; schottky: handles cut open",
@@ -157,7 +159,7 @@ def _known(kind: Any, values: dict[str, Any]) -> dict[str, Any]:
 def _choice(of: str, values: dict[str, Any]) -> Any:
     """The choice of parts, or of a domain. Raises OptionError."""
     kind = options.PartsChoice if of == "parts" else options.CHOICES[of]
-    own = {"domain": of} if kind is options.TileChoice else {}
+    own: dict[str, Any] = {"domain": of} if kind is options.TileChoice else {}
     own |= {"keep_angles": values["even"] is None} if of == "parts" else {}
     return kind(**own, **_known(kind, values))
 

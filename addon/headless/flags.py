@@ -9,7 +9,7 @@ from ..maps.domains import DOMAINS
 FLAGS = {
     "Unwrap to Parts": "--parts",
     **{domain.button: f"--domain {name}" for name, domain in DOMAINS.items()},
-    "Koebe Uniformize": "--domain disk",
+    "Unwrap to Disk": "--domain disk",
     "Tube: Annulus": "--tube annulus",
     "Fit: Inside": "--fit inside",
     "Target: Attributes": "--sequence-target attribute",

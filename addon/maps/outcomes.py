@@ -55,12 +55,14 @@ class Outcome:
     islands      what became of each: with a `result` of the native package, or an `error`
     not_written  why nothing of it could be written, or None
     remarks      what to say of the object beside its islands
+    chosen       which shape was taken for it and why, where nobody has chosen
     """
 
     task: Task
     islands: list[Any]
     not_written: str | None = dataclasses.field(default=None, kw_only=True)
     remarks: list[str] = dataclasses.field(default_factory=list, kw_only=True)
+    chosen: str = dataclasses.field(default="", kw_only=True)
 
     @property
     def name(self) -> str:
@@ -153,7 +155,7 @@ class Outcome:
         """
         if self.not_written:
             return [failure_row(self.name, self.not_written)]
-        said: dict[int, list[str]] = {}
+        said: dict[int, list[str]] = {id(one): [self.chosen] for one in self.mapped[:1] if self.chosen}
         for one, text in self.notes():
             said.setdefault(id(one), []).append(text)
         result = []

@@ -173,6 +173,8 @@ def moving_in_edit_mode():
 
 
 RUNS = {
+    "unwrap": (states.many, "uv.koebe_unwrap", {}),
+    "unwrap in Edit Mode": (states.edited, "uv.koebe_unwrap", {}),
     "uniformize": (states.many, "uv.koebe_uniformize", {}),
     "uniformize what is worn": (states.worn, "uv.koebe_uniformize", {"checker_size": 5.0, "checker_even": False}),
     "uniformize in Edit Mode": (states.edited, "uv.koebe_uniformize", {}),
