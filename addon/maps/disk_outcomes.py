@@ -14,7 +14,7 @@ from .packing import Placement
 from .rounding import RESOLUTION, rounded
 from .stored import Stored
 from .surface import Island
-from .triangles import as_complex, as_points, density_ratio, even_share, longest_edges, signed_areas
+from .triangles import as_complex, as_points, covered, density_ratio, even_share, longest_edges, signed_areas
 from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, few, in_mesh, own_warning, too_uneven
 
 if TYPE_CHECKING:
@@ -252,6 +252,7 @@ class SurfaceOutcome(Outcome):
             "sweeps": result.sweeps, "angle_error": one.angle_error, "roundness": float(result.roundness.max()),
             "flipped": len(one.flipped), "flipped_faces": one.flipped_faces.tolist(),
             "seconds": result.seconds["total"], "uneven": too_uneven(one), "even": result.even,
+            "density": one.density_ratio, "coverage": covered(one.uv, one.sheet.triangles),
             "loops": [
                 {
                     "uv_center": center, "uv_radius": float(uv_radius) if one.has_circles and not one.unrolled else 0.0,

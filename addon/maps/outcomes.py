@@ -10,6 +10,7 @@ import numpy as np
 from .errors import elements_of, kind_of
 from .offending_elements import offending_elements
 from .surface import Surface
+from .warning_words import in_words
 from .wording import MIRRORED, PINNED, explain, failure_line, own_warning
 
 Progress = Callable[[float, str], None]  # called with a fraction and a stage
@@ -114,7 +115,7 @@ class Outcome:
 
     def said_warnings(self) -> list[str]:
         """What to watch out for in all of it."""
-        return [warning["text"] for one in self.mapped for warning in self.warnings(one)]
+        return [said["text"] for one in self.mapped for said in in_words(self.warnings(one))]
 
     def said_notes(self) -> list[str]:
         """The notes of all islands."""
@@ -162,8 +163,10 @@ class Outcome:
         for index, one in enumerate(self.islands):
             row: dict[str, Any] = {"object_name": self.name, "island": index, "layer": layer}
             if one.error is None:
-                texts = [*(warning["text"] for warning in self.warnings(one)), *self.remarks]
+                warnings = self.warnings(one)
+                texts = [*(warning["text"] for warning in warnings), *self.remarks]
                 row |= {"mapped": True, "converged": one.result.converged, "message": "; ".join(texts)}
+                row["warnings"] = [*in_words(warnings), *({"text": remark} for remark in self.remarks)]
                 row |= {"note": "; ".join(said.get(id(one), [])), **self._row(one)}
             else:
                 kind, elements = offending_elements(self.task.surface, one.island, one.error)

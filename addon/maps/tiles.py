@@ -100,7 +100,8 @@ class TileOutcome(DomainOutcome):
 
     def _row(self, one: TileIsland) -> dict[str, Any]:
         own = {"modulus": modulus_text(one.result), "periods": periods_text(one.tile)}
-        return {**super()._row(one), **own, "cut_length": one.result.cut_length, "even": one.result.even}
+        return {**super()._row(one), **own, "cut_length": one.result.cut_length, "even": one.result.even,
+                "density": one.density_ratio}  # fmt: skip
 
     def _loop_row(self, one: TileIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
         center, radius = one.circle(of_loop, self.choice.fit)

@@ -50,6 +50,11 @@ def density_ratio(in_space: np.ndarray, in_plane: np.ndarray) -> float:
     return float(np.sqrt(ratio[high] / ratio[low]))
 
 
+def covered(corner_uv: np.ndarray, triangles: np.ndarray) -> float:
+    """Share of the UV square that triangles (t, 3) of corners (C, 2) take."""
+    return float(np.abs(signed_areas(corner_uv, triangles)).sum())
+
+
 def even_share(in_space: np.ndarray, in_plane: np.ndarray, factor: float) -> float:
     """Largest share of the area of triangles (t,) whose texel densities, as lengths, lie within a factor."""
     known = (in_space > 0.0) & (in_plane > 0.0)

@@ -79,8 +79,7 @@ class MapOperator(ModalRun):
         return can_map(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        assert layout is not None
+        layout: Any = self.path_resolve("layout")  # `self.layout` is an option of spheres
         layout.use_property_split = True
         layout.use_property_decorate = False
         for name in self.options_shown:
