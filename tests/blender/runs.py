@@ -231,6 +231,7 @@ RUNS = {
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
     "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),
     "select what is wrong": (offending, "uv.koebe_select_offenders", {}),
+    "select what a warning speaks of": (flipped, "uv.koebe_select_warning", {}),
     "select what is flipped": (flipped, "uv.koebe_select_flipped", {}),
 }
 

@@ -11,6 +11,7 @@ import fingerprint
 import handles
 import numpy as np
 import pytest
+import runs
 import scenes
 import tori
 from test_bad_meshes import FAN, selected
@@ -124,7 +125,7 @@ def other_than_the_default(prop):
         return next(item.identifier for item in prop.enum_items if item.identifier != prop.default)
     if prop.type in {"BOOLEAN", "STRING"}:
         return not prop.default if prop.type == "BOOLEAN" else f"{prop.default}2"
-    return 2 * prop.default if prop.type == "INT" else prop.default / 2
+    return 2 * prop.default if prop.type == "INT" else prop.default / 2 or prop.hard_max / 2
 
 
 def chosen_options():
@@ -185,6 +186,30 @@ def test_a_preset_that_cannot_be_written_leaves_the_older_one(monkeypatch):
         assert {*os.listdir(os.path.dirname(path))} - {"__pycache__"} == {os.path.basename(path)}
     finally:
         bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
+
+
+@pytest.mark.alike
+def test_a_warning_is_one_sentence_and_selects_what_it_speaks_of():
+    runs.flipped()
+    (entry,) = islands()
+    (warning,) = entry.warnings
+    assert entry.message and warning.text != entry.message and "Shape: Parts" in warning.text
+    faces = json.loads(warning.elements)
+    assert warning.of == "faces" and warning.text.startswith(f"{len(faces)} faces ")
+    assert bpy.ops.uv.koebe_select_warning(warning=0) == {"FINISHED"}
+    assert sorted(selected(bpy.data.objects["Long"])[2]) == faces
+    with pytest.raises(RuntimeError, match="no warning 1"):
+        bpy.ops.uv.koebe_select_warning(warning=1)
+
+
+@pytest.mark.alike
+@pytest.mark.parametrize("shape", ["DISK", "PARTS"])
+def test_the_coverage_is_the_share_of_the_square_that_the_uvs_take(shape):
+    obj = scenes.add_panel()
+    bpy.ops.uv.koebe_unwrap(shape=shape)
+    (entry,) = islands()
+    assert entry.coverage == pytest.approx(scenes.signed_areas(obj.data, "Koebe").sum(), rel=1e-5)
+    assert 1.0 < entry.density < 4.0
 
 
 def test_the_shortcut_is_off_until_asked_for(addon_name):

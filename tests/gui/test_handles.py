@@ -30,7 +30,7 @@ def test_two_handles_by_the_button_that_the_report_offers(window):
     window.settle()
     window.picture("85_two_handles_refused")
     assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.offer]") == [False, "schottky parts"]
-    window.click(*window.find_button("VIEW_3D", "koebe_schottky"))
+    window.click(*window.find_button("VIEW_3D", "shape='HANDLES'"))
     window.wait(f"{DONE} and {ENTRY}.domain == 'schottky'", 60.0)
     window.show_textures()
     window.move(*window.middle("IMAGE_EDITOR"))

@@ -28,7 +28,7 @@ def test_a_body_by_its_button_in_both_layouts(window):
         window.run("bpy.context.window_manager.koebe_uv.islands.clear()")
         window.move(*window.middle("VIEW_3D"))
         window.settle()
-        window.click(*window.find_button("VIEW_3D", "koebe_sphere"))
+        window.click(*window.find_button("VIEW_3D", "shape='SPHERE'"))
         window.wait(DONE, 30.0)
         window.show_textures()
         window.move(*window.middle("IMAGE_EDITOR"))
@@ -54,6 +54,6 @@ def test_a_torus_is_no_sphere_and_the_report_has_the_button(window):
     window.settle()
     window.picture("83_no_sphere")
     assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.offer]") == [False, "torus"]
-    window.click(*window.find_button("VIEW_3D", "koebe_torus"))
+    window.click(*window.find_button("VIEW_3D", "shape='TORUS'"))
     window.wait(f"{DONE} and {ENTRY}.domain == 'torus'", 30.0)
     assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.flipped]") == [True, 0]

@@ -34,7 +34,7 @@ def test_a_torus_by_its_button(window):
     prepare(window, MODEL)
     window.open_part("domains")
     window.picture("70_other_domains")
-    window.click(*window.find_button("VIEW_3D", "koebe_torus"))
+    window.click(*window.find_button("VIEW_3D", "shape='TORUS'"))
     window.wait(DONE, 30.0)
     window.show_textures()
     window.move(*window.middle("IMAGE_EDITOR"))
@@ -56,7 +56,7 @@ def test_a_tube_is_no_torus_and_the_report_has_the_button(window):
     window.settle()
     window.picture("72_no_torus")
     assert window.ask(f"[{ENTRY}.mapped, {ENTRY}.offer]") == [False, "ring"]
-    window.click(*window.find_button("VIEW_3D", "koebe_ring"))
+    window.click(*window.find_button("VIEW_3D", "shape='RING'"))
     window.wait(f"{DONE} and {ENTRY}.domain == 'ring'", 30.0)
     window.move(*window.middle("IMAGE_EDITOR"))
     window.key("Home")
