@@ -8,41 +8,40 @@ from .wording import counted
 
 # By the kind of the warning: what its elements are, and the sentence. {count} counts them in that noun.
 WORDS = {
-    "collapsed_faces": ("faces", "{count} without an area: Mesh ▸ Clean Up ▸ Degenerate Dissolve removes them"),
-    "unused_vertices": ("vertices", "{count} without a face: Mesh ▸ Clean Up ▸ Delete Loose removes them"),
-    "reoriented_faces": (
-        "faces", "{count} looking the other way: Mesh ▸ Normals ▸ Recalculate Outside turns them"),
-    "thin_faces": ("", "some faces are so thin that rounding shows: dissolve them, or merge their vertices"),
-    "coarse_mesh": ("", "there are too few vertices between the holes for round ones: subdivide the surface there"),
-    "no_flux": ("", "a part of a boundary shrinks almost to a point: a seam near it gives it room"),
-    "not_converged": ("", "the circles were still moving at the end: raise Sweeps, under Accuracy"),
-    "no_circles": ("", "no round holes were found: subdivide the surface, or take Shape: Parts"),
-    "lost_circles": ("loops", "{count} too small to be measured in the UVs: a seam near it gives it room"),
-    "shrunk_circles": ("loops", "{count} made smaller, as it met another boundary: subdivide the surface between them"),
-    "replaced_circles": ("loops", "{count} moved a little, so that no face turns over: subdivide the surface there"),
-    "flaps": (
-        "faces", "{count} hanging on a boundary by one edge alone, drawn along it: delete them, or join them better"),
-    "off_circle": ("vertices", "{count} of a boundary had to leave the circle: subdivide the faces there"),
+    "collapsed_faces": ("faces", "Without an area: {count}. Mesh ▸ Clean Up ▸ Degenerate Dissolve removes them"),
+    "unused_vertices": ("vertices", "Without a face: {count}. Mesh ▸ Clean Up ▸ Delete Loose removes them"),
+    "reoriented_faces": ("faces", "Looking the other way: {count}. Mesh ▸ Normals ▸ Recalculate Outside turns them"),
+    "thin_faces": ("", "Some faces are so thin that rounding shows: dissolve them, or merge their vertices"),
+    "coarse_mesh": ("", "There are too few vertices between the holes for round ones: subdivide the surface there"),
+    "no_flux": ("", "A part of a boundary shrinks almost to a point: a seam near it gives it room"),
+    "not_converged": ("", "The circles were still moving at the end: raise Sweeps, under Accuracy"),
+    "no_circles": ("", "No round holes were found: subdivide the surface, or take Shape: Parts"),
+    "lost_circles": ("loops", "Too small to be measured in the UVs: {count}. A seam nearby gives more room"),
+    "shrunk_circles": ("loops", "Made smaller, as it met another boundary: {count}. Subdivide the surface in between"),
+    "replaced_circles": ("loops", "Moved a little, so that no face turns over: {count}. Subdivide the surface there"),
+    "flaps": ("faces", "Hanging on a boundary by one edge alone: {count}. Delete them, or join them better"),
+    "off_circle": ("vertices", "Not on the circle of their boundary: {count}. Subdivide the faces there"),
     "below_resolution": (
-        "faces", "{count} too small in the UVs for any image: take Shape: Parts, or put a seam near them"),
-    "flipped": ("faces", "{count} turned over in the UVs: take Shape: Parts, or repair the faces there"),
-    "not_one_to_one": ("faces", "the UVs lie over each other: take Shape: Parts"),
-    "out_of_place": ("vertices", "the vertex for the centre could not be brought there: choose another one"),
-    "not_even": ("faces", "{count} not made more even, as faces would turn over: take a smaller Even, or more parts"),
-    "lost_area": ("faces", "{count} without an area in the UVs: take Shape: Parts"),
+        "faces", "Too small in the UVs for any image: {count}. Take Shape: Parts, or put a seam near them"),
+    "flipped": ("faces", "Turned over in the UVs: {count}. Take Shape: Parts, or repair the faces there"),
+    "not_one_to_one": ("faces", "The UVs lie over each other: take Shape: Parts"),
+    "out_of_place": ("vertices", "The vertex for the centre could not be brought there: choose another one"),
+    "not_even": (
+        "faces", "Not made more even, as faces would turn over: {count}. Take a smaller Even, or more parts"),
+    "lost_area": ("faces", ""),  # what is said of it has the share of the area
     "left_out": (
-        "faces", "{count} without a place, as they repeat another face: Mesh ▸ Clean Up ▸ Merge by Distance"),
-    "not_mapped": ("faces", "{count} without a map, all at one point: repair the mesh there"),
+        "faces", "Without a place, as they repeat another face: {count}. Mesh ▸ Clean Up ▸ Merge by Distance"),
+    "not_mapped": ("faces", "Without a map, all at one point: {count}. Repair the mesh there"),
 }  # fmt: skip
 NOUNS = {"faces": ("face", None), "vertices": ("vertex", "vertices"), "loops": ("boundary", "boundaries")}
-WHOLE = "all of it"  # what a warning is about that names no elements
+WHOLE = "the whole map"  # what a warning is about that names no elements
 SELECTED = ("faces", "vertices")  # that can be selected by their numbers in the mesh
 
 
 def in_words(warnings: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     """Warnings of one map, in the mesh's numbers, as sentences: one for each kind, with all of its elements.
 
-    Each is a dict: text, `of` and `elements`, where these can be selected. What has no words keeps its text.
+    Each is a dict: text, `of` and `elements`, where these can be selected. What has no sentence keeps its text.
     """
     found: dict[str, dict[str, Any]] = {}
     for warning in warnings:

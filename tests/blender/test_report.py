@@ -195,7 +195,7 @@ def test_a_warning_is_one_sentence_and_selects_what_it_speaks_of():
     (warning,) = entry.warnings
     assert entry.message and warning.text != entry.message and "Shape: Parts" in warning.text
     faces = json.loads(warning.elements)
-    assert warning.of == "faces" and warning.text.startswith(f"{len(faces)} faces ")
+    assert warning.of == "faces" and f": {len(faces)} faces. " in warning.text
     assert bpy.ops.uv.koebe_select_warning(warning=0) == {"FINISHED"}
     assert sorted(selected(bpy.data.objects["Long"])[2]) == faces
     with pytest.raises(RuntimeError, match="no warning 1"):
@@ -240,7 +240,10 @@ def test_warnings_count_and_name_the_faces_of_the_mesh(run, capfd):
     scenes.select(scenes.add_object("Turned", vertices, faces))
     assert getattr(bpy.ops.uv, f"koebe_{run}")() == {"FINISHED"}
     said = "3 faces turned to the orientation of the others; the first face is 40"
-    assert said in islands()[0].message and said in capfd.readouterr().out
+    assert said in islands()[0].message
+    (warning,) = islands()[0].warnings
+    assert "3 faces" in warning.text and warning.text in capfd.readouterr().out
+    assert (warning.of, json.loads(warning.elements)) == ("faces", [40, 41, 42])
 
 
 def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
