@@ -192,14 +192,15 @@ def test_a_preset_that_cannot_be_written_leaves_the_older_one(monkeypatch):
 def test_a_warning_is_one_sentence_and_selects_what_it_speaks_of():
     runs.flipped()
     (entry,) = islands()
-    (warning,) = entry.warnings
-    assert entry.message and warning.text != entry.message and "Shape: Parts" in warning.text
+    lost, warning = entry.warnings
+    assert "% of its area is lost" in lost.text and lost.of == "faces"
+    assert "below the resolution" in entry.message and "Shape: Parts" in warning.text
     faces = json.loads(warning.elements)
     assert warning.of == "faces" and f": {len(faces)} faces. " in warning.text
-    assert bpy.ops.uv.koebe_select_warning(warning=0) == {"FINISHED"}
+    assert bpy.ops.uv.koebe_select_warning(warning=1) == {"FINISHED"}
     assert sorted(selected(bpy.data.objects["Long"])[2]) == faces
-    with pytest.raises(RuntimeError, match="no warning 1"):
-        bpy.ops.uv.koebe_select_warning(warning=1)
+    with pytest.raises(RuntimeError, match="no warning 2"):
+        bpy.ops.uv.koebe_select_warning(warning=2)
 
 
 @pytest.mark.alike
