@@ -31,6 +31,7 @@ def _parts() -> tuple[ModuleType, ...]:
         sequence,
         symmetrize,
         uniformize,
+        unwrap,
     )
     from .state import moved_circles, option_properties, run_report, saved_report, shape_report
     from .ui import (
@@ -46,8 +47,8 @@ def _parts() -> tuple[ModuleType, ...]:
 
     return (
         option_properties, run_report, saved_report, moved_circles, shape_report,
-        uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes, compare_shapes,
-        carry_texture, option_presets, moebius, symmetrize, flat_copy,
+        unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
+        compare_shapes, carry_texture, option_presets, moebius, symmetrize, flat_copy,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

@@ -15,6 +15,7 @@ from .flags import flag
 LARGEST_FRAME = 1048574  # in Blender
 DISK = "disk"
 OF_SEQUENCES = ("sequence", "frames", "sequence_target", "play")
+OF_TWO = ("balance", "center", "point", "even")  # their default depends on another flag
 OWN_FLAGS = ("source", "target")  # named after the sequence
 IN_BLENDER = "blender -b IN.blend --python-exit-code 1 -P batch.py -- --output OUT.blend [options]"
 WITH_BPY = "python batch.py IN.blend -- --output OUT.blend [options]"
@@ -77,7 +78,9 @@ def parse(arguments: list[str]) -> Request:
         "--objects", action="append", metavar="A,B,...",
         help='default: all meshes of the scene. May be repeated; a name with commas in quotes: \'"A, B",C\'',
     )  # fmt: skip
-    parser.add_argument("--parts", action="store_true", help="cut into even parts, any surface")
+    parser.add_argument(
+        "--parts", action="store_true", help="cut into parts, any surface; without --even as even as angles allow"
+    )
     parser.add_argument(
         "--domain", choices=(DISK, *DOMAINS), default=DISK,
         help="; ".join(f"{name}: {domain.title}" for name, domain in DOMAINS.items()),
@@ -133,7 +136,7 @@ def _add_option(parser: argparse.ArgumentParser, row: Row) -> None:
         "vertex": {"type": _whole_number, "metavar": row.unit},
         "choice": {"choices": row.words},
     }
-    default = row.default if "uniformize" in row.maps and row.name not in ("balance", "center", "point") else None
+    default = row.default if "uniformize" in row.maps and row.name not in OF_TWO else None
     of = "" if "uniformize" in row.maps else f"of {', '.join(row.maps)}: "
     said = "" if row.kind == "vertex" else f"; default: {row.default}"
     how = by_kind.get(row.kind, {"metavar": "NAME"})
@@ -157,7 +160,8 @@ def _known(kind: Any, values: dict[str, Any]) -> dict[str, Any]:
 def _choice(of: str, values: dict[str, Any]) -> Any:
     """The choice for parts or for a domain. Raises OptionError."""
     kind = options.PartsChoice if of == "parts" else DOMAINS[of].choice
-    return kind(**_known(kind, values))
+    own = {"keep_angles": values["even"] is None} if of == "parts" else {}
+    return kind(**own, **_known(kind, values))
 
 
 def _wrong(error: options.OptionError) -> Stop:

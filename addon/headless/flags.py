@@ -9,11 +9,13 @@ from ..maps.domains import DOMAINS
 FLAGS = {
     "Unwrap to Parts": "--parts",
     **{domain.button: f"--domain {name}" for name, domain in DOMAINS.items()},
-    "Koebe Uniformize": "--domain disk",
+    "Unwrap to Disk": "--domain disk",
     "Tube: Annulus": "--tube annulus",
     "Fit: Inside": "--fit inside",
     "Target: Attributes": "--sequence-target attribute",
     "set Balance to Area": "take --balance area",
+    "set Even to 0": "take --even 0",
+    "set Holes to Circles": "take --holes circles",
     "choose another layer name": "choose another name with --layer",
     "layer: ": "--layer: ",
 }

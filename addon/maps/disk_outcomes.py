@@ -14,7 +14,7 @@ from .packing import Placement
 from .rounding import RESOLUTION, rounded
 from .stored import Stored
 from .surface import Island
-from .triangles import as_complex, as_points, density_ratio, longest_edges, signed_areas
+from .triangles import as_complex, as_points, covered, density_ratio, even_share, longest_edges, signed_areas
 from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, few, in_mesh, own_warning, too_uneven
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 # The solver's warning about its 32-bit disk; it does not apply to a rectangle made of the disk.
 OF_THE_DISK = "below_resolution"
+FAIR = 3.0  # between texel densities, as lengths: within it no difference is seen on a painted model
 
 
 @dataclasses.dataclass
@@ -38,6 +39,7 @@ class IslandOutcome:
     opening     the cuts that made this piece, with others, or None
     symmetry    the island made symmetric, or None
     remark      why a requested step was not done, or empty
+    has_circles whether its loops are held on circles
     """
 
     island: Island
@@ -54,6 +56,7 @@ class IslandOutcome:
     opening: Opening | None = None
     symmetry: Symmetry | None = None
     remark: str = ""
+    has_circles: bool = True
 
     @property
     def unrolled(self) -> bool:
@@ -71,6 +74,11 @@ class IslandOutcome:
     def density_ratio(self) -> float:
         """Texel density (a length over a length) at 95 % of the area over the density at 5 %."""
         return density_ratio(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)))
+
+    @property
+    def even_share(self) -> float:
+        """Share of the area whose texel densities lie within a factor 3."""
+        return even_share(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)), FAIR)
 
     def turned(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 2) of the shape after the turn."""
@@ -242,10 +250,11 @@ class SurfaceOutcome(Outcome):
         return {
             "sweeps": result.sweeps, "angle_error": one.angle_error, "roundness": float(result.roundness.max()),
             "flipped": len(one.flipped), "flipped_faces": one.flipped_faces.tolist(),
-            "seconds": result.seconds["total"], "uneven": too_uneven(one),
+            "seconds": result.seconds["total"], "uneven": too_uneven(one), "even": result.even,
+            "density": one.density_ratio, "coverage": covered(one.uv, one.sheet.triangles),
             "loops": [
                 {
-                    "uv_center": center, "uv_radius": 0.0 if one.unrolled else float(uv_radius),
+                    "uv_center": center, "uv_radius": float(uv_radius) if one.has_circles and not one.unrolled else 0.0,
                     "vertices": one.island.source_vertex[vertices].tolist(),
                     "radius": float(radius), "roundness": float(roundness),
                 }

@@ -32,6 +32,7 @@ from .wording import counted
 # Of the largest coordinate: the distance from a line that rounding to 32 bits can cause, and a little more.
 FLAT = 2.4e-7
 FEW = 1000  # triangles that are checked first
+UNROLLED_STAYS = "not made more even, as it is unrolled: Unwrap to Cylinder makes it even"
 MOST_IMPORTANT = 4.0  # texel density at importance 1 over that at 0, as in the solver
 
 
@@ -238,6 +239,8 @@ def _map_island(
             # A concentric annulus keeps its digits for a hole of any size; moved off the centre it loses them.
             arguments["balance"] = "none"
             vertices = {"outer": vertices["outer"]}
+            if options.even > 0.0:
+                arguments["even"], one.remark = 0.0, UNROLLED_STAYS
         if vertices.get("center") is not None:
             places.check_center(island, vertices["center"])
             arguments["balance"] = "none"  # the balance would choose the centre as well
@@ -253,6 +256,7 @@ def _map_island(
             **vertices,
             **arguments,
         )
+        one.has_circles = options.loops == "round" or not one.result.even
         if not _is_unrolled(one, options):  # otherwise the whole surface is turned together
             _shape(one, options)
     return one

@@ -49,6 +49,8 @@ class Chosen:
         for row in self.rows:
             if problem := row.problem(getattr(self, row.name)):
                 raise OptionError(row.name, problem)
+        if getattr(self, "even", 0.0) and getattr(self, "holes", "circles") != "circles":
+            raise OptionError("even", "it excludes slits, which would not stay straight: set Holes to Circles")
 
     def solver_arguments(self) -> dict[str, Any]:
         """Keyword arguments of the solver's function, except vertices and values computed for each island."""
@@ -90,12 +92,21 @@ class Options(Chosen):
             raise OptionError("symmetry", "it excludes a centre and a rim point: all choose where the disk's centre is")
         if self.importance and self.balance != "area":
             raise OptionError("importance", "it weighs the balance: set Balance to Area")
+        if self.even > 0.0 and self.symmetry != "off":
+            raise OptionError("even", "it excludes symmetry, which would change the sizes of faces: set Even to 0")
+        if self.even > 0.0 and self.center != "auto":
+            raise OptionError("even", "it excludes a centre, which would not stay in the middle: set Even to 0")
         _check_layer_name(self.layer)
 
 
 @of_map("parts", *OF_RUNS)
 class PartsChoice(Chosen):
     """How a surface is cut into parts."""
+
+    def solver_arguments(self) -> dict[str, Any]:
+        """As of `Chosen`. Without `even` the solver keeps the angles."""
+        arguments = super().solver_arguments()
+        return {**arguments, "even": None} if self.keep_angles else arguments
 
 
 @dataclasses.dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 from .errors import elements_of, kind_of
 from .offending_elements import offending_elements
 from .surface import Surface
+from .warning_words import in_words
 from .wording import MIRRORED, PINNED, explain, failure_line, own_warning
 
 Progress = Callable[[float, str], None]  # called with a fraction and a stage
@@ -54,12 +55,14 @@ class Outcome:
     islands      the outcome of each: with a `result` of the native package, or an `error`
     not_written  why nothing of it could be written, or None
     remarks      notes on the object beside its islands
+    chosen       the shape that was taken and why, if nobody has chosen
     """
 
     task: Task
     islands: list[Any]
     not_written: str | None = dataclasses.field(default=None, kw_only=True)
     remarks: list[str] = dataclasses.field(default_factory=list, kw_only=True)
+    chosen: str = dataclasses.field(default="", kw_only=True)
 
     @property
     def name(self) -> str:
@@ -111,7 +114,7 @@ class Outcome:
 
     def said_warnings(self) -> list[str]:
         """The warnings of all islands."""
-        return [warning["text"] for one in self.mapped for warning in self.warnings(one)]
+        return [said["text"] for one in self.mapped for said in in_words(self.warnings(one))]
 
     def said_notes(self) -> list[str]:
         """The notes of all islands."""
@@ -152,15 +155,17 @@ class Outcome:
         """
         if self.not_written:
             return [failure_row(self.name, self.not_written)]
-        said: dict[int, list[str]] = {}
+        said: dict[int, list[str]] = {id(one): [self.chosen] for one in self.mapped[:1] if self.chosen}
         for one, text in self.notes():
             said.setdefault(id(one), []).append(text)
         result = []
         for index, one in enumerate(self.islands):
             row: dict[str, Any] = {"object_name": self.name, "island": index, "layer": layer}
             if one.error is None:
-                texts = [*(warning["text"] for warning in self.warnings(one)), *self.remarks]
+                warnings = self.warnings(one)
+                texts = [*(warning["text"] for warning in warnings), *self.remarks]
                 row |= {"mapped": True, "converged": one.result.converged, "message": "; ".join(texts)}
+                row["warnings"] = [*in_words(warnings), *({"text": remark} for remark in self.remarks)]
                 row |= {"note": "; ".join(said.get(id(one), [])), **self._row(one)}
             else:
                 kind, elements = offending_elements(self.task.surface, one.island, one.error)

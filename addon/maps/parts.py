@@ -14,6 +14,7 @@ from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
 from .stored import LostAreaError
 from .surface import Surface, next_corners
+from .triangles import covered
 from .wording import counted, density_text, in_mesh
 
 # The price of a part at the dial's ends: as few parts as possible, and texels as even as possible.
@@ -110,9 +111,15 @@ class PartsOutcome(Outcome):
         return {
             "parts": len(result.parts), "angle_error": result.angle_error_stored_deg["mean"],
             "flipped": result.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
-            "density": result.density_ratio_5_95, "cut_length": result.cut_length,
+            "density": result.density_ratio_5_95, "coverage": _coverage(result.uv),
+            "cut_length": result.cut_length, "even": result.even,
             **({"cut_edges": np.flatnonzero(one.cuts).tolist()} if one.cuts.any() else {}),
         }  # fmt: skip
+
+
+def _coverage(uv: np.ndarray) -> float:
+    """Share of the UV square that triangles (t, 3, 2) take."""
+    return covered(uv.reshape(-1, 2), np.arange(3 * len(uv)).reshape(-1, 3))
 
 
 def cut_into_parts(

@@ -195,9 +195,10 @@ class _Kept:
         return getattr(self._koebe, name)
 
     def uniformize(
-        self, vertices: np.ndarray, triangles: np.ndarray, *, progress: Any, cancel: Any, engine: str, **options: Any
-    ) -> "koebe.UniformizeResult":
-        """As the package's, with the condensed engine, which alone can map again."""
+        self, vertices: np.ndarray, triangles: np.ndarray, *, progress: Any, cancel: Any, engine: str, even: float,
+        loops: str, **options: Any
+    ) -> "koebe.UniformizeResult":  # fmt: skip
+        """As the package's, conformal, with the condensed engine, which alone can map again."""
         surface = self._koebe.Surface(vertices, triangles, **options)
         result = surface.uniformize(progress=progress, cancel=cancel)
         self._surfaces[id(result)] = result, surface  # keep the result, too: then no other result gets its id

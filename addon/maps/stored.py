@@ -42,7 +42,7 @@ class LostAreaError(MapError):
         self.elements, self.offer = elements, offer
 
 
-SERVES = {"parts": "Unwrap to Parts", "uniformize": "Koebe Uniformize"}
+SERVES = {"parts": "Unwrap to Parts", "uniformize": "Unwrap to Disk"}
 
 
 def lost_text(share: float) -> str:

@@ -26,10 +26,12 @@ UP = (2, 1)  # axes that may be up: v is 0 at the lower of a ring's two rims
 class TileIsland(DomainIsland):
     """The outcome of one island: a result of `koebe.torus_map` or `koebe.ring_map` and its tile, or an error.
 
-    tile  with the requested fit
+    tile     with the requested fit
+    is_free  whether its loops are held on no circles
     """
 
     tile: FittedTile = LATER
+    is_free: bool = False
 
     @property
     def texel_uv(self) -> np.ndarray:
@@ -37,7 +39,7 @@ class TileIsland(DomainIsland):
 
     def circle(self, loop: dict[str, Any], fit: str) -> tuple[tuple[float, float], float]:
         """Centre and radius in the UVs of a loop that is a circle there, else 0 and 0."""
-        if len(self.result.periods) < 2 or "center" not in loop or fit == "square":
+        if len(self.result.periods) < 2 or "center" not in loop or fit == "square" or self.is_free:
             return (0.0, 0.0), 0.0
         matrix, offset = self.tile.move
         x, y = matrix @ np.array(loop["center"]) + offset
@@ -52,6 +54,7 @@ class TileIsland(DomainIsland):
         result = self._solve(koebe, choice, **arguments, **run)
         self.tile = fitted(result.uv, self.island.triangles, result.periods, choice.fit)
         self.take_corners(task.surface, self.tile.uv)
+        self.is_free = choice.loops == "free" and result.even > 0.0
         self.result = result
 
 
@@ -92,7 +95,8 @@ class TileOutcome(DomainOutcome):
 
     def _row(self, one: TileIsland) -> dict[str, Any]:
         own = {"modulus": modulus_text(one.result), "periods": periods_text(one.tile)}
-        return {**super()._row(one), **own, "cut_length": one.result.cut_length}
+        return {**super()._row(one), **own, "cut_length": one.result.cut_length, "even": one.result.even,
+                "density": one.density_ratio}  # fmt: skip
 
     def _loop_row(self, one: TileIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
         center, radius = one.circle(of_loop, self.choice.fit)

@@ -21,6 +21,7 @@ STAGES = {
     "polish": "polishing the angles",
     "split": "cutting into parts",
     "pack": "packing the parts",
+    "even": "making the texels even",
 }
 POLL_SECONDS = 0.05  # interval between looks at a running computation: Esc acts within this time and one checkpoint
 READ_SECONDS = 0.1  # time to read Blender's data between two looks at the keys, if one step takes no longer

@@ -17,10 +17,18 @@ from ..state import run_report
 from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders
 
+
+def keeps_angles(options: Any) -> bool:
+    """Whether the evenness of parts follows from their angles."""
+    return getattr(options, "keep_angles", False) and getattr(options, "shape", "PARTS") in {"AUTO", "PARTS"}
+
+
 NEEDS = {  # options that matter only with certain values of others
     "margin": lambda options: options.placement != "keep",
     "importance": lambda options: options.balance == "area",
     "evenness": lambda options: options.seams == "add",
+    "even": lambda options: not keeps_angles(options),
+    "loops": lambda options: keeps_angles(options) or options.even > 0.0,
     "checker_size": lambda options: options.checker,
     "checker_even": lambda options: options.checker,
     "play": lambda options: options.source == "FRAMES" and options.target == "ATTRIBUTE",
@@ -71,8 +79,7 @@ class MapOperator(ModalRun):
         return can_map(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        assert layout is not None
+        layout: Any = self.path_resolve("layout")  # `self.layout` is an option of spheres
         layout.use_property_split = True
         layout.use_property_decorate = False
         for name in self.options_shown:
@@ -117,7 +124,7 @@ class MapOperator(ModalRun):
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.line())
-                for note in outcome.said_notes():
+                for note in [*[outcome.chosen] * bool(outcome.chosen), *outcome.said_notes()]:
                     self.report({"INFO"}, f"{outcome.name}: {note}")
                 for warning in dict.fromkeys([*outcome.said_warnings(), *outcome.remarks]):
                     self.report({"WARNING"}, f"{outcome.name}: {warning}")

@@ -103,6 +103,21 @@ class UV_OT_koebe_select_torn(FacesOperator, bpy.types.Operator):
     faces = "torn_faces"
 
 
+class UV_OT_koebe_select_warning(ReportOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the faces or vertices of this island that a warning of the report speaks of"""
+
+    bl_idname = "uv.koebe_select_warning"
+    bl_label = "Select What It Speaks of"
+
+    warning: bpy.props.IntProperty(name="Warning", min=0, description="Number of the warning in the report")
+
+    def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
+        found = entry.warnings[self.warning] if self.warning < len(entry.warnings) else None
+        if found is None or not found.of:
+            raise TransferError(f"{obj.name}: the report has no warning {self.warning} with something to select")
+        return found.of, json.loads(found.elements)
+
+
 class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
     """Select, in Edit Mode, the edges of a boundary loop of this island: the rim of the disk or a hole"""
 
@@ -169,6 +184,7 @@ def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> 
 CLASSES = (
     UV_OT_koebe_select_offenders,
     UV_OT_koebe_select_flipped,
+    UV_OT_koebe_select_warning,
     UV_OT_koebe_select_torn,
     UV_OT_koebe_select_loop,
     UV_OT_koebe_select_cuts,

@@ -50,6 +50,8 @@ RANGE_NAMES = ("frame_start", "frame_end", "frame_step")  # the scene's frames b
 OPTION_NAMES = option_names("uniformize")
 PART_OPTION_NAMES = option_names("parts")
 SEQUENCE_OPTION_NAMES = option_names("sequence")
+UNWRAP_OPTION_NAMES = ("shape", *dict.fromkeys(name for of in ("uniformize", "parts", *DOMAINS)
+                                               for name in option_names(of)))  # fmt: skip
 SETTING_NAMES = tuple(row.name for row in ROWS.values() if row.is_property)
 
 UniformizeProperties = mixin("UniformizeProperties", OPTION_NAMES)
@@ -67,11 +69,11 @@ def settings_of(context: bpy.types.Context) -> KoebeSettings:
 
 
 def copy_options(source: Any, target: Any, of: str = "uniformize") -> None:
-    """Copy the options of a map's operator from the settings, or back.
+    """Copy the options of a map's operator, or of "unwrap", from the settings, or back.
 
     A sequence's frames are copied only if they are not the scene's.
     """
-    for name in option_names(of):
+    for name in UNWRAP_OPTION_NAMES if of == "unwrap" else option_names(of):
         if name not in RANGE_NAMES or not source.scene_range:
             setattr(target, name, getattr(source, name))
 
@@ -94,9 +96,9 @@ def written_options_of(properties: Any) -> Options:
     return Options(**{name: getattr(properties, name) for name in WRITTEN})
 
 
-def options_of(properties: Any) -> Options:
-    """The `Options` of a property group. Raises OptionError."""
-    return Options(**{name: getattr(properties, name) for name in OPTION_NAMES})
+def options_of(properties: Any, **others: Any) -> Options:
+    """The `Options` of a property group, but for those that are given. Raises OptionError."""
+    return Options(**{**{name: getattr(properties, name) for name in OPTION_NAMES}, **others})
 
 
 def register() -> None:

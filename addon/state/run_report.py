@@ -23,6 +23,8 @@ from ..maps.carried_uv import Carried
 from ..maps.surface import Island
 from .registering import on_window_manager
 
+COLLECTIONS = ("loops", "warnings")  # of an island's report
+
 
 class KoebeLoopReport(bpy.types.PropertyGroup):
     """A boundary loop of an island."""
@@ -32,6 +34,14 @@ class KoebeLoopReport(bpy.types.PropertyGroup):
     roundness: FloatProperty(description="Deviation from a circle before the last step, as in the paper")
     uv_center: FloatVectorProperty(size=2, description="Centre of its circle in the UVs")
     uv_radius: FloatProperty(description="Radius of its circle in the UVs, 0 if it is no circle there")
+
+
+class KoebeWarningReport(bpy.types.PropertyGroup):
+    """What to watch out for in an island."""
+
+    text: StringProperty(description="What is seen, and what to do about it")
+    of: StringProperty(description="What can be selected: faces or vertices, else empty")
+    elements: StringProperty(description="Their numbers, as JSON")
 
 
 class KoebeIslandReport(bpy.types.PropertyGroup):
@@ -56,6 +66,8 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
     density: FloatProperty(description="Density at 95 % of the area over that at 5 %, of a sphere on it")
+    even: FloatProperty(description="How even it was made: 0 is conformal, 1 true to size")
+    coverage: FloatProperty(description="Share of the UV square that it takes")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     domain: StringProperty(description="The domain: torus, ring, sphere or schottky; else empty")
@@ -69,6 +81,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
     corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
     history: StringProperty(description="What the report was for each state of such an island, as JSON")
+    warnings: CollectionProperty(type=KoebeWarningReport, description="What to watch out for, in an artist's words")
     loops: CollectionProperty(type=KoebeLoopReport, description="Boundary loops, the outer one first")
 
 
@@ -100,8 +113,9 @@ def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str
     report.islands.clear()
     for row in rows:
         entry = report.islands.add()
-        for of_loop in row.pop("loops", ()):
-            _fill(entry.loops.add(), of_loop)
+        for name in COLLECTIONS:
+            for item in row.pop(name, ()):
+                _fill(getattr(entry, name).add(), item)
         _fill(entry, row)
     # Show islands with problems first.
     report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
@@ -145,4 +159,5 @@ def entries_of_object(context: bpy.types.Context) -> list[KoebeIslandReport]:
     return [entry for entry in report_of(context).islands if active and entry.object_name == active.object_name]
 
 
-register, unregister = on_window_manager("koebe_uv", KoebeLoopReport, KoebeIslandReport, KoebeReport)
+GROUPS = (KoebeLoopReport, KoebeWarningReport, KoebeIslandReport, KoebeReport)
+register, unregister = on_window_manager("koebe_uv", *GROUPS)

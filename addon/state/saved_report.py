@@ -8,13 +8,20 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from .run_report import KoebeIslandReport, KoebeLoopReport, KoebeReport, report_of
+from .run_report import (
+    COLLECTIONS,
+    KoebeIslandReport,
+    KoebeLoopReport,
+    KoebeReport,
+    KoebeWarningReport,
+    report_of,
+)
 
 VERSION = 1
 # Needed only for undo, and not saved.
-NOT_SAVED = ("rna_type", "loops", "corners", "history")
+NOT_SAVED = ("rna_type", *COLLECTIONS, "corners", "history")
 # Texts that hold lists of whole numbers as JSON; cuts hold lists of such lists.
-NUMBERS = ("flipped_faces", "torn_faces", "cut_edges", "vertices")
+NUMBERS = ("flipped_faces", "torn_faces", "cut_edges", "vertices", "elements")
 CUTS = "cuts"
 ELEMENTS = ("vertices", "edges", "faces")
 LARGEST = 2**31 - 1
@@ -28,7 +35,10 @@ def packed(report: KoebeReport) -> str:
     """The report as text; empty without a report."""
     if not report.islands:
         return ""
-    islands = [{**_values(entry), "loops": [_values(loop) for loop in entry.loops]} for entry in report.islands]
+    islands = [
+        {**_values(entry), **{name: [_values(item) for item in getattr(entry, name)] for name in COLLECTIONS}}
+        for entry in report.islands
+    ]
     return json.dumps({"version": VERSION, "active": report.active, "islands": islands})
 
 
@@ -41,9 +51,11 @@ def unpack(text: str, report: KoebeReport) -> None:
         for values in _list(content, "islands"):
             entry = report.islands.add()
             _fill(entry, values)
-            for of_loop in _list(values, "loops"):
-                _fill(entry.loops.add(), of_loop)
-                _require(len(entry.loops[-1].vertices) > len("[]"))
+            for name in COLLECTIONS:
+                for item in _list(values, name):
+                    _fill(getattr(entry, name).add(), item)
+            _require(all(len(loop.vertices) > len("[]") for loop in entry.loops))
+            _require(all(bool(one.of) == bool(one.elements) and one.of in ("", *ELEMENTS) for one in entry.warnings))
         _require(_is_whole(content.get("active")))
         report.active = content["active"]
     except (ValueError, RecursionError):  # JSON errors too
@@ -61,7 +73,7 @@ def _values(group: Any) -> dict[str, Any]:
     return found
 
 
-def _fill(group: KoebeIslandReport | KoebeLoopReport, values: Any) -> None:
+def _fill(group: KoebeIslandReport | KoebeLoopReport | KoebeWarningReport, values: Any) -> None:
     """Set an entry's values. Raises DamagedError for an impossible value."""
     _require(isinstance(values, dict))
     for prop in group.bl_rna.properties:

@@ -3,27 +3,39 @@
 
 import bpy
 
-from ..operators.domains import OPERATORS
+from ..maps.option_table import ROWS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
-from ..operators.parts import UV_OT_koebe_parts
 from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
-from ..operators.uniformize import UV_OT_koebe_uniformize
+from ..operators.unwrap import MAPS
 from ..state.option_properties import copy_options, settings_of
+from .panel_parts import BUTTONS, draw_unwrap
+
+
+class KOEBE_MT_unwrap(bpy.types.Menu):
+    """All shapes, with the panel's options."""
+
+    bl_label = "Koebe"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, settings_of(context)
+        assert layout is not None
+        layout.operator_context = "INVOKE_DEFAULT"
+        draw_unwrap(layout, settings, "AUTO", "Unwrap", "UV")
+        layout.separator()
+        for shape, label, _ in ROWS["shape"].choices[1:]:
+            draw_unwrap(layout, settings, shape, label, BUTTONS[MAPS[shape]][1])
+        layout.separator()
+        sequence = layout.operator(UV_OT_koebe_sequence.bl_idname, text="Animation", icon="RENDER_ANIMATION")
+        copy_options(settings, sequence, "sequence")
+        layout.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
 
 
 def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    """The entries in the U menu and in the UV Editor's UV menu, with the panel's options."""
-    layout = self.layout
-    layout.separator()
-    layout.operator_context = "INVOKE_DEFAULT"
-    copy_options(settings_of(context), layout.operator(UV_OT_koebe_uniformize.bl_idname))
-    copy_options(settings_of(context), layout.operator(UV_OT_koebe_parts.bl_idname), "parts")
-    for domain, operator in OPERATORS.items():
-        copy_options(settings_of(context), layout.operator(operator.bl_idname), domain)
-    copy_options(settings_of(context), layout.operator(UV_OT_koebe_sequence.bl_idname), "sequence")
-    layout.operator(UV_OT_koebe_symmetrize.bl_idname)
+    """The entry in the U menu and in the UV Editor's UV menu."""
+    self.layout.separator()
+    self.layout.menu("KOEBE_MT_unwrap")
 
 
 def draw_clean_up_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -53,6 +65,7 @@ MENUS = {
 
 def register() -> None:
     """Append the entries."""
+    bpy.utils.register_class(KOEBE_MT_unwrap)
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).append(draw)
 
@@ -61,3 +74,4 @@ def unregister() -> None:
     """The reverse of `register`."""
     for menu, draw in MENUS.items():
         getattr(bpy.types, menu).remove(draw)
+    bpy.utils.unregister_class(KOEBE_MT_unwrap)

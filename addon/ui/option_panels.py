@@ -7,6 +7,7 @@ import bpy
 
 from ..blender.targets import target_objects
 from ..maps.domains import DOMAINS
+from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.run_operator import draw_option, is_used
@@ -14,33 +15,27 @@ from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..state.option_properties import (
     ACCURACY_NAMES,
-    OPTION_NAMES,
     RANGE_NAMES,
+    SETTING_NAMES,
     KoebeSettings,
     copy_options,
     option_names,
     settings_of,
 )
-from .panel_parts import KoebePanel, draw_domain_button
-
-
-class ClosedPanel(KoebePanel):
-    """Closed at first."""
-
-    bl_options = {"DEFAULT_CLOSED"}
+from .panel_parts import ClosedPanel, draw_map_button
 
 
 class DiskPanel(ClosedPanel):
-    """Options of Koebe Uniformize."""
+    """Options of disks."""
 
-    bl_label = "Uniformize Options"
+    bl_label = "Disk and Round Holes"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
         for name in ("cut", "outer", "center", "point", "balance"):
             draw_option(column, settings, name, context)
         draw_importance(column, settings, context)
-        for name in ("tube", "upright", "symmetry", "polish"):
+        for name in ("loops", "tube", "upright", "symmetry", "polish"):
             draw_option(column, settings, name, context)
 
 
@@ -65,35 +60,37 @@ def draw_importance(column: bpy.types.UILayout, settings: KoebeSettings, context
 
 
 class PartsPanel(ClosedPanel):
-    """Options of Unwrap to Parts."""
+    """Where parts are cut."""
 
-    bl_label = "Parts Options"
+    bl_label = "Seams and Cuts"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        column.prop(settings, "seams")
-        column.prop(settings, "write_seams")
+        for name in ("darts", "seams", "write_seams"):
+            column.prop(settings, name)
 
 
 class DomainsPanel(ClosedPanel):
     """Maps to domains that are no disk, and their options."""
 
-    bl_label = "Other Domains"
+    bl_label = "Seamless Shapes"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        last_with = {name: domain for domain in DOMAINS for name in option_names(domain) if name not in OPTION_NAMES}
+        of = {name: [domain for domain in DOMAINS if name in option_names(domain)] for name in SETTING_NAMES}
         for domain in DOMAINS:
-            draw_domain_button(column, settings, domain)
+            draw_map_button(column, settings, domain)
             for name in option_names(domain):
-                if last_with.get(name) == domain:
+                if of[name] == [domain]:
                     draw_option(column, settings, name, context)
+        column.label(text="Torus Tile and Cylinder")
+        draw_option(column, settings, "fit", context)
 
 
 class SequencePanel(ClosedPanel):
     """Maps of an animation or of shape keys, and which they are."""
 
-    bl_label = "Sequence"
+    bl_label = "Animation and Shape Keys"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -129,10 +126,14 @@ class LayerPanel(ClosedPanel):
 class ToolsPanel(ClosedPanel):
     """What is made of a map that is there."""
 
-    bl_label = "More Tools"
+    bl_label = "Fill, Mirror, Flatten"
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column()
+        fill = column.row(align=True)
+        fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Fill Holes", icon="MESH_DATA").which = "holes"
+        if context.mode == "EDIT_MESH":
+            fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
         column.operator(UV_OT_koebe_symmetrize.bl_idname, icon="MOD_MIRROR")
         column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, icon="MESH_PLANE")
         column.operator(UV_OT_koebe_flat_svg.bl_idname, icon="EXPORT")

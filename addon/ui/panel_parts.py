@@ -2,13 +2,13 @@
 """The common part of the panels."""
 
 import textwrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from ..maps.domains import DOMAINS
-from ..operators.domains import OPERATORS
-from ..operators.parts import UV_OT_koebe_parts
+from ..maps.stored import SERVES
+from ..operators.unwrap import SHAPE_OF, UV_OT_koebe_unwrap
 from ..state.option_properties import KoebeSettings, copy_options
 
 CHARACTER = 7.8  # pixels of the sidebar's width per character of text, at a resolution scale of 1
@@ -37,20 +37,30 @@ class KoebePanel(PanelBase):
         return self.layout
 
 
-def draw_parts_button(column: bpy.types.UILayout, settings: KoebeSettings, dial: bool = True) -> None:
-    """Draw the button that cuts into parts, and above it the dial for their number."""
-    if dial:
-        column.prop(settings, "evenness", slider=True)
-    button = column.column(align=True)
-    button.scale_y = 1.4 if dial else 1.0
-    run = button.operator(UV_OT_koebe_parts.bl_idname, text="Unwrap to Parts", icon="UV_DATA")
-    copy_options(settings, run, "parts")
+class ClosedPanel(KoebePanel):
+    """Closed at first."""
+
+    bl_options = {"DEFAULT_CLOSED"}
 
 
-def draw_domain_button(column: bpy.types.UILayout, settings: KoebeSettings, domain: str) -> None:
-    """Draw the button that maps to another domain than the disk."""
-    of = DOMAINS[domain]
-    copy_options(settings, column.operator(OPERATORS[domain].bl_idname, text=of.button, icon=of.icon), domain)
+BUTTONS: dict[str, tuple[str, Any]] = {
+    "uniformize": (SERVES["uniformize"], "MESH_CIRCLE"), "parts": (SERVES["parts"], "UV_DATA"),
+    **{name: (domain.button, domain.icon) for name, domain in DOMAINS.items()},
+}  # fmt: skip
+
+
+def draw_map_button(column: bpy.types.UILayout, settings: KoebeSettings, of: str) -> Any:
+    """The button of one kind of map, whatever shape the panel has: the operator's options."""
+    text, icon = BUTTONS[of]
+    return draw_unwrap(column, settings, SHAPE_OF[of], text, icon)
+
+
+def draw_unwrap(layout: bpy.types.UILayout, settings: KoebeSettings, shape: str, text: str, icon: Any) -> Any:
+    """A button or a menu's entry that unwraps to a shape, with the panel's options: the operator's options."""
+    button = layout.operator(UV_OT_koebe_unwrap.bl_idname, text=text, icon=icon)
+    copy_options(settings, button, "unwrap")
+    button.shape = shape
+    return button
 
 
 def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int:

@@ -7,20 +7,23 @@ from ..blender import checker, distortion_attribute
 from ..blender.targets import target_objects
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
-from ..operators.fill_holes import MESH_OT_koebe_fill_holes
-from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import KoebeSettings, copy_options, settings_of
+from ..operators.run_operator import is_used
+from ..operators.unwrap import MAPS
+from ..state.option_properties import KoebeSettings, option_names, settings_of
 from ..state.run_report import report_of
 from .circle_tool import CIRCLES_TOOL
 from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
-from .panel_parts import KoebePanel, draw_parts_button
+from .panel_parts import KoebePanel, draw_unwrap
 from .preset_menu import KOEBE_PT_presets
-from .report_panel import KOEBE_UL_islands, ReportPanel
+from .report_panel import DetailsPanel, KOEBE_UL_islands, ReportPanel
 from .shape_panel import ShapesPanel
+
+NAMES = 0.32  # of the panel's width, where names stand on the left
+OF_PARTS = ("AUTO", "PARTS")  # shapes that may be parts
 
 
 class MainPanel(KoebePanel):
-    """The two runs, what judges a map, and Fill Holes."""
+    """The button, what it makes, and what judges a map."""
 
     bl_label = "Koebe UV"
 
@@ -30,14 +33,24 @@ class MainPanel(KoebePanel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, settings_of(context)
         run = layout.column()
-        run.scale_y = 1.4
-        copy_options(settings, run.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE"))
-        draw_parts_button(layout.column(align=True), settings)
+        run.scale_y = 1.6
+        draw_unwrap(run, settings, settings.shape, "Unwrap", "UV")
+        split = layout.split(factor=NAMES)
+        split.label(text="Shape")
+        split.prop(settings, "shape", text="")
+        draw_dials(layout.column(align=True), settings)
         draw_judges(layout.column(), context, settings)
-        fill = layout.row(align=True)
-        fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Fill Holes", icon="MESH_DATA").which = "holes"
-        if context.mode == "EDIT_MESH":
-            fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
+
+
+def draw_dials(column: bpy.types.UILayout, settings: KoebeSettings) -> None:
+    """The sliders of the shape: how many parts, and how even their texels."""
+    if settings.shape in OF_PARTS:
+        column.prop(settings, "evenness", slider=True)
+        column.prop(settings, "keep_angles")
+    if settings.shape in OF_PARTS or "even" in option_names(MAPS[settings.shape]):
+        row = column.row()
+        row.active = is_used(settings, "even")
+        row.prop(settings, "even", slider=True)
 
 
 def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:
@@ -55,7 +68,7 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
         row.use_property_split = False
         row.prop_enum(shading, "type", "MATERIAL", text="See It in Material Preview")
     kind = distortion_attribute.shown(objects[0].data) if objects else None
-    split = column.split(factor=0.32)
+    split = column.split(factor=NAMES)
     split.label(text="Distortion")
     row = split.row(align=True)
     for value, text in (("angle", "Angle"), ("area", "Area"), ("none", "Off")):
@@ -94,21 +107,27 @@ CHILDREN = {
     "disk": DiskPanel,
     "parts": PartsPanel,
     "domains": DomainsPanel,
-    "sequence": SequencePanel,
     "layer": LayerPanel,
-    "accuracy": AccuracyPanel,
     "tools": ToolsPanel,
     "shapes": ShapesPanel,
+    "sequence": SequencePanel,
+    "accuracy": AccuracyPanel,
 }
+WITHIN = {"report": {"details": DetailsPanel}}  # parts that have parts
 
 
 def children(parent: type, editor: type) -> list[type]:
-    """Make a class of each part for one editor's panel."""
-    name = parent.__name__
-    return [
-        type(f"{name}_{end}", (editor, part, bpy.types.Panel), {"bl_parent_id": name, "__doc__": part.__doc__})
-        for end, part in CHILDREN.items()
-    ]
+    """A class of each part for the panel of one editor."""
+    found = []
+    for end, part in CHILDREN.items():
+        found.append(_child(parent.__name__, editor, end, part))
+        found += [_child(found[-1].__name__, editor, *one) for one in WITHIN.get(end, {}).items()]
+    return found
+
+
+def _child(parent: str, editor: type, end: str, part: type) -> type:
+    own = {"bl_parent_id": parent, "__doc__": part.__doc__}
+    return type(f"{parent}_{end}", (editor, part, bpy.types.Panel), own)
 
 
 CLASSES = (

@@ -7,7 +7,7 @@ import bpy
 
 from .. import __name__ as addon_name
 
-OPERATOR = "uv.koebe_uniformize"
+OPERATOR = "uv.koebe_unwrap"
 # Where the shortcut Shift Alt U works: keymap and its space type.
 KEYMAPS: tuple[tuple[str, Any], ...] = (("Mesh", "EMPTY"), ("Object Mode", "EMPTY"), ("UV Editor", "EMPTY"))
 
@@ -44,7 +44,7 @@ class KoebePreferences(bpy.types.AddonPreferences):
         name="Shortcut Shift Alt U",
         default=False,
         update=update_shortcut,
-        description="Koebe Uniformize with Shift Alt U in Object Mode, Edit Mode and the UV Editor",
+        description="Koebe Unwrap with Shift Alt U in Object Mode, Edit Mode and the UV Editor",
     )
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -6,19 +6,19 @@ from typing import Any, Literal
 
 import bpy
 
-from ..maps.domains import DOMAINS
-from ..maps.wording import UNEVEN, counted, density_text
+from ..maps.verdicts import Figure, figures
+from ..maps.wording import counted
 from ..operators.select_from_report import (
     UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
     UV_OT_koebe_select_loop,
     UV_OT_koebe_select_offenders,
     UV_OT_koebe_select_torn,
+    UV_OT_koebe_select_warning,
 )
-from ..operators.uniformize import UV_OT_koebe_uniformize
-from ..state.option_properties import copy_options, settings_of
-from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object, report_of
-from .panel_parts import KoebePanel, draw_domain_button, draw_message, draw_parts_button
+from ..state.option_properties import settings_of
+from ..state.run_report import KoebeIslandReport, KoebeWarningReport, active_entry, entries_of_object, report_of
+from .panel_parts import ClosedPanel, KoebePanel, draw_map_button, draw_message, draw_unwrap
 
 MAX_LOOP_BUTTONS = 40
 MOST_LINES = 6  # of each message, until everything is requested
@@ -72,36 +72,84 @@ class ReportPanel(KoebePanel):
         entry = active_entry(context)
         if entry is None:
             return
-        which = "" if entry.parts else f", island {entry.island + 1}"
+        several = len([one for one in entries_of_object(context) if one.shape == entry.shape]) > 1
+        which = f", island {entry.island + 1}" if several else ""
         if entry.shape:
             which = f", {entry.shape}{which if entry.island else ''}"
         layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
-        if entry.uneven:
-            draw_message(layout, UNEVEN)
-            draw_parts_button(layout.column(align=True), settings_of(context), dial=False)
+        if entry.mapped:
+            column = layout.column(align=True)
+            for figure in figures(entry):
+                draw_figure(column, figure)
+            draw_selections(layout.column(), entry)
+            if entry.uneven:
+                draw_map_button(layout.column(align=True), settings_of(context), "parts")
+            draw_unroll(layout, context, entry)
+            for number, warning in enumerate(entry.warnings):
+                draw_warning(layout.box().column(align=True), number, warning)
         most = 0 if report.show_all else MOST_LINES
-        counts = [draw_message(layout, text, most) for text in (entry.message, entry.note, entry.moved)]
-        if max(counts) > MOST_LINES:
+        said = ("" if entry.mapped else entry.message, entry.note, entry.moved)
+        if max([draw_message(layout, text, most) for text in said]) > MOST_LINES:
             layout.prop(report, "show_all", toggle=True)
         if entry.mapped:
-            draw_unroll(layout, context, entry)
-            draw_result(layout.column(), entry)
             return
         if entry.offenders:
             layout.operator(UV_OT_koebe_select_offenders.bl_idname, icon="RESTRICT_SELECT_OFF")
         draw_offer(layout.column(align=True), context, entry)
 
 
-def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
-    """Draw a mapped island's figures, and buttons that select its loops and its flipped faces."""
+def draw_figure(column: bpy.types.UILayout, figure: Figure) -> None:
+    """A figure with its verdict; where it is not good, in red, and what to do about it."""
+    split = column.split(factor=0.6)
+    split.alert = not figure.is_good
+    split.label(text=figure.name, icon="CHECKMARK" if figure.is_good else "ERROR")
+    split.label(text=figure.value)
+    draw_message(column, figure.advice)
+
+
+def draw_warning(column: bpy.types.UILayout, number: int, warning: KoebeWarningReport) -> None:
+    """What to watch out for, and the button that selects it."""
+    draw_message(column, warning.text)
+    if warning.of:
+        button = column.operator(UV_OT_koebe_select_warning.bl_idname, text="Select", icon="RESTRICT_SELECT_OFF")
+        button.warning = number
+
+
+def draw_selections(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
+    """Buttons that select cuts, flipped and torn faces, where there are any."""
+    if any(one.cuts or one.cut_edges for one in entries_of_object(bpy.context)):
+        column.operator(UV_OT_koebe_select_cuts.bl_idname, icon="RESTRICT_SELECT_OFF")
+    if entry.flipped:
+        column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
+    if json.loads(entry.torn_faces or "[]"):
+        column.operator(UV_OT_koebe_select_torn.bl_idname, icon="RESTRICT_SELECT_OFF")
+
+
+class DetailsPanel(ClosedPanel):
+    """The other figures of a map, its warnings as the solver says them, and its loops."""
+
+    bl_label = "Details"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        entry = active_entry(context)
+        return entry is not None and entry.mapped
+
+    def draw(self, context: bpy.types.Context) -> None:
+        entry = active_entry(context)
+        assert entry is not None  # as `poll` has seen
+        draw_details(self.layout.column(), entry)
+        draw_message(self.layout, entry.message, 0 if report_of(context).show_all else MOST_LINES)
+
+
+def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
+    """Figures of a mapped island, and buttons that select its loops."""
     table = column.column(align=True)
     sweeps = ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
     of_circles = [("Roundness", f"{entry.roundness:.1e}"), sweeps]
-    density = f"1 : {density_text(entry.density)}, on 90 %"
     of_parts = [
         ("Parts", f"{entry.parts}"),
         ("Cut length", f"{entry.cut_length:.1f} × √area"),
-        ("Density", density),
     ]
     of_tile = [
         ("Modulus", entry.modulus),
@@ -110,7 +158,6 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     ]
     torn = len(json.loads(entry.torn_faces or "[]"))
     of_sphere = [
-        ("Scale", density),
         ("Caps", f"{len(entry.loops)}"),
         ("Torn", f"{torn}"),
         sweeps,
@@ -119,12 +166,11 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         ("Handles", f"{entry.handles}"),
         ("Holes", f"{len(entry.loops)}"),
         ("Cut along", "circles" if entry.by_circles else "edges"),
-        ("Density", density),
         sweeps,
     ]
     of_domain = {"sphere": of_sphere, "schottky": of_handles}.get(entry.domain, of_tile)
     for name, value in (
-        ("Angle error", f"{entry.angle_error:.2f}°"),
+        *([("Even", f"{entry.even:.2f}")] if entry.even else []),
         *(of_parts if entry.parts else of_domain if entry.domain else of_circles),
         ("Flipped", counted(len(json.loads(entry.flipped_faces or "[]")), "face")),
         ("Time", f"{entry.seconds:.2f} s"),
@@ -132,12 +178,6 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         split = table.split(factor=0.45)
         split.label(text=name)
         split.label(text=value)
-    if any(one.cuts or one.cut_edges for one in entries_of_object(bpy.context)):
-        column.operator(UV_OT_koebe_select_cuts.bl_idname, icon="RESTRICT_SELECT_OFF")
-    if entry.flipped:
-        column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")
-    if torn:
-        column.operator(UV_OT_koebe_select_torn.bl_idname, icon="RESTRICT_SELECT_OFF")
     if not entry.loops:
         return
     column.label(text="Select Loop")
@@ -150,13 +190,7 @@ def draw_result(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
 def draw_offer(column: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
     """Draw the buttons of operators that take a surface that does not fit this domain."""
     for offer in entry.offer.split():
-        if offer in DOMAINS:
-            draw_domain_button(column, settings_of(context), offer)
-        elif offer == "uniformize":
-            button = column.operator(UV_OT_koebe_uniformize.bl_idname, icon="MESH_CIRCLE")
-            copy_options(settings_of(context), button)
-        else:
-            draw_parts_button(column, settings_of(context), dial=False)
+        draw_map_button(column, settings_of(context), offer)
 
 
 def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: KoebeIslandReport) -> None:
@@ -164,6 +198,4 @@ def draw_unroll(layout: bpy.types.UILayout, context: bpy.types.Context, entry: K
     if entry.domain or entry.shape or len(entry.loops) != 2:
         return
     if entry.loops[1].uv_radius > 0.0 and entry.loops[1].radius < LONG_TUBE:
-        button = layout.operator(UV_OT_koebe_uniformize.bl_idname, text="Long Tube: Unroll It", icon="MESH_CYLINDER")
-        copy_options(settings_of(context), button)
-        button.tube = "unroll"
+        draw_unwrap(layout, settings_of(context), "DISK", "Long Tube: Unroll It", "MESH_CYLINDER").tube = "unroll"

@@ -9,17 +9,16 @@ from ..operators.carry_texture import UV_OT_koebe_carry_texture
 from ..operators.compare_shapes import UV_OT_koebe_compare_shapes
 from ..state.option_properties import settings_of
 from ..state.shape_report import KoebeShapes, shapes_of
-from .panel_parts import KoebePanel, draw_message
+from .panel_parts import ClosedPanel, draw_message
 
 MAX_NUMBERS = 24  # of a module, one hole per row: x, y and radius
 MAX_ENTRIES = 12  # objects that were compared, or got a texture
 
 
-class ShapesPanel(KoebePanel):
+class ShapesPanel(ClosedPanel):
     """The conformal module of the active object, and the other selected ones held against it."""
 
-    bl_label = "Shapes"
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_label = "Compare, Carry Texture"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout

@@ -172,7 +172,24 @@ def moving_in_edit_mode():
     scenes.select_faces(bpy.context.object, range(60))
 
 
+def disk_and_closed():
+    """A surface that is a disk, and a closed one: Automatic takes another shape for each."""
+    states.new_file()
+    objects = [states.plain(), scenes.add_cube()]
+    states.consistent(objects)
+    scenes.select(*objects)
+
+
+def disk_and_closed_in_edit_mode():
+    """The same in Edit Mode."""
+    disk_and_closed()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
 RUNS = {
+    "unwrap": (disk_and_closed, "uv.koebe_unwrap", {}),
+    "unwrap in Edit Mode": (disk_and_closed_in_edit_mode, "uv.koebe_unwrap", {}),
     "uniformize": (states.many, "uv.koebe_uniformize", {}),
     "uniformize what is worn": (states.worn, "uv.koebe_uniformize", {"checker_size": 5.0, "checker_even": False}),
     "uniformize in Edit Mode": (states.edited, "uv.koebe_uniformize", {}),
@@ -229,6 +246,7 @@ RUNS = {
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
     "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),
     "select what is wrong": (offending, "uv.koebe_select_offenders", {}),
+    "select what a warning speaks of": (flipped, "uv.koebe_select_warning", {}),
     "select what is flipped": (flipped, "uv.koebe_select_flipped", {}),
 }
 

@@ -74,6 +74,7 @@ def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
 @pytest.mark.alike
 @pytest.mark.parametrize("domain, options", [
     ("torus", {}), ("torus", {"fit": "square"}), ("ring", {"holes": "radial", "fit": "period"}),
+    ("ring", {"even": 0.3, "loops": "free"}),
 ], ids=str)  # fmt: skip
 def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
     obj = (tori.add_torus if domain == "torus" else tori.add_tube)(holes=tori.block(3, 4))
@@ -128,6 +129,21 @@ def test_handles_are_those_of_the_operator(batch, tmp_path, normalization):
     assert entry["domain"] == "schottky" and entry["options"]["normalization"] == normalization
     assert entry["converged"] is True and entry["flipped"] == 0
     assert (len(entry["handles"]), len(entry["loops"])) == (2, 1)
+
+
+@pytest.mark.alike
+def test_even_parts_are_those_of_the_operator(batch, tmp_path):
+    obj = scenes.add_cube("Cube")
+    done = batch("--output", "out.blend", "--report", "out.json", "--parts", "--even", "0", "--loops", "free")
+    assert done.returncode == 0, done.stderr
+    scenes.select(obj)
+    bpy.ops.uv.koebe_parts(keep_angles=False, even=0.0, loops="free")
+    expected = scenes.corner_uv(obj.data, "Koebe").copy()
+    bpy.ops.uv.koebe_parts()
+    assert not np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Cube"].data, "Koebe"), expected)
+    assert json.loads((tmp_path / "out.json").read_text())["objects"][0]["even"] == 0.0
 
 
 @pytest.mark.alike

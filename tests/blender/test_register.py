@@ -11,7 +11,8 @@ import pytest
 def registered():
     """What the add-on shows to Blender."""
     return (
-        hasattr(bpy.types, "UV_OT_koebe_uniformize"),
+        hasattr(bpy.types, "UV_OT_koebe_unwrap"),
+        hasattr(bpy.types, "KOEBE_MT_unwrap"),
         hasattr(bpy.types, "VIEW3D_PT_koebe"),
         hasattr(bpy.types, "IMAGE_PT_koebe"),
         hasattr(bpy.types.Scene, "koebe_uv"),
@@ -21,16 +22,16 @@ def registered():
 
 
 def test_it_is_enabled_with_panels_and_menu_entries():
-    assert registered() == (True, True, True, True, 1, 1)
+    assert registered() == (True, True, True, True, True, 1, 1)
 
 
 def test_disabling_leaves_nothing_behind(addon_name):
     addon_utils.disable(addon_name)
     try:
-        assert registered() == (False, False, False, False, 0, 0)
+        assert registered() == (False, False, False, False, False, 0, 0)
     finally:
         addon_utils.enable(addon_name)
-    assert registered() == (True, True, True, True, 1, 1)
+    assert registered() == (True, True, True, True, True, 1, 1)
 
 
 @pytest.mark.skipif(not bpy.app.binary_path, reason="the module bpy enables no add-ons by itself")
@@ -60,8 +61,8 @@ def test_panels_are_where_artists_look():
 
 
 def test_everything_an_artist_meets_has_a_tooltip_that_teaches():
-    types = [bpy.ops.uv.koebe_uniformize.get_rna_type(), bpy.ops.uv.koebe_checker.get_rna_type(),
-             bpy.ops.uv.koebe_select_loop.get_rna_type(),
+    types = [bpy.ops.uv.koebe_unwrap.get_rna_type(), bpy.ops.uv.koebe_uniformize.get_rna_type(),
+             bpy.ops.uv.koebe_checker.get_rna_type(), bpy.ops.uv.koebe_select_loop.get_rna_type(),
              bpy.types.Scene.bl_rna.properties["koebe_uv"].fixed_type]  # fmt: skip
     for owner in types:
         for prop in owner.properties:

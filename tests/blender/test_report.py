@@ -11,6 +11,7 @@ import fingerprint
 import handles
 import numpy as np
 import pytest
+import runs
 import scenes
 import tori
 from test_bad_meshes import FAN, selected
@@ -124,7 +125,7 @@ def other_than_the_default(prop):
         return next(item.identifier for item in prop.enum_items if item.identifier != prop.default)
     if prop.type in {"BOOLEAN", "STRING"}:
         return not prop.default if prop.type == "BOOLEAN" else f"{prop.default}2"
-    return 2 * prop.default if prop.type == "INT" else prop.default / 2
+    return 2 * prop.default if prop.type == "INT" else prop.default / 2 or prop.hard_max / 2
 
 
 def chosen_options():
@@ -187,6 +188,31 @@ def test_a_preset_that_cannot_be_written_leaves_the_older_one(monkeypatch):
         bpy.ops.uv.koebe_preset_add(name="Koebe test", remove_name=True, remove_active=True)
 
 
+@pytest.mark.alike
+def test_a_warning_is_one_sentence_and_selects_what_it_speaks_of():
+    runs.flipped()
+    (entry,) = islands()
+    lost, warning = entry.warnings
+    assert "% of its area is lost" in lost.text and lost.of == "faces"
+    assert "below the resolution" in entry.message and "Shape: Parts" in warning.text
+    faces = json.loads(warning.elements)
+    assert warning.of == "faces" and f": {len(faces)} faces. " in warning.text
+    assert bpy.ops.uv.koebe_select_warning(warning=1) == {"FINISHED"}
+    assert sorted(selected(bpy.data.objects["Long"])[2]) == faces
+    with pytest.raises(RuntimeError, match="no warning 2"):
+        bpy.ops.uv.koebe_select_warning(warning=2)
+
+
+@pytest.mark.alike
+@pytest.mark.parametrize("shape", ["DISK", "PARTS"])
+def test_the_coverage_is_the_share_of_the_square_that_the_uvs_take(shape):
+    obj = scenes.add_panel()
+    bpy.ops.uv.koebe_unwrap(shape=shape)
+    (entry,) = islands()
+    assert entry.coverage == pytest.approx(scenes.signed_areas(obj.data, "Koebe").sum(), rel=1e-5)
+    assert 1.0 < entry.density < 4.0
+
+
 def test_the_shortcut_is_off_until_asked_for(addon_name):
     preferences = bpy.context.preferences.addons[addon_name].preferences
     assert preferences.shortcut is False
@@ -215,7 +241,10 @@ def test_warnings_count_and_name_the_faces_of_the_mesh(run, capfd):
     scenes.select(scenes.add_object("Turned", vertices, faces))
     assert getattr(bpy.ops.uv, f"koebe_{run}")() == {"FINISHED"}
     said = "3 faces turned to the orientation of the others; the first face is 40"
-    assert said in islands()[0].message and said in capfd.readouterr().out
+    assert said in islands()[0].message
+    (warning,) = islands()[0].warnings
+    assert "3 faces" in warning.text and warning.text in capfd.readouterr().out
+    assert (warning.of, json.loads(warning.elements)) == ("faces", [40, 41, 42])
 
 
 def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
@@ -284,7 +313,7 @@ def test_parts_that_lose_too_much_are_not_done(koebe, monkeypatch):
 
     monkeypatch.setattr(koebe, "parts", losing)
     before = fingerprint.fingerprint()
-    with pytest.raises(RuntimeError, match="50 % of its area is lost.*Koebe Uniformize serves here"):
+    with pytest.raises(RuntimeError, match="50 % of its area is lost.*Unwrap to Disk serves here"):
         bpy.ops.uv.koebe_parts()
     assert fingerprint.differences(before, fingerprint.fingerprint()) == ["file: report"]
     assert islands()[0].offer == "uniformize" and not islands()[0].mapped

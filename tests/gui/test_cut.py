@@ -17,7 +17,8 @@ def test_a_closed_model_is_mapped_by_the_button_and_its_cuts_are_shown(window):
     window.open_tab("VIEW_3D")
     window.move(*window.middle("VIEW_3D"))
     window.key("KP_1", "KP_Decimal")
-    window.click(*window.find_button("VIEW_3D", "koebe_uniformize"))
+    window.choose(shape="DISK")
+    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1", 30.0)
     assert window.ask(f"{ENTRY}.mapped") and window.ask(f"{ENTRY}.flipped") == 0
     assert "cut through 1 handle" in window.ask(f"{ENTRY}.note")

@@ -1,4 +1,4 @@
-"""Unwrap to Parts, by its button, on a closed model: the checker on it and the parts in the UV Editor."""
+"""Parts, which Automatic takes, by the button on a closed model: the checker on it and the parts in the UV Editor."""
 
 MODEL = """
 for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
@@ -17,7 +17,7 @@ def test_the_button_cuts_a_model_into_parts(window):
     window.open_tab("VIEW_3D")
     window.move(*window.middle("VIEW_3D"))
     window.key("KP_1", "KP_Decimal")
-    window.click(*window.find_button("VIEW_3D", "koebe_parts"))
+    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "
                 "and bpy.context.window_manager.koebe_uv.islands[0].parts > 1", 30.0)  # fmt: skip
     window.show_textures()
@@ -34,7 +34,7 @@ def test_a_sample_in_parts_and_one_step_back(window, open_sample):
     if window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT":
         window.key("Tab")  # the outlines are shown in Object Mode
     window.key("KP_1", "KP_Decimal")
-    window.click(*window.find_button("VIEW_3D", "koebe_parts"))
+    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.picture("61_hand_at_work")
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "
                 "and bpy.context.window_manager.koebe_uv.islands[0].parts > 5", 240.0)  # fmt: skip

@@ -14,8 +14,8 @@ FOLDER = PICTURES / "samples"  # of each Blender its own: an older one cannot re
 # The operator's own account: what came in, what it answered, when.
 WATCH = """
 import sys, time
-name = next(n for n in sys.modules if n.endswith('koebe_uv.operators.uniformize'))
-operator = sys.modules[name].UV_OT_koebe_uniformize
+name = next(n for n in sys.modules if n.endswith('koebe_uv.operators.unwrap'))
+operator = sys.modules[name].UV_OT_koebe_unwrap
 if not hasattr(heart, 'answers'):
     inner = operator.modal
     def modal(self, context, event):
@@ -75,7 +75,7 @@ def start(window):
 
 def test_escape_and_no_stall(window, dense):
     window.run(WATCH)
-    window.button = window.find_button("VIEW_3D", "koebe_uniformize")
+    window.button = window.find_button("VIEW_3D", "koebe_unwrap")
     window.run(DRAW)  # a file just opened takes a third of a second for each of its first pictures
     waits = []
     window.run("bpy.context.scene.koebe_uv.polish = True")  # without it the map is done before Esc is pressed

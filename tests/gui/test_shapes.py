@@ -20,7 +20,7 @@ def test_two_faces_compared_and_one_texture_for_both(window, open_sample):
     window.move(*window.middle("VIEW_3D"))
     window.key("KP_Decimal")
     window.open_part("shapes")
-    window.click(*window.find_button("VIEW_3D", "koebe_uniformize"))
+    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.wait("not heart.computing and len(bpy.context.window_manager.koebe_uv.islands) > 0")
     window.scroll_down()
     window.click(*window.find_button("VIEW_3D", "koebe_compare_shapes"))

@@ -28,7 +28,7 @@ def test_a_body_by_its_button_in_both_layouts(window):
         window.run("bpy.context.window_manager.koebe_uv.islands.clear()")
         window.move(*window.middle("VIEW_3D"))
         window.settle()
-        window.click(*window.find_button("VIEW_3D", "koebe_sphere"))
+        window.click(*window.find_button("VIEW_3D", "shape='SPHERE'"))
         window.wait(DONE, 30.0)
         window.show_textures()
         window.picture_of_uvs(f"8{number + 1}_{layout}")

@@ -24,7 +24,7 @@ def test_a_torus_by_its_button(window):
     window.prepare(MODEL)
     window.open_part("domains")
     window.picture("70_other_domains")
-    window.click(*window.find_button("VIEW_3D", "koebe_torus"))
+    window.click(*window.find_button("VIEW_3D", "shape='TORUS'"))
     window.wait(DONE, 30.0)
     window.show_textures()
     window.picture_of_uvs("71_torus")

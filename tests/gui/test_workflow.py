@@ -6,13 +6,14 @@ UVS = "[layer.name for layer in bpy.context.view_layer.objects.active.data.uv_la
 ISLANDS = "[(i.object_name, i.mapped, len(i.loops)) for i in bpy.context.window_manager.koebe_uv.islands]"
 DONE = "not heart.computing and len(bpy.context.window_manager.koebe_uv.islands) > 0"
 LAST = "bpy.context.window_manager.operators[-1]"
-FIRST_CIRCLE = "list(bpy.context.window_manager.koebe_uv.islands[0].loops[1].uv_center)"
+WORN = "len(bpy.context.view_layer.objects.active.material_slots)"
 
 
-def run_from_panel(window, area="VIEW_3D"):
+def run_from_panel(window, area="VIEW_3D", shape="DISK"):
     """Click the button of the panel and wait for the end."""
     window.run("bpy.context.window_manager.koebe_uv.islands.clear()")
-    window.click(*window.find_button(area, "koebe_uniformize"))
+    window.choose(shape=shape)
+    window.click(*window.find_button(area, "koebe_unwrap"))
     window.wait(DONE)
 
 
@@ -37,12 +38,12 @@ def test_the_redo_panel_runs_again_with_other_options(window, open_sample):
     x, top, _, height = window.region("VIEW_3D", "WINDOW")
     window.click(x + 130, top + height - 15)  # its folded title
     window.picture("04_redo_panel")
-    before = window.ask(FIRST_CIRCLE)
-    window.click(x + 196, top + height - 298)  # Upright
+    before = window.ask(WORN)
+    window.click(x + 196, top + height - 43)  # Checker
     time.sleep(1.0)
     window.picture("05_redone")
-    assert window.ask(LAST + ".upright") is False
-    assert window.ask(FIRST_CIRCLE) != before
+    assert window.ask(LAST + ".checker") is False
+    assert (before, window.ask(WORN)) == (1, 0)
 
 
 def test_checker_and_distortion(window, open_sample):
@@ -74,30 +75,32 @@ def test_u_menu_in_edit_mode_and_the_uv_editor(window, open_sample):
     window.key("KP_1", "KP_Decimal", "a", "u")
     window.picture("09_u_menu")
     window.key("k")  # the letter that the menu underlines
+    window.picture("09_koebe_menu")
+    window.key("d")  # Disk
     window.wait(DONE)
     window.open_tab("IMAGE_EDITOR")
     window.move(*window.middle("IMAGE_EDITOR"))
     window.key("Home")
     window.picture("10_uv_editor")
     assert window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT"
-    window.scroll_down("IMAGE_EDITOR")
-    window.click(*window.find_button("IMAGE_EDITOR", "koebe_select_loop(loop=1"))
+    window.press("uv.koebe_select_loop", loop=1)
     window.picture("11_loop_selected")
-    assert window.ask(LAST + ".bl_idname") == "UV_OT_koebe_select_loop"
-    window.click(*window.find_button("IMAGE_EDITOR", "koebe_fill_holes(which='selected'", fraction=0.75))
+    data = "bpy.context.view_layer.objects.active.data"
+    assert window.ask(f"{data}.total_edge_sel == {data}.total_vert_sel > 10")
+    window.press("mesh.koebe_fill_holes", which="selected")
     window.picture("12_filled")
-    assert window.ask(LAST + ".bl_idname") == "MESH_OT_koebe_fill_holes"
+    assert window.ask(f"{data}.total_face_sel") > 10
 
 
 def test_what_cannot_be_mapped_is_said_and_selected(window, open_sample):
     open_sample("bowl")
-    window.choose(cut=False)
+    window.choose(cut=False, shape="DISK")
     window.move(*window.middle("VIEW_3D"))
     window.key("Tab", "a")
     window.run("import bmesh\nmesh = bpy.context.view_layer.objects.active.data\nb = bmesh.from_edit_mesh(mesh)\n"
                "b.edges.ensure_lookup_table(); e = b.edges[500]; v = b.verts.new((0, 0, 2))\n"
                "b.faces.new([*e.verts, v]).select_set(True); bmesh.update_edit_mesh(mesh)")  # fmt: skip
-    window.click(*window.find_button("VIEW_3D", "koebe_uniformize"))
+    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.wait(DONE)
     window.picture("13_refused")
     assert window.ask(ISLANDS) == [["bowl", False, 0]]

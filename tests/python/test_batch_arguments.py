@@ -3,6 +3,7 @@
 import importlib
 import importlib.util
 import random
+import re
 import sys
 from pathlib import Path
 
@@ -140,13 +141,37 @@ def test_help_tells_the_exit_codes(batch, capsys):
     assert all(word in text for word in ("130 interrupted", "4 not converged", "blender -b IN.blend", "--objects"))
 
 
+def test_parts_keep_their_angles_unless_even_is_given(batch):
+    parse, choice = batch("headless.arguments").parse, batch("maps.options").PartsChoice
+    assert parse([*OUT, "--parts"]).parts == choice() and choice().solver_arguments()["even"] is None
+    given = parse([*OUT, "--parts", "--even", "0", "--loops", "free"])
+    assert given.parts == choice(keep_angles=False, even=0.0, loops="free")
+    assert given.parts.solver_arguments()["even"] == 0.0
+    assert given.library.each == ["--parts", "--even=0.0", "--loops=free"]
+    assert parse([*OUT, "--even", "0.5"]).options == batch("maps.options").Options(even=0.5)
+
+
+@pytest.mark.parametrize("words, reason", [
+    (["--even", "0.5", "--symmetry", "auto"], "--even: it excludes symmetry.*take --even 0"),
+    (["--even", "0.5", "--center", "3"], "--even: it excludes a centre.*take --even 0"),
+    (["--domain", "ring", "--even", "0.5", "--holes", "radial"], "--even: it excludes slits.*take --holes circles"),
+    (["--domain", "sphere", "--even", "0.5"], "--even is not of --domain sphere"),
+    (["--even", "1.5"], "--even: 1.5 is not a number"),
+], ids=str)  # fmt: skip
+def test_what_even_excludes(batch, words, reason):
+    with pytest.raises(batch("headless.exit_and_signals").Stop) as stop:
+        batch("headless.arguments").parse([*OUT, *words])
+    text = batch("headless.flags").in_flags(stop.value.reason)
+    assert stop.value.code == 2 and re.search(reason, text), text
+
+
 def test_the_options_of_a_tile(batch):
     parse = batch("headless.arguments").parse
     assert parse(OUT).domain is None
     words = ["--domain", "ring", "--holes", "radial", "--fit", "period", "--max-sweeps", "7", "--layer", "Own"]
     request = parse([*OUT, *words])
     domains = batch("maps.domains")
-    assert request.domain == domains.RING.choice("radial", "auto", "period", 1e-6, 7) and request.options.layer == "Own"
+    assert request.domain == domains.RING.choice(holes="radial", fit="period", max_sweeps=7) and request.options.layer == "Own"
     assert parse([*OUT, "--domain", "torus"]).domain == domains.TORUS.choice()
     assert request.library.each == ["--domain=ring", "--holes=radial", "--fit=period", "--max-sweeps=7", "--layer=Own"]
     sphere = domains.SPHERE.choice

@@ -201,7 +201,7 @@ def test_defaults_may_be_left_to_the_table():
     _, said = _options.filled("parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | {
         "cut": True, "loops": "free", "round_cuts": False, "most_lost": 0.5})  # fmt: skip
     assert said == {
-        "even": None, "loops": "free", "price": 0.0037, "cut": True, "round_cuts": False, "most_lost": 0.5
+        "even": None, "loops": "free", "darts": 0.2, "price": 0.0037, "cut": True, "round_cuts": False, "most_lost": 0.5
     }  # fmt: skip
     with pytest.raises(TypeError, match="most_lost"):
         koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)
@@ -221,7 +221,7 @@ def test_the_addon_hands_every_option_to_the_solver(addon):
     options = addon("maps.options")
     chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(),
               **{name: domain.choice() for name, domain in addon("maps.domains").DOMAINS.items()}}  # fmt: skip
-    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "even", "loops"}
+    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance"}
     engine = {row["name"] for row in TABLE if "with" in row}
     for of, choice in chosen.items():
         assert {*choice.solver_arguments()} == {*rows_in("python", of)} - by_island - engine, of

@@ -162,6 +162,7 @@ class MapReport(Saved):
     lost_area        share of the surface's area in faces without a positive area as stored
     flipped, below_resolution    counts of faces, as in the command's JSON
     flipped_faces    int32 array of the faces that `flipped` counts, ascending
+    even, overlaps   for maps with the option `even`: the E that was reached, and how often loops cross
     seconds          of each stage
     peak_memory_mb   of the process
     warnings         list of Warning: kind, elements, text. A warning of too much lost area comes first
@@ -181,6 +182,8 @@ class MapReport(Saved):
     flipped: int
     below_resolution: int
     flipped_faces: np.ndarray
+    even: float = 0.0
+    overlaps: int = 0
     seconds: Any
     peak_memory_mb: float
     warnings: list[Warning]

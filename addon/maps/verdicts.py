@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The figures by which an artist judges a map: each with whether it is good, and what to do where it is not."""
+
+import dataclasses
+from typing import Any
+
+from .wording import MOST_TOLD, density_text
+
+EVEN = 4.0  # texel density at 95 % of the area over that at 5 %: below, a checker looks even
+COVERED = 0.4  # of the UV square: below, most of an image is empty
+TRUE = 5.0  # degrees of mean angle error: above, a checker looks skewed
+
+
+@dataclasses.dataclass(frozen=True)
+class Figure:
+    """A figure of a map. @param advice what to do where it is not good, else empty"""
+
+    name: str
+    value: str
+    advice: str
+
+    @property
+    def is_good(self) -> bool:
+        """Whether there is nothing to do about it."""
+        return not self.advice
+
+
+def figures(entry: Any) -> list[Figure]:
+    """The figures of a mapped island, as the report has it (state/run_report.py)."""
+    found = [_evenness(entry)] if entry.density else []
+    found += [_coverage(entry)] if entry.coverage else []
+    return [*found, _angles(entry), _flips(entry)]
+
+
+def _evenness(entry: Any) -> Figure:
+    advice = ""
+    if entry.density > EVEN:
+        if entry.parts:
+            advice = "Texels are uneven: move the slider Parts to the right"
+        elif entry.domain in ("sphere", "schottky"):
+            advice = "Texels are uneven here by nature: to paint, take Shape: Parts"
+        else:
+            advice = "Texels are uneven: raise Even, or take Shape: Parts"
+    value = f"1 : {density_text(entry.density)}" if entry.density <= MOST_TOLD else f"over {MOST_TOLD:.0f}"
+    return Figure("Evenness", value, advice)
+
+
+def _coverage(entry: Any) -> Figure:
+    advice = "" if entry.coverage >= COVERED else "Much of the image stays empty: UV ▸ Pack Islands fills it better"
+    return Figure("Coverage", f"{100.0 * entry.coverage:.0f} %", advice)
+
+
+def _angles(entry: Any) -> Figure:
+    advice = ""
+    if entry.angle_error > TRUE:
+        advice = ("The checker is skewed: lower Even" if entry.even else
+                  "The checker is skewed: subdivide coarse faces, or take more parts")  # fmt: skip
+    return Figure("Angle error", f"{entry.angle_error:.2f}°", advice)
+
+
+def _flips(entry: Any) -> Figure:
+    advice = ""
+    if entry.flipped:
+        advice = ("Textures show mirrored there: repair these faces" if entry.parts else
+                  "Textures show mirrored there: take Shape: Parts")  # fmt: skip
+    return Figure("Flips", f"{entry.flipped}" if entry.flipped else "none", advice)

@@ -1,0 +1,116 @@
+"""The main button: each shape is that of its own operator, and Automatic takes the one that serves."""
+
+import re
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+from test_even import add_tube
+from test_tube import SAMPLES
+from tori import torus_arrays
+
+MODELS = {
+    "DISK": ("uniformize", scenes.add_panel),
+    "PARTS": ("parts", scenes.add_panel),
+    "RING": ("ring", add_tube),
+    "TORUS": ("torus", lambda: scenes.add_object("Torus", *torus_arrays(16, 12))),
+    "SPHERE": ("sphere", scenes.add_panel),
+    "HANDLES": ("schottky", lambda: scenes.add_object("Torus", *torus_arrays(16, 12))),
+}
+
+
+def report():
+    (entry,) = bpy.context.window_manager.koebe_uv.islands
+    return entry
+
+
+@pytest.mark.parametrize("shape", MODELS)
+def test_each_shape_is_that_of_its_own_operator(shape):
+    of, make = MODELS[shape]
+    obj = make()
+    scenes.select(obj)
+    assert getattr(bpy.ops.uv, f"koebe_{of}")(layer="Own") == {"FINISHED"}
+    assert bpy.ops.uv.koebe_unwrap(shape=shape) == {"FINISHED"}
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), scenes.corner_uv(obj.data, "Own"))
+    assert not report().note.startswith("Automatic")
+
+
+@pytest.mark.parametrize("options", [{"shape": "DISK", "outer": "longest", "margin": 0.1},
+                                     {"shape": "PARTS", "evenness": 1.0, "write_seams": True},
+                                     {"shape": "RING", "fit": "square", "holes": "radial"}], ids=str)  # fmt: skip
+def test_the_options_of_a_shape_reach_its_map(options):
+    of, make = MODELS[options["shape"]]
+    obj = make()
+    scenes.select(obj)
+    own = {name: value for name, value in options.items() if name != "shape"}
+    getattr(bpy.ops.uv, f"koebe_{of}")(layer="Own", **own)
+    bpy.ops.uv.koebe_unwrap(**options)
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), scenes.corner_uv(obj.data, "Own"))
+
+
+SAMPLE_SHAPES = [
+    ("face_five_holes", "Disk"), ("bowl", "Disk"), ("perforated_panel", "Disk"), ("closed_head", "Parts"),
+    ("character", "Parts"), ("mug", "Parts"), ("hand", "Parts"),
+]  # fmt: skip
+REASONS = {"closed_head": "the surface is closed", "character": "the surface is closed",
+           "mug": "the surface has a handle", "hand": "a disk has even texels on 2. % of the area alone"}  # fmt: skip
+
+
+@pytest.mark.parametrize("sample, shape", SAMPLE_SHAPES)
+def test_automatic_takes_the_shape_that_serves_and_says_why(sample, shape):
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{sample}.blend"))
+    obj = next(obj for obj in bpy.data.objects if obj.type == "MESH")
+    scenes.select(obj)
+    assert bpy.ops.uv.koebe_unwrap() == {"FINISHED"}
+    entry = report()
+    assert entry.mapped and entry.flipped == 0 and (entry.parts > 0) == (shape == "Parts")
+    assert entry.note.startswith(f"Automatic took {shape}: ")
+
+    assert re.search(REASONS.get(sample, "texels are even on 9.|100 % of the area"), entry.note)
+
+
+def test_automatic_chooses_for_each_object_and_for_what_is_selected():
+    panel, cube = scenes.add_panel(), scenes.add_cube()
+    scenes.select(panel, cube)
+    assert bpy.ops.uv.koebe_unwrap() == {"FINISHED"}
+    parts = {entry.object_name: entry.parts for entry in bpy.context.window_manager.koebe_uv.islands}
+    assert parts["Panel"] == 0 and parts["Cube"] > 0
+    scenes.select(cube)
+    scenes.select_faces(cube, [1])
+    assert bpy.ops.uv.koebe_unwrap() == {"FINISHED"}
+    assert report().parts == 0, "one face of a cube is a disk"
+
+
+def test_an_even_disk_serves_where_a_conformal_one_does_not():
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "vase.blend"))
+    scenes.select(next(obj for obj in bpy.data.objects if obj.type == "MESH"))
+    bpy.ops.uv.koebe_unwrap()
+    assert report().parts > 0
+    bpy.ops.uv.koebe_unwrap(keep_angles=False, even=0.5)
+    assert report().parts == 0 and report().even == 0.5
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_it_is_one_undo_step(mode):
+    import states
+
+    states.new_file()
+    scenes.select(scenes.add_panel())
+    bpy.ops.object.mode_set(mode=mode)
+    if mode == "EDIT":
+        bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.ed.undo_push(message="made")
+    bpy.ops.uv.koebe_unwrap()
+    bpy.ops.ed.undo_push(message="unwrapped")
+    assert len(bpy.data.objects["Panel"].data.uv_layers) == 1
+    bpy.ops.ed.undo()
+    assert len(bpy.data.objects["Panel"].data.uv_layers) == 0
+
+
+def test_the_redo_panel_has_eight_rows_at_most(addon):
+    unwrap = addon("operators.unwrap")
+    names = {prop.identifier for prop in bpy.ops.uv.koebe_unwrap.get_rna_type().properties}
+    assert {*unwrap.ROWS} == {*unwrap.MAPS, "AUTO"}
+    for shape, rows in unwrap.ROWS.items():
+        assert len(rows) < 8 and {*rows} < names, shape

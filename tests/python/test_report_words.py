@@ -1,0 +1,80 @@
+"""What Blender's report says of figures and warnings: without Blender."""
+
+import importlib
+import importlib.util
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import koebe
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+OF_THE_COMMAND = {  # kinds that no map in Blender has
+    "packing", "closing_gap", "flow_flips", "no_hole", "not_fitted", "replaced_uvs", "not_kept", "cut", "pieces",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def addon():
+    """A function that imports modules of the add-on that need no bpy."""
+    name, file = "addon_of_the_words", ROOT / "addon" / "__init__.py"
+    spec = importlib.util.spec_from_file_location(name, file, submodule_search_locations=[str(file.parent)])
+    sys.modules[name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sys.modules[name])
+    return lambda module: importlib.import_module(f"{name}.{module}")
+
+
+def test_every_kind_of_warning_has_words_and_the_elements_of_the_library(addon):
+    words = addon("maps.warning_words").WORDS
+    assert {*words} | OF_THE_COMMAND == {*koebe.WARNING_ELEMENTS} and not {*words} & OF_THE_COMMAND
+    for kind, (of, sentence) in words.items():
+        assert of == ({"none": ""}.get(koebe.WARNING_ELEMENTS[kind], koebe.WARNING_ELEMENTS[kind])), kind
+        assert not sentence.endswith(".") and ("{count}" not in sentence or of), kind
+
+
+def warning(kind, *elements, text="as the solver says it"):
+    return {"kind": kind, "elements": [*elements], "text": text}
+
+
+def test_warnings_of_a_kind_are_one_sentence_with_all_their_elements(addon):
+    said = addon("maps.warning_words").in_words(
+        [warning("flaps", 7, 3), warning("lost_circles", 1), warning("flaps", 3, 5), warning("other"),
+         warning("not_even")])  # fmt: skip
+    assert [one.get("elements") for one in said] == [[3, 5, 7], None, None, None]
+    assert ": 3 faces. " in said[0]["text"] and said[0]["of"] == "faces"
+    assert ": 1 boundary. " in said[1]["text"] and "of" not in said[1]
+    assert said[2]["text"] == "as the solver says it"
+    assert ": the whole map. " in said[3]["text"]
+
+
+GOOD = {"density": 2.0, "coverage": 0.7, "angle_error": 1.0, "flipped": 0, "parts": 0, "domain": "", "even": 0.0}
+
+
+def test_a_good_map_asks_for_nothing(addon):
+    found = addon("maps.verdicts").figures(SimpleNamespace(**GOOD))
+    assert [(figure.name, figure.value) for figure in found] == [
+        ("Evenness", "1 : 2.0"), ("Coverage", "70 %"), ("Angle error", "1.00°"), ("Flips", "none")]  # fmt: skip
+    assert all(figure.is_good for figure in found)
+
+
+@pytest.mark.parametrize("bad, name, advice", [
+    ({"density": 50.0}, "Evenness", "raise Even, or take Shape: Parts"),
+    ({"density": 50.0, "parts": 3}, "Evenness", "slider Parts"),
+    ({"density": 50.0, "domain": "sphere"}, "Evenness", "by nature"),
+    ({"density": 5e6}, "Evenness", "Shape: Parts"),
+    ({"coverage": 0.1}, "Coverage", "Pack Islands"),
+    ({"angle_error": 9.0}, "Angle error", "subdivide"),
+    ({"angle_error": 9.0, "even": 0.5}, "Angle error", "lower Even"),
+    ({"flipped": 3}, "Flips", "take Shape: Parts"),
+    ({"flipped": 3, "parts": 3}, "Flips", "repair"),
+], ids=str)  # fmt: skip
+def test_what_is_bad_comes_with_what_to_do(addon, bad, name, advice):
+    found = addon("maps.verdicts").figures(SimpleNamespace(**{**GOOD, **bad}))
+    assert [figure.name for figure in found if not figure.is_good] == [name]
+    assert advice in next(figure.advice for figure in found if figure.name == name)
+
+
+def test_figures_that_a_map_has_not_are_left_out(addon):
+    found = addon("maps.verdicts").figures(SimpleNamespace(**{**GOOD, "density": 0.0, "coverage": 0.0}))
+    assert [figure.name for figure in found] == ["Angle error", "Flips"]
