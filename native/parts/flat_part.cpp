@@ -294,8 +294,8 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
     std::vector<double> off;
     for (const std::vector<Index>& rim : part.rims) {
         const PlanarPoints at = uv(rim, Eigen::all);
-        const Eigen::RowVector2d extent = at.colwise().maxCoeff() - at.colwise().minCoeff();
         if (part.kind == PartKind::tube) {
+            const Eigen::RowVector2d extent = at.colwise().maxCoeff() - at.colwise().minCoeff();
             off.push_back(std::numbers::pi * extent.minCoeff() / std::max(extent.maxCoeff(), 1e-300));
             continue;
         }

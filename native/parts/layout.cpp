@@ -66,10 +66,11 @@ OpenedSurface strict_surface(const Vertices& vertices, const Triangles& triangle
     return opened;
 }
 
-/// The part's loops, and its faces that are turned over: a fold may lie outside the loops.
+/// The part's loops, and its faces that are turned over: a fold may lie outside the loops. A tube's straight ends stay
+/// along the axes.
 Outline outline_of(const FlatPart& flat)
 {
-    Outline outline{flat.points, flat.surface.loops};
+    Outline outline{flat.points, flat.surface.loops, flat.kind == PartKind::tube};
     for (const auto& face : flat.surface.triangles.rowwise()) {
         const Eigen::RowVector2d a = flat.points.row(face[1]) - flat.points.row(face[0]);
         const Eigen::RowVector2d b = flat.points.row(face[2]) - flat.points.row(face[0]);

@@ -79,10 +79,10 @@ Eigen::RowVector2d extent(const PlanarPoints& points)
 }
 
 /// The turn that lays the smallest rectangle round the points along the axes, its long side upright.
-Complex upright_turn(const PlanarPoints& points)
+Complex upright_turn(const Outline& outline)
 {
-    const PlanarPoints corners = points(hull(points), Eigen::all);
-    const auto count = static_cast<std::size_t>(corners.rows());
+    const PlanarPoints corners = outline.points(hull(outline.points), Eigen::all);
+    const auto count = outline.along_axes ? 0 : static_cast<std::size_t>(corners.rows());
     Complex best = 1.0;
     Eigen::RowVector2d size = extent(corners);
     for (std::size_t i = 0; i < count; i += count / most_sides + 1) {
@@ -108,7 +108,7 @@ struct Island {
 
 Island upright(const Outline& outline)
 {
-    Island island{{}, &outline.loops, upright_turn(outline.points), {}};
+    Island island{{}, &outline.loops, upright_turn(outline), {}};
     island.points = turned(outline.points, island.turn);
     island.corner = island.points.colwise().minCoeff();
     island.points.rowwise() -= island.corner;

@@ -12,6 +12,7 @@ namespace koebe {
 struct Outline {
     PlanarPoints points;
     std::vector<VertexLoop> loops;  ///< an inner loop that runs against the outer one is a hole
+    bool along_axes = false;        ///< it lies along the axes already: quarter turns alone
 };
 
 /// Where points go: offset + scale·turn·z.
@@ -26,11 +27,11 @@ struct Packing {
     double margin = 0.0;  ///< as it was kept
 };
 
-/// Puts islands into the unit square, as large as it finds room for. None is mirrored; each lies with its smallest
-/// enclosing rectangle along the axes. Outlines are drawn on a grid of cells, with half the margin round them, and the
-/// largest are placed first, each in the lowest place where its cells are free; smaller ones go into hollows and holes.
-/// Several orders and rules are tried, more where islands are few. All decisions are on integers: the result is the
-/// same on every system.
+/// Puts islands into the unit square, as large as it finds room for. None is mirrored. Each lies with its smallest
+/// enclosing rectangle along the axes, or as it lay along them. Outlines are drawn on a grid of cells, with half the
+/// margin round them, and the largest are placed first, each in the lowest place where its cells are free; smaller ones
+/// go into hollows and holes. Several orders and rules are tried, more where islands are few. All decisions are on
+/// integers: the result is the same on every system.
 /// @param margin between two islands, and half of it to the border, in units of the square; of many islands less, such
 /// that they have room
 /// @throws SolverError points that are NaN or infinite
