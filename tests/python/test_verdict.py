@@ -88,9 +88,9 @@ def test_the_verdict_is_that_of_the_stored_uvs_and_too_much_loss_is_said_first(n
 def test_the_command_ends_with_4_and_writes_all_files(tmp_path):
     vertices, triangles = with_finger(*BALL, 60)
     (tmp_path / "ball.obj").write_text(obj_text(vertices, triangles))
-    # A second component a hundred millionth as large: parts have one texel density, so 32-bit UVs lose it.
+    # A second component 1e-11 as large: parts have one texel density, so 32-bit UVs lose it.
     (tmp_path / "two.obj").write_text(
-        obj_text(np.concatenate([BALL[0], 1e-8 * BALL[0] + 3]), np.concatenate([BALL[1], BALL[1] + len(BALL[0])]))
+        obj_text(np.concatenate([BALL[0], 1e-11 * BALL[0]]), np.concatenate([BALL[1], BALL[1] + len(BALL[0])]))
     )
     for call in (["sphere", tmp_path / "ball.obj"], ["parts", tmp_path / "two.obj", "--most-lost", "0"]):
         out, report = tmp_path / "out.obj", tmp_path / "out.json"
