@@ -17,7 +17,9 @@ using Rim = std::vector<Complex>;
 /// A polygon that is a star round the origin, some of them slivers, some with a hole.
 inline Outline random_island(std::mt19937_64& random)
 {
-    const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+    const auto uniform = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
     const auto count = static_cast<int>(3 + random() % 40);
     const bool has_hole = random() % 3 == 0;
     const double size = std::exp(uniform(-4.0, 0.0)), flat = random() % 4 == 0 ? uniform(1e-3, 0.1) : uniform(0.3, 1.0);

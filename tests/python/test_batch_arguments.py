@@ -171,7 +171,8 @@ def test_the_options_of_a_tile(batch):
     words = ["--domain", "ring", "--holes", "radial", "--fit", "period", "--max-sweeps", "7", "--layer", "Own"]
     request = parse([*OUT, *words])
     domains = batch("maps.domains")
-    assert request.domain == domains.RING.choice(holes="radial", fit="period", max_sweeps=7) and request.options.layer == "Own"
+    assert request.domain == domains.RING.choice(holes="radial", fit="period", max_sweeps=7)
+    assert request.options.layer == "Own"
     assert parse([*OUT, "--domain", "torus"]).domain == domains.TORUS.choice()
     assert request.library.each == ["--domain=ring", "--holes=radial", "--fit=period", "--max-sweeps=7", "--layer=Own"]
     sphere = domains.SPHERE.choice
