@@ -132,8 +132,9 @@ def cut_into_parts(
 
     Errors are stored in the outcome; `koebe.Cancelled` is raised.
     """
-    surface, price = task.surface, price_of(choice.evenness) if choice.seams == "add" else NO_CUTS
-    arguments = {"price": price, **choice.solver_arguments()}
+    surface, arguments = task.surface, {"price": price_of(choice.evenness), **choice.solver_arguments()}
+    if choice.seams == "only":
+        arguments |= {"price": NO_CUTS, "darts": 0.0}
     one = PartsIsland()
     slits = tube_slits(surface, cut_into_islands(surface))
     with failing_alone(koebe, [one]):
