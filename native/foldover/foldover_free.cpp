@@ -148,7 +148,7 @@ private:
             const Worth there = worth(trial);
             if (options_.strict && !(there.worst > 0.0)) continue;
             if (there.energy <= before + armijo * share * slope + (options_.least > 0.0 ? rounded * before : 0.0)) {
-                if (options_.refuses && options_.refuses(trial.points)) {
+                if (options_.refuses && options_.refuses(trial)) {
                     hindered_ = true;
                     continue;
                 }

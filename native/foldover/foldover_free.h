@@ -18,7 +18,7 @@ struct FoldoverOptions {
     double power = 1.0;                ///< s >= 1: see below
     double slack = 0.0;                ///< delta: see below
     /// Refuses points, as the last test of a step; empty: no test. A step to refused points is shortened.
-    std::function<bool(const PlanarPoints&)> refuses = {};
+    std::function<bool(const FoldoverPlaces&)> refuses = {};
 };
 
 struct FoldoverResult {

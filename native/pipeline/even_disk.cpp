@@ -96,7 +96,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     put_in_place(whole, relaxed);
     if (loops == LoopForm::round) remove_flips(whole, relaxed, context);
     MapFaults faults = find_faults(triangles, whole.loops, relaxed.uv, relaxed.circles);
-    faults.bad_circles.clear();  // the circle of a coarse loop may meet another, though the loops are apart
+    if (loops == LoopForm::free) faults.bad_circles.clear();  // these are no circles of the map
     if (faults.any() || !turned_loops(whole.loops, relaxed.uv, shortest_drawn).empty()) return false;
     map = std::move(relaxed);
     return true;

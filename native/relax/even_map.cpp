@@ -56,6 +56,7 @@ public:
         std::iota(all.begin(), all.end(), 0);
         shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
         ride();
+        find_circles();
         if (!apart(flat.points)) shortest_ = shortest_drawn * extent;
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
         track_of_.assign(mobility_.size(), -1);
@@ -127,14 +128,15 @@ private:
     FoldoverResult minimize(FoldoverProblem& problem, int iterations) const
     {
         const Eigen::Index own = flat_.points.rows();
-        return minimize_foldover_free(
-            problem, context_,
-            {.max_iterations = iterations,
-             .area_weight = weight_,
-             .settled = settled,
-             .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
-             .strict = true,
-             .refuses = [&](const PlanarPoints& points) { return !apart(points.topRows(own)); }});
+        return minimize_foldover_free(problem, context_,
+                                      {.max_iterations = iterations,
+                                       .area_weight = weight_,
+                                       .settled = settled,
+                                       .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
+                                       .strict = true,
+                                       .refuses = [&](const FoldoverPlaces& places) {
+                                           return !apart(places.points.topRows(own)) || circles_meet(places.tracks);
+                                       }});
     }
 
     /// Puts vertices exactly onto their tracks, and frees those whose faces would turn over or lose half their area.
@@ -160,6 +162,34 @@ private:
             std::erase_if(loop.vertices, [&](Index v) { return freed[v]; });
             if (loop.vertices.size() <= any_circle) loop.vertices.clear();
         }
+    }
+
+    /// Of the circles that are ridden on, the pairs that are apart: two holes, or a hole inside the outer one.
+    void find_circles()
+    {
+        std::vector<Track> tracks;
+        for (const RoundLoop& loop : flat_.round) {
+            tracks.push_back(loop.track);
+            encloses_.push_back(enclosed_area(loop.vertices, flat_.points) > 0.0);
+        }
+        for (std::size_t a = 0; a < tracks.size(); ++a)
+            for (std::size_t b = a + 1; b < tracks.size(); ++b) {
+                if (flat_.round[a].vertices.empty() || flat_.round[b].vertices.empty()) continue;
+                if (!tracks[a].straight && !tracks[b].straight && are_apart(tracks, a, b))
+                    apart_circles_.emplace_back(a, b);
+            }
+    }
+    bool are_apart(const std::vector<Track>& tracks, std::size_t a, std::size_t b) const
+    {
+        if (encloses_[b]) std::swap(a, b);
+        const double radius = tracks[a].circle.radius,
+                     between = distance(tracks[a].circle.center, tracks[b].circle.center);
+        return encloses_[a] ? between + tracks[b].circle.radius < radius : between > radius + tracks[b].circle.radius;
+    }
+    bool circles_meet(const std::vector<Track>& tracks) const
+    {
+        return std::ranges::any_of(apart_circles_,
+                                   [&](const auto& pair) { return !are_apart(tracks, pair.first, pair.second); });
     }
 
     CornerPlaces corners(const PlanarPoints& points, const std::vector<Complex>& periods, Eigen::Index f) const
@@ -288,7 +318,9 @@ private:
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
     std::vector<int> track_of_;
-    const std::vector<Complex> none_;  // the periods of what has none
+    std::vector<char> encloses_;  // (round loops) 1 for a loop that runs round the surface, and not round a hole
+    std::vector<std::pair<std::size_t, std::size_t>> apart_circles_;  // of round loops; they stay apart
+    const std::vector<Complex> none_;                                 // the periods of what has none
 };
 
 }  // namespace

@@ -51,9 +51,9 @@ struct EvenMap {
 
 /// Minimizes E_t = sum A ((s1^2 + s2^2) / (s1 s2) - 2 + t (s1 s2 + 1 / (s1 s2) - 2)) over the faces, s1 and s2 the
 /// singular values of the face's map and A its area: angles by the first term (Hormann and Greiner 2000), areas by the
-/// second (Degener, Meseth and Klein 2003). No step turns a face over, and none lets a loop cross itself or another:
-/// where one would, the void around the map and in its holes is triangulated and takes part, each of its faces to keep
-/// its shape (Jiang, Schaefer and Panozzo 2017).
+/// second (Degener, Meseth and Klein 2003). No step turns a face over, lets circles of round loops meet, or lets a loop
+/// cross itself or another: where one would, the void around the map and in its holes is triangulated and takes part,
+/// each of its faces to keep its shape (Jiang, Schaefer and Panozzo 2017).
 ///
 /// A map that is not one to one to begin with is left as it is.
 /// @param extent of the square that the points are stored in as 32-bit floats, in their unit

@@ -15,6 +15,7 @@ from test_domains import HOLES, assert_tile
 from test_parts import TRIANGLES, VERTICES, areas
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+import promises  # noqa: E402
 import random_surfaces  # noqa: E402
 
 DIAL = (0.0, 0.1, 0.5, 1.0)
@@ -182,3 +183,11 @@ def test_the_command_has_the_dial(tmp_path):
         assert said["even"] == 0.4 and said["overlaps"] == 0 and said["options"]["loops"] == "free"
         assert command(name, source, target, "--even", "2").returncode == USAGE
         assert command(name, source, target, "--loops", "oval").returncode == USAGE
+
+
+@pytest.mark.parametrize(("kind", "seed", "even"), [("grid", 15, 0.05), ("ragged", 152, 0.7), ("uneven", 159, 0.1)])
+def test_circles_stay_apart_and_in_the_disk(kind, seed, even):
+    """Coarse loops lie on short arcs: the circles could meet although the loops do not."""
+    vertices, triangles = random_surfaces.make(kind, seed)[:2]
+    result = koebe.uniformize(vertices, triangles, even=even)
+    assert result.even == even and promises.broken(triangles, result) == []
