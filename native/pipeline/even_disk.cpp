@@ -74,8 +74,8 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     relaxed.uv *= scale;
     std::vector<RoundLoop> round;
     if (loops == LoopForm::round) round = round_loops(whole, map, scale);
-    if (!make_even({whole.vertices, triangles, whole.loops, relaxed.uv, round}, even, 2.0 * scale, context).moved)
-        return false;
+    const FlatSurface flat{whole.vertices, triangles, whole.loops, relaxed.uv, round, {}, nullptr, true};
+    if (!make_even(flat, even, 2.0 * scale, context).moved) return false;
     const bool rides = !round.empty() && !round.front().vertices.empty();
     const Circle outer = rides ? round.front().track.circle : circle_round(relaxed.uv);
     bring_home(outer, relaxed.uv);

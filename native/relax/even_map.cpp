@@ -56,7 +56,7 @@ public:
         std::iota(all.begin(), all.end(), 0);
         shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
         ride();
-        find_circles();
+        if (flat.circles_apart) find_circles();
         if (!apart(flat.points)) shortest_ = shortest_drawn * extent;
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
         track_of_.assign(mobility_.size(), -1);

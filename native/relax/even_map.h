@@ -36,6 +36,7 @@ struct FlatSurface {
     /// relaxed too. Its loops are holes, of which no edge is lifted.
     CornerLifts lift = {};
     std::vector<Complex>* periods = nullptr;
+    bool circles_apart = false;  ///< circles of round loops that are apart stay so, as those of a circle domain must
 };
 
 struct EvenEffort {
