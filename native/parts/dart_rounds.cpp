@@ -1,6 +1,7 @@
 #include "parts/dart_rounds.h"
 
 #include "execution/side_by_side.h"
+#include "mesh/connectivity.h"
 #include "parts/darts.h"
 #include "relax/even_forces.h"
 

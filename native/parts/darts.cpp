@@ -194,7 +194,8 @@ std::vector<Dart> promising_darts(const FlatPart& flat, double even, double pric
     const double gap = std::min(apart_by, apart_in_part * std::sqrt(std::max(part_area, 0.0)));
     std::vector<char> taken(static_cast<std::size_t>(flat.surface.vertex_count), 0);
     std::vector<Dart> darts;
-    for (auto& [gain, dart] : found) {
+    for (auto& promising : found) {
+        Dart& dart = promising.second;
         // A crack unloads what lies beside it, about as far as it is long.
         const auto is_near = [&](const Dart& other) {
             const auto between = flat.vertices.row(other.vertices.front()) - flat.vertices.row(dart.vertices.front());
