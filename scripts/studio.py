@@ -160,6 +160,7 @@ def add_studio(scene, size, samples):
     render.resolution_percentage = 100
     render.image_settings.file_format = "PNG"
     render.image_settings.color_mode = "RGB"
+    render.use_stamp_filename = False  # a picture names no folder of this machine
     scene.view_settings.view_transform = "Standard"
     scene.cycles.device = "CPU"
     scene.cycles.samples = samples
