@@ -1,5 +1,6 @@
 #include "pipeline/even_disk.h"
 
+#include "circles/crowded_circles.h"
 #include "core/errors.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
@@ -29,6 +30,19 @@ std::vector<RoundLoop> round_loops(const MapInput& whole, const CircleMap& map, 
         loop.track.circle = {scale * map.circles[k].center, scale * map.circles[k].radius};
     }
     return round;
+}
+
+/// Whether the circles that loops ride on would be those of a circle domain, if the outer one is one of them.
+bool are_apart(const std::vector<RoundLoop>& round, const std::vector<Track>& tracks)
+{
+    if (round.empty() || round.front().vertices.empty()) return true;
+    const Circle& outer = tracks.front().circle;
+    std::vector<Circle> circles{Circle{}};
+    for (std::size_t k = 1; k < round.size(); ++k)
+        if (!round[k].vertices.empty())
+            circles.push_back(
+                {(tracks[k].circle.center - outer.center) / outer.radius, tracks[k].circle.radius / outer.radius});
+    return circles_apart(circles);
 }
 
 VectorXcd image_of(const VertexLoop& loop, const PlanarPoints& points)
@@ -74,7 +88,8 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     relaxed.uv *= scale;
     std::vector<RoundLoop> round;
     if (loops == LoopForm::round) round = round_loops(whole, map, scale);
-    const FlatSurface flat{whole.vertices, triangles, whole.loops, relaxed.uv, round, {}, nullptr, true};
+    FlatSurface flat{whole.vertices, triangles, whole.loops, relaxed.uv, round};
+    flat.refuses = [&round](const FoldoverPlaces& places) { return !are_apart(round, places.tracks); };
     if (!make_even(flat, even, 2.0 * scale, context).moved) return false;
     const bool rides = !round.empty() && !round.front().vertices.empty();
     const Circle outer = rides ? round.front().track.circle : circle_round(relaxed.uv);

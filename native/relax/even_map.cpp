@@ -56,7 +56,6 @@ public:
         std::iota(all.begin(), all.end(), 0);
         shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
         ride();
-        if (flat.circles_apart) find_circles();
         if (!apart(flat.points)) shortest_ = shortest_drawn * extent;
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
         track_of_.assign(mobility_.size(), -1);
@@ -135,7 +134,8 @@ private:
                                        .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
                                        .strict = true,
                                        .refuses = [&](const FoldoverPlaces& places) {
-                                           return !apart(places.points.topRows(own)) || circles_meet(places.tracks);
+                                           return !apart(places.points.topRows(own)) ||
+                                                  (flat_.refuses && flat_.refuses(places));
                                        }});
     }
 
@@ -162,34 +162,6 @@ private:
             std::erase_if(loop.vertices, [&](Index v) { return freed[v]; });
             if (loop.vertices.size() <= any_circle) loop.vertices.clear();
         }
-    }
-
-    /// Of the circles that are ridden on, the pairs that are apart: two holes, or a hole inside the outer one.
-    void find_circles()
-    {
-        std::vector<Track> tracks;
-        for (const RoundLoop& loop : flat_.round) {
-            tracks.push_back(loop.track);
-            encloses_.push_back(enclosed_area(loop.vertices, flat_.points) > 0.0);
-        }
-        for (std::size_t a = 0; a < tracks.size(); ++a)
-            for (std::size_t b = a + 1; b < tracks.size(); ++b) {
-                if (flat_.round[a].vertices.empty() || flat_.round[b].vertices.empty()) continue;
-                if (!tracks[a].straight && !tracks[b].straight && are_apart(tracks, a, b))
-                    apart_circles_.emplace_back(a, b);
-            }
-    }
-    bool are_apart(const std::vector<Track>& tracks, std::size_t a, std::size_t b) const
-    {
-        if (encloses_[b]) std::swap(a, b);
-        const double radius = tracks[a].circle.radius,
-                     between = distance(tracks[a].circle.center, tracks[b].circle.center);
-        return encloses_[a] ? between + tracks[b].circle.radius < radius : between > radius + tracks[b].circle.radius;
-    }
-    bool circles_meet(const std::vector<Track>& tracks) const
-    {
-        return std::ranges::any_of(apart_circles_,
-                                   [&](const auto& pair) { return !are_apart(tracks, pair.first, pair.second); });
     }
 
     CornerPlaces corners(const PlanarPoints& points, const std::vector<Complex>& periods, Eigen::Index f) const
@@ -318,9 +290,7 @@ private:
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
     std::vector<int> track_of_;
-    std::vector<char> encloses_;  // (round loops) 1 for a loop that runs round the surface, and not round a hole
-    std::vector<std::pair<std::size_t, std::size_t>> apart_circles_;  // of round loops; they stay apart
-    const std::vector<Complex> none_;                                 // the periods of what has none
+    const std::vector<Complex> none_;  // the periods of what has none
 };
 
 }  // namespace

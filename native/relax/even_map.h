@@ -5,6 +5,7 @@
 #include "execution/execution.h"
 #include "foldover/foldover_free.h"
 
+#include <functional>
 #include <vector>
 
 namespace koebe {
@@ -36,7 +37,8 @@ struct FlatSurface {
     /// relaxed too. Its loops are holes, of which no edge is lifted.
     CornerLifts lift = {};
     std::vector<Complex>* periods = nullptr;
-    bool circles_apart = false;  ///< circles of round loops that are apart stay so, as those of a circle domain must
+    /// Refuses steps that leave the domain, as where circles would meet; empty: no step.
+    std::function<bool(const FoldoverPlaces&)> refuses = {};
 };
 
 struct EvenEffort {

@@ -50,6 +50,17 @@ std::vector<RoundLoop> round_loops(const PeriodicSurface& domain, LoopForm loops
     return round;
 }
 
+/// Whether the circles of holes lie between the rims, and apart from each other and their copies.
+bool are_apart(std::size_t first_hole, const std::vector<Track>& tracks, const std::vector<Complex>& periods)
+{
+    std::vector<Circle> circles;
+    for (std::size_t k = first_hole; k < tracks.size(); ++k) circles.push_back(tracks[k].circle);
+    for (std::size_t rim = 0; rim < first_hole; ++rim)
+        for (const Circle& circle : circles)
+            if (!(std::abs(circle.center.imag() - tracks[rim].point.imag()) > circle.radius)) return false;
+    return apart_in_tile(circles, periods);
+}
+
 }  // namespace
 
 bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, FlatMap& map, ExecutionContext& context)
@@ -67,10 +78,14 @@ bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, 
     const std::vector<VertexLoop> holes(domain.loops.begin() + static_cast<std::ptrdiff_t>(domain.first_hole),
                                         domain.loops.end());
     const double extent = points.maxCoeff() - points.minCoeff();
-    if (!make_even({domain.vertices, domain.surface.triangles, holes, points, round, lifts, &periods}, even, extent,
-                   context)
-             .moved)
-        return false;
+    FlatSurface flat{domain.vertices, domain.surface.triangles, holes, points, round, lifts, &periods};
+    flat.refuses = [&](const FoldoverPlaces& places) {
+        return !are_apart(domain.first_hole, places.tracks, places.periods);
+    };
+    if (!make_even(flat, even, extent, context).moved) return false;
+    std::vector<Track> tracks;
+    for (const RoundLoop& loop : round) tracks.push_back(loop.track);
+    if (!are_apart(domain.first_hole, tracks, periods)) return false;
     map.z = (points.col(0) + Complex(0.0, 1.0) * points.col(1)) / scale;
     for (std::size_t j = 0; j < periods.size(); ++j) map.periods[j] = periods[j] / scale;
     const Complex lower = domain.first_hole > 0 ? Complex(0.0, round.front().track.point.imag() / scale) : 0.0;

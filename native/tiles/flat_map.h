@@ -20,6 +20,10 @@ struct FlatMap {
     bool apart = true;  ///< whether no circle meets another
 };
 
+/// Whether no circle meets another circle, or a copy moved by a lattice vector near 0.
+/// @param periods one or two
+bool apart_in_tile(const std::vector<Circle>& circles, const std::vector<Complex>& periods);
+
 /// The load of a form's jumps: with K u = load, du + form is harmonic. @param form on the metric's half-edges
 VectorXd jump_load(const PeriodicSurface& domain, const OneForm& form);
 

@@ -190,24 +190,6 @@ VectorXd relaxed(const VectorXd& old, const VectorXd& angles, const VectorXd& we
     return target;
 }
 
-/// Whether no circle meets another circle, or a copy moved by a lattice vector near 0.
-bool apart_on_torus(const std::vector<Circle>& circles, Complex tau)
-{
-    for (std::size_t i = 0; i < circles.size(); ++i)
-        for (std::size_t j = 0; j <= i; ++j) {
-            const Complex between = circles[i].center - circles[j].center;
-            const double q = std::round(between.imag() / tau.imag());
-            const double p = std::round((between - q * tau).real());
-            for (int a = -2; a <= 2; ++a)
-                for (int b = -2; b <= 2; ++b) {
-                    const Complex copy = p + a + (q + b) * tau;
-                    if (i == j && copy == 0.0) continue;
-                    if (!(std::abs(between - copy) > circles[i].radius + circles[j].radius)) return false;
-                }
-        }
-    return true;
-}
-
 /// The conformal map to C / (Z + tau Z), |Re tau| <= 1/2 and |tau| >= 1, holes on circles.
 ///
 /// A round disk of closed form fills every hole, given by one angle for each vertex of the loop, as in the condensed
@@ -269,7 +251,7 @@ FlatMap torus_circles(PeriodicSurface& domain, const IterationOptions& options, 
         state = circle_state(images);
     }
     map.circles = state.circles;
-    map.apart = apart_on_torus(map.circles, tau);
+    map.apart = apart_in_tile(map.circles, {1.0, tau});
     VectorXcd places = map.z;
     std::vector<char> moved(static_cast<std::size_t>(map.z.size()), 0);
     for (std::size_t k = 0; k < holes; ++k) {
