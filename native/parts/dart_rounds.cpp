@@ -34,7 +34,13 @@ struct EdgePlace {
 class DartRounds {
 public:
     DartRounds(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)
-        : parts_(parts), refused_(parts.size()), even_(even), price_(price), threads_(threads), context_(context)
+        : parts_(parts),
+          refused_(parts.size()),
+          energy_(parts.size()),
+          even_(even),
+          price_(price),
+          threads_(threads),
+          context_(context)
     {
         for (const HeldPart& part : parts) is_mirrored_ = is_mirrored_ || !part.flat.image.empty();
     }
@@ -45,10 +51,12 @@ public:
         trials_.assign(parts_.size(), {});
         for_each_part([&](std::size_t k, ExecutionContext&) {
             refused_[k].resize(static_cast<std::size_t>(parts_[k].flat.points.rows()), 0);
-            trials_[k].darts = promising_darts(parts_[k].flat, even_, price_, refused_[k]);
+            EvenForces forces = forces_of(parts_[k].flat);
+            trials_[k].darts = promising_darts(parts_[k].flat, forces, even_, price_, refused_[k]);
             double surplus = 0.0;
             for (const Dart& dart : trials_[k].darts) surplus += dart.gain - dart.cost;
-            if (surplus < least_surplus * energies(parts_[k].flat).sum()) trials_[k].darts.clear();
+            if (surplus < least_surplus * forces.energy.sum()) trials_[k].darts.clear();
+            energy_[k] = std::move(forces.energy);
         });
         if (is_mirrored_) pair_images();
         if (std::ranges::all_of(trials_, [](const Trial& trial) { return trial.darts.empty(); })) return false;
@@ -72,9 +80,9 @@ private:
         side_by_side(parts_.size(), threads_, context_, visit);
     }
 
-    VectorXd energies(const FlatPart& flat) const
+    EvenForces forces_of(const FlatPart& flat) const
     {
-        return even_forces(flat.vertices, flat.surface.triangles, flat.points, even_).energy;
+        return even_forces(flat.vertices, flat.surface.triangles, flat.points, even_);
     }
 
     void open(std::size_t k, ExecutionContext& context)
@@ -83,7 +91,6 @@ private:
         if (trial.darts.empty()) return;
         HeldPart part = parts_[k];
         const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, reach_of_darts);
-        const VectorXd before = energies(part.flat);
         if (!open_darts(part.flat, trial.darts)) return;
         FlatPart& flat = part.flat;
         if (!make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, part.round}, even_,
@@ -91,7 +98,7 @@ private:
                  .moved)
             return;
         if (!survives_storing(flat)) return;
-        const VectorXd released = before - energies(flat);
+        const VectorXd released = energy_[k] - forces_of(flat).energy;
         trial.gain.assign(trial.darts.size(), 0.0);
         for (std::size_t f = 0; f < nearest.size(); ++f)
             if (nearest[f] >= 0) trial.gain[nearest[f]] += released[static_cast<Eigen::Index>(f)];
@@ -161,9 +168,11 @@ private:
                                    EdgePlace{k, h});
         }
         std::vector<Trial> paired(trials_.size());
-        std::vector<std::vector<char>> taken(trials_.size());
-        for (std::size_t k = 0; k < trials_.size(); ++k)
-            taken[k].assign(static_cast<std::size_t>(parts_[k].flat.points.rows()), 0);
+        std::vector<std::vector<char>> taken, outside;
+        for (const HeldPart& part : parts_) {
+            taken.emplace_back(static_cast<std::size_t>(part.flat.points.rows()), 0);
+            outside.push_back(boundary_mask(part.flat.surface));
+        }
         const auto is_free = [&](std::size_t k, const Dart& dart) {
             return std::ranges::none_of(dart.vertices, [&](Index v) { return taken[k][v] != 0; });
         };
@@ -182,6 +191,7 @@ private:
                 const auto found = image_of(k, dart, places);
                 if (!found) continue;
                 const auto& [other, image] = *found;
+                if (!is_dart_of(parts_[other].flat, outside[other], image)) continue;
                 if (other == k && image.vertices == dart.vertices) {
                     const std::size_t i = add(k, dart);
                     paired[k].image.emplace_back(k, i);
@@ -223,14 +233,13 @@ private:
             image.vertices.push_back(along ? to : from);
             image.halfedges.push_back(h);
         }
-        if (!is_dart_of(parts_[other].flat, image)) return {};
         return std::make_pair(other, std::move(image));
     }
 
     /// From inside to a rim that is not held.
-    static bool is_dart_of(const FlatPart& flat, const Dart& dart)
+    /// @param outside (V) 1 on the boundary
+    static bool is_dart_of(const FlatPart& flat, const std::vector<char>& outside, const Dart& dart)
     {
-        const std::vector<char> outside = boundary_mask(flat.surface);
         for (std::size_t i = 0; i < dart.vertices.size(); ++i) {
             const Index v = dart.vertices[i];
             if (flat.held[v] || (outside[v] != 0) != (i + 1 == dart.vertices.size())) return false;
@@ -240,6 +249,7 @@ private:
 
     std::vector<HeldPart>& parts_;
     std::vector<std::vector<char>> refused_;
+    std::vector<VectorXd> energy_;  // (parts) of the faces, before this round
     std::vector<Trial> trials_;
     double even_, price_;
     int threads_;

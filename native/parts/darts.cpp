@@ -4,7 +4,6 @@
 #include "cut/edge_graph.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
-#include "relax/even_forces.h"
 #include "relax/even_map.h"
 
 #include <algorithm>
@@ -160,7 +159,8 @@ bool is_one_to_one(const FlatPart& flat)
 
 }  // namespace
 
-std::vector<Dart> promising_darts(const FlatPart& flat, double even, double price, const std::vector<char>& refused)
+std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces, double even, double price,
+                                  const std::vector<char>& refused)
 {
     const Triangles& triangles = flat.surface.triangles;
     const std::vector<char> outside = boundary_mask(flat.surface);
@@ -169,7 +169,6 @@ std::vector<Dart> promising_darts(const FlatPart& flat, double even, double pric
         if (outside[v] && !flat.held[v]) sources.push_back(v);
     if (sources.empty()) return {};
     const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
-    const EvenForces forces = even_forces(flat.vertices, triangles, flat.points, even);
     const Tension tension(flat, forces);
     const double t = area_weight(even), compliance = 2.0 * (1.0 + t) / (8.0 * t);
     std::vector<std::pair<double, Dart>> found;

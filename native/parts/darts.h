@@ -3,6 +3,7 @@
 
 #include "execution/execution.h"
 #include "parts/flat_part.h"
+#include "relax/even_forces.h"
 
 #include <vector>
 
@@ -22,10 +23,11 @@ struct Dart {
 /// (relax/even_map.h) against being stretched one way, 2 T^2 / Y by the formula for a crack that runs in from the edge
 /// of a plate.
 ///
-/// @param flat relaxed for this E
+/// @param flat relaxed for this E @param forces at its corners
 /// @param price of a dart as long as the root of the surface's area, in energy
 /// @param refused (V) 1 for vertices that are no tips
-std::vector<Dart> promising_darts(const FlatPart& flat, double even, double price, const std::vector<char>& refused);
+std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces, double even, double price,
+                                  const std::vector<char>& refused);
 
 /// Opens darts, no two of which share a vertex. Vertices keep their numbers, second sides get new ones, and both sides
 /// are drawn a little apart.

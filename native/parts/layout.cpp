@@ -7,7 +7,7 @@
 #include "mesh/connectivity.h"
 #include "parts/even_parts.h"
 #include "parts/flat_parts.h"
-#include "parts/packing.h"
+#include "parts/pack_parts.h"
 #include "splitting/closed_surface.h"
 #include "splitting/coarse_surface.h"
 #include "splitting/fine_labels.h"
@@ -32,9 +32,6 @@ constexpr double own_piece = 0.25;      // of the area: a piece of less pays les
 constexpr double small_piece = 0.01;    // and one of less than this pays in proportion to its area
 constexpr int rounds = 2;               // of splitting and merging
 constexpr double vain = 0.9;            // of the overflow: cuts that leave more of it are in vain
-constexpr double margin = 8.0 / 2048;   // between parts, in the unit square
-constexpr double rim_slack = 5e-5;      // by which a repair may move a rim there,
-constexpr int packing_rounds = 4;       // before the part is packed again
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
 
@@ -64,65 +61,6 @@ OpenedSurface strict_surface(const Vertices& vertices, const Triangles& triangle
     std::iota(piece.source_face.begin(), piece.source_face.end(), 0);
     opened.pieces.push_back(std::move(piece));
     return opened;
-}
-
-/// The part's loops, and its faces that are turned over: a fold may lie outside the loops. A tube's straight ends stay
-/// along the axes.
-Outline outline_of(const FlatPart& flat)
-{
-    Outline outline{flat.points, flat.surface.loops, flat.kind == PartKind::tube};
-    for (const auto& face : flat.surface.triangles.rowwise()) {
-        const Eigen::RowVector2d a = flat.points.row(face[1]) - flat.points.row(face[0]);
-        const Eigen::RowVector2d b = flat.points.row(face[2]) - flat.points.row(face[0]);
-        if (a[0] * b[1] < a[1] * b[0]) outline.loops.push_back({face[0], face[2], face[1]});
-    }
-    return outline;
-}
-
-/// How far a vertex of the boundary has moved, at most.
-double rim_moved(const FlatPart& flat, const PlanarPoints& from, const PlanarPoints& to)
-{
-    double most = 0.0;
-    for (const VertexLoop& loop : flat.surface.loops)
-        for (const Index v : loop) most = std::max(most, (to.row(v) - from.row(v)).norm());
-    return most;
-}
-
-/// Into the unit square, and flips turned back there. Parts whose outline changes by that are packed once more; the
-/// last time they stay as they were.
-/// @param flats whose kinds and points may change
-std::vector<PlanarPoints> packed(std::vector<FlatPart>& flats, int threads, ExecutionContext& context)
-{
-    std::vector<PlanarPoints> places(flats.size());
-    bool again = true;
-    for (int round = 1; again; ++round) {
-        std::vector<Outline> outlines;
-        for (const FlatPart& flat : flats) outlines.push_back(outline_of(flat));
-        const Packing packing = pack_islands(outlines, margin + 2.0 * rim_slack);
-        std::vector<char> outgrown(flats.size(), 0);
-        side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
-            const PlanarPoints before = place_island(flats[k].points, packing.places[k], packing.scale);
-            const PartKind kind = flats[k].kind;
-            places[k] = before;
-            repair_flips(flats[k], places[k], own);
-            embed_safely(flats[k], places[k], own);
-            if (!places[k].allFinite()) throw SolverError("the map of a part is not finite");
-            if (!(rim_moved(flats[k], before, places[k]) > rim_slack)) return;
-            if (round == packing_rounds) {
-                places[k] = before;
-                flats[k].kind = kind;
-            } else {
-                flats[k].points = places[k] / packing.scale;
-                outgrown[k] = 1;
-            }
-        });
-        again = std::ranges::count(outgrown, 1) > 0;
-    }
-    side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext&) {
-        places[k] = places[k].cwiseMax(0.0).cwiseMin(1.0);
-        if (!loops_apart(flats[k], places[k])) flats[k].one_to_one = false;
-    });
-    return places;
 }
 
 double overflow_of(const std::vector<PartPointer>& parts)
@@ -404,7 +342,7 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
         layout.dart_length += flat.dart_length;
     }
     context.begin_stage("pack", 0.9, 1.0);
-    const std::vector<PlanarPoints> placed = packed(flats, options.threads, context);
+    const std::vector<PlanarPoints> placed = pack_parts(flats, options.threads, context);
     for (std::size_t k = 0; k < flats.size(); ++k) {
         FlatPart& flat = flats[k];
         layout.overlaps += !flat.one_to_one;
