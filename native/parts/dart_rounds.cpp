@@ -91,8 +91,10 @@ private:
         if (trial.darts.empty()) return;
         HeldPart part = parts_[k];
         const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, reach_of_darts);
-        if (!open_darts(part.flat, trial.darts)) return;
+        const auto source = open_darts(part.flat, trial.darts);
+        if (!source) return;
         FlatPart& flat = part.flat;
+        hold_both_ends(part.round, *source, parts_[k].flat.points.rows());
         if (!make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, part.round}, even_,
                        packed_side, context, trial_effort)
                  .moved)
@@ -103,6 +105,19 @@ private:
         for (std::size_t f = 0; f < nearest.size(); ++f)
             if (nearest[f] >= 0) trial.gain[nearest[f]] += released[static_cast<Eigen::Index>(f)];
         trial.opened = std::move(part);
+    }
+
+    /// Both ends of a dart that begins at a round loop stay on the loop's circle or line.
+    /// @param source (V) the vertex that each vertex was before darts were opened @param count of vertices then
+    static void hold_both_ends(std::vector<RoundLoop>& round, const std::vector<Index>& source, Eigen::Index count)
+    {
+        std::map<Index, Index> second;
+        for (auto v = static_cast<Index>(count); v < static_cast<Index>(source.size()); ++v)
+            second.emplace(source[v], v);
+        for (RoundLoop& loop : round)
+            for (std::size_t i = 0, held = loop.vertices.size(); i < held; ++i)
+                if (const auto found = second.find(loop.vertices[i]); found != second.end())
+                    loop.vertices.push_back(found->second);
     }
 
     /// (parts, darts) 1 for those that pay, with their images.
@@ -191,7 +206,7 @@ private:
                 const auto found = image_of(k, dart, places);
                 if (!found) continue;
                 const auto& [other, image] = *found;
-                if (!is_dart_of(parts_[other].flat, outside[other], image)) continue;
+                if (!is_dart_of(outside[other], image)) continue;
                 if (other == k && image.vertices == dart.vertices) {
                     const std::size_t i = add(k, dart);
                     paired[k].image.emplace_back(k, i);
@@ -236,13 +251,12 @@ private:
         return std::make_pair(other, std::move(image));
     }
 
-    /// From inside to a rim that is not held.
+    /// From inside to a rim.
     /// @param outside (V) 1 on the boundary
-    static bool is_dart_of(const FlatPart& flat, const std::vector<char>& outside, const Dart& dart)
+    static bool is_dart_of(const std::vector<char>& outside, const Dart& dart)
     {
         for (std::size_t i = 0; i < dart.vertices.size(); ++i) {
-            const Index v = dart.vertices[i];
-            if (flat.held[v] || (outside[v] != 0) != (i + 1 == dart.vertices.size())) return false;
+            if ((outside[dart.vertices[i]] != 0) != (i + 1 == dart.vertices.size())) return false;
         }
         return true;
     }

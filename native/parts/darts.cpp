@@ -8,20 +8,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_darts = 16;  // at once
-constexpr double apart_by = 0.12;       // tips, in roots of the surface's area,
-constexpr double apart_in_part = 0.25;  // or of the part's, whichever is less
-constexpr double longest = 0.5;         // of a dart, in roots of the surface's area
-constexpr double price_of_one = 0.03;   // of a new dart, as a length
-constexpr double first_gap = 0.05;      // between the sides of a dart, over the least height of a face beside it
+constexpr std::size_t most_darts = 16;   // at once
+constexpr double apart_by = 0.12;        // tips, in roots of the surface's area,
+constexpr double apart_in_part = 0.25;   // or of the part's, whichever is less
+constexpr double longest = 0.5;          // of a dart, in roots of the surface's area
+constexpr double price_of_one = 0.03;    // of a new dart, as a length
+constexpr double share_if_round = 0.25;  // of the foretold gain, if the dart begins at a loop that stays round
+constexpr double clear_of_round = 0.04;  // other darts, from loops that stay round, in roots of the surface's area
+constexpr double first_gap = 0.05;       // between the sides of a dart, over the least height of a face beside it
 
 Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
@@ -41,8 +45,7 @@ SeamedMesh seamed(const FlatPart& flat)
         mesh.length.push_back((flat.vertices.row(a) - flat.vertices.row(b)).norm());
         const bool within =
             t != no_twin && !flat.polygon.empty() && flat.polygon[face_of(h)] == flat.polygon[face_of(t)];
-        const bool held = !flat.held.empty() && (flat.held[a] || flat.held[b]);
-        mesh.whole.push_back(t == no_twin || within || held);
+        mesh.whole.push_back(t == no_twin || within);
     }
     return mesh;
 }
@@ -164,25 +167,33 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
 {
     const Triangles& triangles = flat.surface.triangles;
     const std::vector<char> outside = boundary_mask(flat.surface);
-    std::vector<Index> sources;
-    for (Index v = 0; v < flat.surface.vertex_count; ++v)
-        if (outside[v] && !flat.held[v]) sources.push_back(v);
-    if (sources.empty()) return {};
-    const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
     const Tension tension(flat, forces);
     const double t = area_weight(even), compliance = 2.0 * (1.0 + t) / (8.0 * t);
     std::vector<std::pair<double, Dart>> found;
-    for (Index v = 0; v < flat.surface.vertex_count; ++v) {
-        if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
-            continue;
-        Dart dart = shortest_dart(triangles, tree, v);
-        const double pulled = tension.along(dart);
-        if (!(pulled > 0.0)) continue;
-        dart.gain = compliance * pulled * pulled;
-        const bool is_longer = std::ranges::count(flat.tips, dart.vertices.back()) > 0;
-        dart.cost = price * (dart.length + (is_longer ? 0.0 : price_of_one));
-        const double gain = dart.gain - dart.cost;
-        if (gain > 0.0) found.emplace_back(gain, std::move(dart));
+    VectorXd from_round = VectorXd::Constant(flat.surface.vertex_count, std::numeric_limits<double>::infinity());
+    for (const bool round : {true, false}) {
+        std::vector<Index> sources;
+        for (Index v = 0; v < flat.surface.vertex_count; ++v)
+            if (outside[v] && (flat.held[v] != 0) == round) sources.push_back(v);
+        if (sources.empty()) continue;
+        const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
+        if (round) from_round = Eigen::Map<const VectorXd>(tree.distance.data(), from_round.size());
+        for (Index v = 0; v < flat.surface.vertex_count; ++v) {
+            if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
+                continue;
+            Dart dart = shortest_dart(triangles, tree, v);
+            if (std::ranges::any_of(dart.vertices.begin(), std::prev(dart.vertices.end()), [&](Index w) {
+                    return outside[w] != 0 || (!round && from_round[w] < clear_of_round);
+                }))
+                continue;
+            const double pulled = tension.along(dart);
+            if (!(pulled > 0.0)) continue;
+            dart.gain = (round ? share_if_round : 1.0) * compliance * pulled * pulled;
+            const bool is_longer = std::ranges::count(flat.tips, dart.vertices.back()) > 0;
+            dart.cost = price * (dart.length + (is_longer ? 0.0 : price_of_one));
+            const double surplus = dart.gain - dart.cost;
+            if (surplus > 0.0) found.emplace_back(surplus, std::move(dart));
+        }
     }
     std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
     double part_area = 0.0;
@@ -210,7 +221,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
     return darts;
 }
 
-bool open_darts(FlatPart& flat, const std::vector<Dart>& darts)
+std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<Dart>& darts)
 {
     SeamedMesh mesh = seamed(flat);
     for (const Dart& dart : darts)
@@ -235,9 +246,9 @@ bool open_darts(FlatPart& flat, const std::vector<Dart>& darts)
     try {
         after.surface = require_bordered_genus_zero(opened, static_cast<Index>(source.size()));
     } catch (const TopologyError&) {
-        return false;
+        return {};
     }
-    if (after.surface.loops.size() != flat.surface.loops.size()) return false;
+    if (after.surface.loops.size() != flat.surface.loops.size()) return {};
     after.points = flat.points(source, Eigen::all);
     after.vertices = flat.vertices(source, Eigen::all);
     for (std::size_t i = kept.size(); i < source.size(); ++i) {
@@ -276,9 +287,9 @@ bool open_darts(FlatPart& flat, const std::vector<Dart>& darts)
             after.dart_length += dart.length;
         }
         flat = std::move(after);
-        return true;
+        return source;
     }
-    return false;
+    return {};
 }
 
 std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach)

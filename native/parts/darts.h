@@ -5,6 +5,7 @@
 #include "parts/flat_part.h"
 #include "relax/even_forces.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -31,8 +32,8 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
 
 /// Opens darts, no two of which share a vertex. Vertices keep their numbers, second sides get new ones, and both sides
 /// are drawn a little apart.
-/// @return false, nothing changed, where that cannot be
-bool open_darts(FlatPart& flat, const std::vector<Dart>& darts);
+/// @return (V) the vertex that each vertex was; none, and nothing changed, if the darts cannot be opened
+std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<Dart>& darts);
 
 /// The dart that is nearest to each face on the surface; -1 where none is near. @param reach (darts) how far a dart
 /// counts

@@ -6,6 +6,7 @@
 #include "relax/even_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -15,9 +16,12 @@ namespace {
 
 constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: what lies farther off is free
 constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
-constexpr int search_steps = 12, most_steps = 60;        // Newton steps for one, and for one that was asked for
+constexpr EvenEffort search{.most_steps = 12};           // for one,
+constexpr EvenEffort look{4, 1, 8};                      // and for a first look:
+constexpr double clearly_worse = 1.02;                   // angles that are not tried on
 constexpr double step = 1.5;                             // from one to the next
-constexpr double even_with_darts = 0.1;                  // E, unless it is asked for
+constexpr double even_with_darts = 0.1;                  // E, unless it is asked for,
+constexpr std::array less_even_with_darts{0.06, 0.03};   // or else with the same darts
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -59,6 +63,8 @@ std::vector<RoundLoop> round_loops(const FlatPart& flat)
     return loops;
 }
 
+bool has_darts(const HeldPart& part) { return !part.flat.tips.empty(); }
+
 /// What a dart as long as the root of the surface's area costs, in energy.
 double dart_price(double darts) { return 1e-4 / darts; }
 
@@ -70,6 +76,9 @@ public:
         for (FlatPart& flat : flats) {
             std::vector<RoundLoop> round;
             if (options.loops == LoopForm::round) round = round_loops(flat);
+            flat.held.assign(flat.held.size(), 0);
+            for (const RoundLoop& loop : round)
+                for (const Index v : loop.vertices) flat.held[v] = 1;
             parts_.push_back({std::move(flat), std::move(round)});
         }
     }
@@ -81,13 +90,13 @@ public:
     PartRelaxation& operator=(const PartRelaxation&) = delete;
 
     /// @return the parts that could not be moved
-    std::vector<std::size_t> relax(double even, int most_steps)
+    std::vector<std::size_t> relax(double even, const EvenEffort& effort)
     {
         std::vector<char> moved(parts_.size(), 0);
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
             auto& [flat, round] = parts_[k];
             const FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round};
-            moved[k] = make_even(surface, even, packed_side, own, {.most_steps = most_steps}).moved;
+            moved[k] = make_even(surface, even, packed_side, own, effort).moved;
         });
         std::vector<std::size_t> left;
         for (std::size_t k = 0; k < moved.size(); ++k)
@@ -96,15 +105,14 @@ public:
     }
 
     /// @return the parts that could not be moved
-    std::vector<std::size_t> relax_with_darts(double even, int most_steps)
+    std::vector<std::size_t> relax_with_darts(double even, const EvenEffort& effort)
     {
-        std::vector<std::size_t> left = relax(even, most_steps);
+        std::vector<std::size_t> left = relax(even, effort);
         if (!(options_.darts > 0.0)) return left;
         const std::vector<HeldPart> uncut = parts_;
         cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
-        const auto has_darts = [](const HeldPart& part) { return !part.flat.tips.empty(); };
         if (std::ranges::none_of(parts_, has_darts)) return left;
-        relax(even, most_steps);
+        relax(even, effort);
         for (std::size_t k = 0; k < parts_.size(); ++k)
             if (has_darts(parts_[k]) && !survives_storing(parts_[k].flat)) parts_[k] = uncut[k];
         return left;
@@ -116,14 +124,20 @@ public:
         const double conformal = angles();
         const std::vector<HeldPart> before = parts_;
         if (options_.darts > 0.0) {
-            relax_with_darts(even_with_darts, search_steps);
+            relax_with_darts(even_with_darts, search);
             if (angles() <= conformal) return even_with_darts;
+            if (std::ranges::any_of(parts_, has_darts))
+                for (const double less : less_even_with_darts) {
+                    relax(less, search);
+                    if (angles() <= conformal) return less;
+                }
             parts_ = before;
         }
         double even = 0.0;
         for (double next = first_even; next >= least_even && next <= 1.0;) {
             const std::vector<HeldPart> last = parts_;
-            relax(next, search_steps);
+            relax(next, look);
+            if (angles() <= clearly_worse * conformal) relax(next, search);
             if (angles() <= conformal) {
                 even = next;
                 next *= step;
@@ -157,7 +171,7 @@ EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& optio
     PartRelaxation parts(flats, options, context);
     if (!options.even) return {parts.relax_freely(), {}};
     if (*options.even == 0.0) return {};
-    return {*options.even, parts.relax_with_darts(*options.even, most_steps)};
+    return {*options.even, parts.relax_with_darts(*options.even, {})};
 }
 
 }  // namespace koebe

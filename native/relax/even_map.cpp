@@ -39,6 +39,7 @@ constexpr double least_gap = 1e-4;      // between loops, over the extent
 constexpr double rounding = 1.5e-7;     // twice the area a face can lose by 32-bit floats, over its edge and the extent
 constexpr double roomy = 1000.0;        // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
+constexpr std::array grids{1 << 19, 1 << 20, 1 << 21, 1 << 22};  // points along the extent; 32-bit floats have 1 << 24
 
 double area(const CornerPlaces& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }
 
@@ -49,14 +50,17 @@ double longest_edge(const CornerPlaces& at)
 
 class EvenProblem {
 public:
-    EvenProblem(const FlatSurface& flat, double even, double extent, int most_steps, ExecutionContext& context)
-        : flat_(flat), weight_(area_weight(even)), extent_(extent), most_steps_(most_steps), context_(context)
+    EvenProblem(const FlatSurface& flat, double even, double extent, const EvenEffort& effort,
+                ExecutionContext& context)
+        : flat_(flat), weight_(area_weight(even)), extent_(extent), effort_(effort), context_(context)
     {
         std::vector<Index> all(static_cast<std::size_t>(flat.triangles.rows()));
         std::iota(all.begin(), all.end(), 0);
         shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
         ride();
-        if (!apart(flat.points)) shortest_ = shortest_drawn * extent;
+        if (!apart(flat.points, 0.0)) shortest_ = shortest_drawn * extent;
+        for (const int grid : grids)
+            if (grid_ == 0 && apart_on_grid(flat.points, grid)) grid_ = grid;
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
         track_of_.assign(mobility_.size(), -1);
         for (std::size_t k = 0; k < flat.round.size(); ++k)
@@ -75,7 +79,7 @@ public:
         if (!points.allFinite()) return false;
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f)
             if (!(area(corners(points, periods, f)) > 0.0)) return false;
-        return apart(points);
+        return apart(points, shortest_);
     }
 
     /// By the surface alone, at first towards sizes that are not far from those it has (Liu, Ye, Ni and Fu 2018).
@@ -83,7 +87,7 @@ public:
     bool relax_alone(EvenMap& result)
     {
         double before = std::numeric_limits<double>::infinity(), energy_before = before;
-        for (double far = far_off(); far > few_far; far = far_off()) {
+        for (double far = far_off(); far > few_far && !is_spent(result); far = far_off()) {
             const double now = energy();
             if (!(far < nearer * before) && !(now < nearer * energy_before)) break;
             before = far;
@@ -91,10 +95,12 @@ public:
             if (relax_once(result, steps_an_approach)) return true;
         }
         for (double before = energy_before; true; before = energy()) {  // again while a face is still on its way
-            if (relax_once(result, most_steps_)) return true;
-            if (!(far_off() > 0.0) || !(energy() < much_less * before)) return false;
+            if (relax_once(result, effort_.most_steps)) return true;
+            if (is_spent(result) || !(far_off() > 0.0) || !(energy() < much_less * before)) return false;
         }
     }
+
+    bool is_spent(const EvenMap& result) const { return result.iterations >= effort_.most_in_all; }
 
     bool relax_once(EvenMap& result, int iterations)
     {
@@ -104,10 +110,10 @@ public:
         return done.hindered;
     }
 
-    void relax_with_void(EvenMap& result, int most_rounds)
+    void relax_with_void(EvenMap& result)
     {
         double before = energy();
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < effort_.most_rounds; ++round) {
             FoldoverProblem problem = surface_problem();
             try {
                 add_void(problem);
@@ -134,7 +140,9 @@ private:
                                        .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
                                        .strict = true,
                                        .refuses = [&](const FoldoverPlaces& places) {
-                                           return !apart(places.points.topRows(own)) ||
+                                           const PlanarPoints points = places.points.topRows(own);
+                                           return !apart(points, shortest_) ||
+                                                  (grid_ > 0 && !apart_on_grid(points, grid_)) ||
                                                   (flat_.refuses && flat_.refuses(places));
                                        }});
     }
@@ -172,14 +180,22 @@ private:
 
     const std::vector<Complex>& periods() const { return flat_.periods ? *flat_.periods : none_; }
 
-    bool apart(const PlanarPoints& points) const
+    /// Whether no loop crosses itself or another, and none is turned over.
+    bool apart(const PlanarPoints& points, double shortest) const
     {
         if (flat_.periods)
             return std::ranges::all_of(flat_.loops, [&](const VertexLoop& loop) {
-                return enclosed_area(loop, points) < 0.0 && crossing_boundary_edges({loop}, points, shortest_).empty();
+                return enclosed_area(loop, points) < 0.0 && crossing_boundary_edges({loop}, points, shortest).empty();
             });
-        return crossing_boundary_edges(flat_.loops, points, shortest_).empty() &&
-               turned_loops(flat_.loops, points, shortest_).empty();
+        return crossing_boundary_edges(flat_.loops, points, shortest).empty() &&
+               turned_loops(flat_.loops, points, shortest).empty();
+    }
+
+    /// The same when points are rounded more coarsely than they will be stored.
+    bool apart_on_grid(const PlanarPoints& points, int grid) const
+    {
+        const double cell = extent_ / grid;
+        return apart((points.array() / cell).round() * cell, shortest_drawn * extent_);
     }
 
     /// The share of the surface's area in faces that are far from their size.
@@ -284,8 +300,9 @@ private:
 
     FlatSurface flat_;
     double weight_, extent_;
-    int most_steps_;
+    EvenEffort effort_;
     double shortest_ = 0.0;  // edges that are looked at, in the unit of the points
+    int grid_ = 0;           // the coarsest on which loops are apart at first, and so after each step; 0: none
     ExecutionContext& context_;
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
@@ -315,9 +332,9 @@ EvenMap make_even(const FlatSurface& surface, double even, double extent, Execut
                   const EvenEffort& effort)
 {
     EvenMap result;
-    EvenProblem problem(surface, even, extent, effort.most_steps, context);
+    EvenProblem problem(surface, even, extent, effort, context);
     if (!(even > 0.0) || !problem.one_to_one()) return result;
-    if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result, effort.most_rounds);
+    if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result);
     return result;
 }
 

@@ -42,8 +42,9 @@ struct FlatSurface {
 };
 
 struct EvenEffort {
-    int most_steps = 60;   ///< of Newton's method at the end, when all faces are near their size
-    int most_rounds = 20;  ///< with the void, where loops would cross
+    int most_steps = 60;     ///< of Newton's method at the end, when all faces are near their size
+    int most_rounds = 20;    ///< with the void, where loops would cross
+    int most_in_all = 1000;  ///< Newton steps, before the void takes part
 };
 
 struct EvenMap {

@@ -1,4 +1,5 @@
 #include "mesh/topology.h"
+#include "parts/dart_rounds.h"
 #include "parts/darts.h"
 #include "planar/boundary_crossings.h"
 #include "relax/even_forces.h"
@@ -99,13 +100,43 @@ TEST(Darts, where_the_sides_would_have_to_overlap_there_is_none)
         EXPECT_NE(dart.vertices.front(), 0);
 }
 
-TEST(Darts, none_begins_at_a_rim_that_is_held_and_none_cuts_a_polygon)
+TEST(Darts, none_cuts_a_polygon)
 {
-    FlatPart held = cone(1.5 * pi);
-    relax(held, 0.1);
-    FlatPart whole = held;
-    for (const Index v : held.surface.loops.front()) held.held[v] = 1;
-    EXPECT_TRUE(promising_darts(held, forces(held, 0.1), 0.1, 1e-3, {}).empty());
+    FlatPart whole = cone(1.5 * pi);
+    relax(whole, 0.1);
+    EXPECT_FALSE(promising_darts(whole, forces(whole, 0.1), 0.1, 1e-3, {}).empty());
     whole.polygon.assign(static_cast<std::size_t>(whole.surface.triangles.rows()), 7);
     EXPECT_TRUE(promising_darts(whole, forces(whole, 0.1), 0.1, 1e-3, {}).empty());
+}
+
+// The sector of a disk that the cone is when it lies flat has its arc on a circle.
+TEST(Darts, one_that_begins_at_a_round_loop_leaves_both_ends_on_the_circle)
+{
+    constexpr double even = 0.1;
+    const double side = std::sqrt(2.0 * area_of_cone / (1.5 * pi));
+    HeldPart part{cone(1.5 * pi), {}};
+    const VertexLoop rim = part.flat.surface.loops.front();
+    for (const Index v : rim) part.flat.held[v] = 1;
+    Track circle;
+    circle.circle = {0.0, side};
+    part.round.push_back({rim, circle});
+    ExecutionContext context;
+    const auto relax_held = [&] {
+        FlatPart& flat = part.flat;
+        make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, part.round}, even,
+                  packed_side, context);
+    };
+    relax_held();
+    const double before = energy(part.flat, even);
+    std::vector<HeldPart> parts{part};
+    cut_darts(parts, even, 1e-4, 1, context);
+    part = parts.front();
+    relax_held();
+    EXPECT_FALSE(part.flat.tips.empty());
+    EXPECT_LT(energy(part.flat, even), 1e-3 * before);
+    const Circle& round = part.round.front().track.circle;
+    EXPECT_EQ(part.round.front().vertices.size(), rim.size() + part.flat.tips.size());
+    for (const Index v : part.round.front().vertices)
+        EXPECT_NEAR(std::abs(Complex(part.flat.points(v, 0), part.flat.points(v, 1)) - round.center), round.radius,
+                    1e-12);
 }
