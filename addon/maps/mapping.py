@@ -256,7 +256,7 @@ def _map_island(
             **vertices,
             **arguments,
         )
-        one.has_circles = options.loops == "round" or not one.result.even
+        one.has_circles = options.loops != "free" or not one.result.even
         if not _is_unrolled(one, options):  # otherwise the whole surface is turned together
             _shape(one, options)
     return one

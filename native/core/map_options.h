@@ -4,8 +4,9 @@
 
 namespace koebe {
 
-/// How loops move when a map is made more even: `round` keeps each on a circle or a straight end.
-enum class LoopForm { round, free };
+/// How loops move when a map is made more even: `round` keeps each on a circle or a straight end. `automatic` is free in
+/// parts, where round loops cost long cuts, and round elsewhere.
+enum class LoopForm { automatic, round, free };
 
 struct MapOptions {
     double most_lost = 0.01;  ///< share of the surface's area that may be lost when stored (quality/take_verdict.h)

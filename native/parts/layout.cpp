@@ -331,7 +331,8 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
         }
     }
     context.begin_stage("even", 0.8, 0.9);
-    const EvenOptions evening{options.even, options.loops, options.darts, options.threads};
+    const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
+    const EvenOptions evening{options.even, round ? LoopForm::round : LoopForm::free, options.darts, options.threads};
     const EvenParts even = make_parts_even(flats, evening, context);
     layout.even = even.even;
     for (const std::size_t k : even.left)

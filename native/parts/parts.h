@@ -24,12 +24,12 @@ struct PartsOptions : MapOptions {
     /// Edges, by their vertices, along which a tube is opened where they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
     /// Rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges, which
-    /// costs no angles. The surface's own loops lie on circles and straight ends either way.
+    /// costs no angles.
     bool round_cuts = false;
     /// From 0, conformal, to 1, true to size (relax/even_map.h); none: the largest of some at which the mean angle
     /// error is no worse than at 0.
     std::optional<double> even = {};
-    LoopForm loops = LoopForm::round;  ///< of the surface's own loops, with `even`; rims at cuts are free
+    LoopForm loops = LoopForm::automatic;  ///< of the surface's own loops, unless even is 0; free, but with round_cuts
     /// Cuts from a rim at a cut into a part (darts.h), where the energy that they release pays for their length at a
     /// price of 1e-4 / darts for the root of the area: from 0, none, to 1, many. There are none where even is 0.
     double darts = 0.2;

@@ -87,7 +87,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     CircleMap relaxed = map;
     relaxed.uv *= scale;
     std::vector<RoundLoop> round;
-    if (loops == LoopForm::round) round = round_loops(whole, map, scale);
+    if (loops != LoopForm::free) round = round_loops(whole, map, scale);
     FlatSurface flat{whole.vertices, triangles, whole.loops, relaxed.uv, round};
     flat.refuses = [&round](const FoldoverPlaces& places) { return !are_apart(round, places.tracks); };
     if (!make_even(flat, even, 2.0 * scale, context).moved) return false;
@@ -109,7 +109,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
         }
     }
     put_in_place(whole, relaxed);
-    if (loops == LoopForm::round) remove_flips(whole, relaxed, context);
+    if (loops != LoopForm::free) remove_flips(whole, relaxed, context);
     MapFaults faults = find_faults(triangles, whole.loops, relaxed.uv, relaxed.circles);
     if (loops == LoopForm::free) faults.bad_circles.clear();  // these are no circles of the map
     if (faults.any() || !turned_loops(whole.loops, relaxed.uv, shortest_drawn).empty()) return false;

@@ -24,10 +24,10 @@ struct UniformizeOptions : IterationOptions {
     /// With Balance::area: importance of each vertex, 0 to 1. The balance counts lengths around a vertex of importance
     /// w most_important^w times, so that it gets more texels. Empty or all equal: no effect.
     std::vector<double> importance = {};
-    bool polish = false;               ///< at the end, least angle error with the circles kept (angle_polish.h)
-    double even = 0.0;                 ///< 0: conformal, 1: true to size (pipeline/even_disk.h)
-    LoopForm loops = LoopForm::round;  ///< with `even`
-    bool repair = true;                ///< false: leave flipped faces as they are; for maps that are only judged
+    bool polish = false;                   ///< at the end, least angle error with the circles kept (angle_polish.h)
+    double even = 0.0;                     ///< 0: conformal, 1: true to size (pipeline/even_disk.h)
+    LoopForm loops = LoopForm::automatic;  ///< with `even`
+    bool repair = true;                    ///< false: leave flipped faces as they are; for maps that are only judged
     /// Names of vertices and faces in warnings, where the surface is a piece of another; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh

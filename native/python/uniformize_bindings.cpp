@@ -49,7 +49,10 @@ void bind_uniformize(py::module_& m)
         .value("automatic", OuterLoop::automatic)
         .value("longest", OuterLoop::longest)
         .value("vertex", OuterLoop::vertex);
-    py::enum_<LoopForm>(m, "LoopForm").value("round", LoopForm::round).value("free", LoopForm::free);
+    py::enum_<LoopForm>(m, "LoopForm")
+        .value("auto", LoopForm::automatic)
+        .value("round", LoopForm::round)
+        .value("free", LoopForm::free);
     py::enum_<Balance>(m, "Balance").value("none", Balance::none).value("area", Balance::area);
 
     py::enum_<AnnulusBackend>(m, "AnnulusBackend")

@@ -28,7 +28,7 @@ struct TileOptions : SweepOptions {
     RingHoles holes = RingHoles::circles;  ///< of a ring
     Index outer = -1, inner = -1;          ///< of a ring: a vertex of each rim; -1: the longest loops
     double even = 0.0;                     ///< 0: conformal, 1: true to size (tiles/even_tile.h)
-    LoopForm loops = LoopForm::round;      ///< of the holes, with `even`
+    LoopForm loops = LoopForm::automatic;  ///< of the holes, with `even`
     std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each face by itself
 
     template <typename Visit>

@@ -111,6 +111,15 @@ def test_price_and_cut():
             koebe.parts(VERTICES, TRIANGLES, **wrong)
 
 
+def test_boundaries_are_round_where_that_is_asked_for():
+    vertices, faces = finger(around=48, rings=1)
+    options = ({"loops": "free"}, {"loops": "round"}, {})
+    free, circle, unasked = (koebe.parts(vertices, triangulated(faces), even=0.3, **loops) for loops in options)
+    assert np.array_equal(unasked.uv, free.uv)
+    assert len(circle.parts) == len(free.parts) == 1 and circle.darts > 0 and free.darts > 0
+    assert max(circle.parts[0]["off_round"]) < 1e-6 and max(free.parts[0]["off_round"]) > 1e-2
+
+
 def test_cuts_are_round_where_that_is_asked_for(tmp_path):
     # Two heights in turn round each ring: no cut is straight.
     rough = VERTICES + [0, 0, 0.06] * (np.arange(len(VERTICES)) % 2 * (VERTICES[:, 2] > 0.5))[:, None]
