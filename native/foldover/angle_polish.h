@@ -9,7 +9,7 @@
 
 namespace koebe {
 
-/// Lowers the sum of |e| over all corners, e the angle of the map less the surface's: the mean angle error itself.
+/// Lowers the sum of |e| over all corners: the mean angle error. e is the angle in the map minus that on the surface.
 /// Moves vertex by vertex (angle_relaxation.h), two sweeps. Then Newton steps of all vertices for sum w e^2 with w near
 /// 1 / |e| (angle_newton.h), repeated as long as the error falls by a tenth. Then vertex by vertex again, up to 8
 /// sweeps. No step turns a face over, or moves a vertex past another of its loop. Inner vertices move freely, loop
