@@ -13,11 +13,11 @@
 namespace koebe {
 namespace {
 
-constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: what lies farther off is free
-constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
-constexpr int search_steps = 12, most_steps = 60;        // Newton steps for one, and for one that was asked for
-constexpr double step = 1.5;                             // from one to the next
-constexpr double even_with_darts = 0.1;                  // E, unless it is asked for
+constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: vertices farther off are free
+constexpr double first_even = 0.02, least_even = 0.005;  // start and end of the search for E
+constexpr int search_steps = 12, most_steps = 60;        // Newton steps for an E of the search, and for a given E
+constexpr double step = 1.5;                             // factor from one E to the next
+constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -110,7 +110,7 @@ public:
         return left;
     }
 
-    /// With darts first; if these do not serve, from one E to the next, as long as angles are no worse than at 0.
+    /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
     double relax_freely()
     {
         const double conformal = angles();
