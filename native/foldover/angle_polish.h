@@ -18,7 +18,7 @@ namespace koebe {
 /// circles do not change.
 ///
 /// Vertices around faces that would be flipped as stored, and on loops that would cross, return to where they were. The
-/// result is kept if the mean angle error falls by a millionth of it.
+/// result is kept if the mean angle error falls by at least a millionth.
 /// @param loops the outer one first @param circles of the loops @param off_circle loop vertices off their circles
 /// @param uv (V, 2) points of the unit disk, moved in place
 /// @param held more vertices that stay; an outer-loop vertex among them fixes the position instead of another

@@ -15,8 +15,8 @@ struct Proposal {
     const char* kind = "";
 };
 
-/// Proposes even disks: the largest piece of a window of u. Also, in log polar coordinates about tips and holes, tubes
-/// and circles at the outer ends of the tubes. @param threads as in side_by_side
+/// Proposes even disks: the largest piece of a window of u. Proposes tubes, in log polar
+/// coordinates about tips and holes, and circles at the outer ends of the tubes. @param threads as in side_by_side
 std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map, int threads, ExecutionContext& context);
 
 }  // namespace koebe
