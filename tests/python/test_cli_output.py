@@ -73,7 +73,7 @@ def test_patches_are_a_property_in_ply(folder):
 def test_other_formats_are_refused_before_any_work(tmp_path, command, name):
     run = koebe(command, tmp_path / "missing.obj", name, cwd=tmp_path)
     assert run.returncode == USAGE and run.stdout == ""
-    assert re.fullmatch(r"WrongUsage: OUT: .*OUT must end in .obj or .ply\n", run.stderr), run.stderr
+    assert re.fullmatch(r"WrongUsage: OUT: .*OUT must end in \.obj or \.ply .*\n", run.stderr), run.stderr
     assert names(tmp_path) == set()
 
 
