@@ -92,7 +92,9 @@ def chosen_loops(mesh: bmesh.types.BMesh, which: str) -> list[list[bmesh.types.B
         loops = [loop for index, loop in enumerate(loops) if longest[part[index]] != index]
     if not loops:
         raise FillError(
-            "no boundary loop is selected" if which == SELECTED else "there is no hole: no boundary but the outer one"
+            "no boundary loop is selected"
+            if which == SELECTED
+            else "there is no hole: the only boundary is the outer one"
         )
     return loops
 
@@ -119,7 +121,7 @@ def filling(
     """The patch for one loop. Changes nothing. `koebe` is the native package, `keys` are as for `Continued`."""
     rim = [corner.vert for corner in loop]
     if len(set(rim)) != len(rim):
-        raise FillError("a hole meets itself at a vertex: part its halves first")
+        raise FillError("a hole meets itself at a vertex: separate its halves first")
     vertices, triangles = _surroundings(loop)
     if not np.ptp(vertices[: len(rim)], axis=0).max() > 0.0:  # NaN too
         raise FillError("a hole has no extent: merge its doubled vertices")

@@ -91,7 +91,7 @@ def parse(arguments: list[str]) -> Request:
     parser.add_argument("--frames", metavar="A:B[:STEP]", help="of --sequence FRAMES; default: the scene's")
     parser.add_argument(
         "--sequence-target", choices=[target.lower() for target in ROWS["target"].words],
-        help="what holds the UVs of each shape; default: attribute, a vector attribute",
+        help="where the UVs of each shape are stored; default: attribute, a vector attribute",
     )  # fmt: skip
     for row in ROWS.values():
         if row.is_flag and row.name not in OWN_FLAGS:

@@ -128,7 +128,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
              with_number("the circle packing changes edge lengths by up to %.2g of themselves", flow.packing_change)});
     if (flow.closing_gap > circle_tolerance)
         result.warnings.push_back(
-            {WarningKind::closing_gap, with_number("holes close up to %.2g of their length", flow.closing_gap)});
+            {WarningKind::closing_gap,
+             with_number("holes do not close: gaps up to %.2g of their length", flow.closing_gap)});
     if (own_flips > 0)
         result.warnings.push_back(
             {WarningKind::flow_flips, "faces flipped by the flow's own map: " + std::to_string(own_flips)});

@@ -37,7 +37,7 @@ public:
         : options_(options), output_(fs::weakly_canonical(options.output)), base_(options.base)
     {
         if (base_.empty()) return;
-        if (!fs::is_directory(base_)) throw UsageError("--base " + utf8(base_) + " is no folder");
+        if (!fs::is_directory(base_)) throw UsageError("--base " + utf8(base_) + " is not a folder");
         base_ = fs::canonical(base_);
     }
 
@@ -56,9 +56,9 @@ private:
         if (fs::is_directory(input, error)) return add_folder(fs::canonical(input));
         if (!fs::exists(input, error)) throw UsageError(utf8(input) + " does not exist");
         if (is_blend(input) && !options_.with_blends)
-            throw UsageError(utf8(input) + " is a file of Blender's: name the program with --blender");
+            throw UsageError(utf8(input) + " is a .blend file: name the program with --blender");
         if (!is_mesh(input) && !is_blend(input))
-            throw UsageError(utf8(input) + " is no mesh file: they end in .obj, .off, .ply or .stl");
+            throw UsageError(utf8(input) + " is not a mesh file: mesh files end in .obj, .off, .ply or .stl");
         // A link gives its own name, as its target may be called anything.
         const fs::path source = fs::canonical(fs::absolute(input).parent_path()) / input.filename();
         add_file(source, source.parent_path());
@@ -95,7 +95,7 @@ private:
         const auto known = names_.find(file.name);
         if (known != names_.end() && fs::equivalent(known->second, source)) return;  // given twice
         if (known != names_.end())
-            throw UsageError(utf8(known->second) + " and " + utf8(source) + " would both be " + file.name);
+            throw UsageError(utf8(known->second) + " and " + utf8(source) + " would both get the name " + file.name);
         names_.emplace(file.name, source);
         sources_.insert(fs::canonical(source));
         file.output = (output_ / relative).replace_extension(file.is_blend ? ".blend" : options_.extension);

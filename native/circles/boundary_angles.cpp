@@ -72,7 +72,7 @@ VectorXd angles_from_flux(const VectorXd& flux, const VectorXd& edges, int& rais
     const Eigen::Index m = flux.size();
     const double total = flux.sum();
     if (!(std::abs(total) > 0.0) || !std::isfinite(total))
-        throw SolverError("no flux runs through a boundary loop: the surface is torn there in all but topology");
+        throw SolverError("no flux runs through a boundary loop: the surface is almost torn off there");
     VectorXd density(m);
     for (Eigen::Index b = 0; b < m; ++b) density[b] = flux[b] / (0.5 * (edges[(b + m - 1) % m] + edges[b])) / total;
     const double least = shortest_step * 2.0 * pi / static_cast<double>(m);

@@ -13,9 +13,9 @@ namespace koebe {
 namespace {
 
 constexpr Eigen::Index most_pole_samples = 350;
-constexpr double least_hole = 0.08;     // disk units: to turn a map inside out about a smaller hole is never even
-constexpr double worth_turning = 0.85;  // of the overflow, for another loop outside
-constexpr double hopeless = 1.5;        // of the least overflow so far, on the coarse grid: not refined
+constexpr double least_hole = 0.08;     // disk units: turning a map inside out about a smaller hole is never even
+constexpr double worth_turning = 0.85;  // of the overflow: another outer loop must bring it below this
+constexpr double hopeless = 1.5;        // of the least overflow on the coarse grid: a worse pole is not refined
 constexpr double most_radius = 0.98;    // of 1 / pole
 
 /// |1 - conj(a) z|^2 for each z, without hypot.
@@ -64,7 +64,7 @@ private:
     double least_ = std::numeric_limits<double>::infinity();
 };
 
-/// The inside of a loop's circle and the outside change places.
+/// Exchanges the inside and the outside of a loop's circle.
 MapSample inside_out(const MapSample& sample, const Circle& circle)
 {
     MapSample turned = sample;

@@ -1,4 +1,4 @@
-// The Moebius map of a part that makes its texels most even.
+// Finds the Moebius map that makes the texels of a part most even.
 #pragma once
 
 #include "circles/circle.h"
@@ -10,29 +10,29 @@ namespace koebe {
 
 struct PartMap;
 
-/// Some faces of a map.
+/// A sample of the faces of a map.
 struct MapSample {
-    VectorXcd centers;  ///< of the faces' images, in the unit disk
+    VectorXcd centers;  ///< centres of the faces' images, in the unit disk
     VectorXd u, areas;
 };
 
-/// A Moebius map of the unit disk: first, if `turned` names a loop, its circle goes onto the unit circle, inside out;
-/// then the point `a` goes to 0.
+/// A Moebius map. First, if `turned` names a loop, inside and outside of its circle change places, and it becomes the
+/// unit circle. Then the point `a` goes to 0.
 struct EvenPole {
     Complex a = 0.0;
     int turned = -1;
-    double overflow = 0.0;  ///< of the sample
+    double overflow = 0.0;  ///< overflow of the moved sample
 };
 
-/// The map of least overflow. The pole lies beyond the unit circle or in a large hole. u changes by log |M'|. Searched
-/// on a grid of poles and refined by halving steps.
-/// @param circles of the loops @param outer the one that is the unit circle
+/// The Moebius map M of least overflow. Its pole lies beyond the unit circle or in a large hole. M adds log |M'| to u.
+/// Searches on a grid of poles, and refines the best by halving steps.
+/// @param circles circles of the loops @param outer the loop on the unit circle
 EvenPole even_pole(const MapSample& sample, const std::vector<Circle>& circles, int outer);
 
-/// The sample moved by it.
+/// The sample moved by the Moebius map `pole`.
 MapSample moved(const MapSample& sample, const std::vector<Circle>& circles, const EvenPole& pole);
 
-/// Moves a map by the even_pole of some 350 of its faces; those lost in rounding do not count.
+/// Moves a map by the even_pole of about 350 of its faces. Faces lost in rounding do not count.
 /// @param areas (F) @param map moved in place: positions, centers, u, outer
 void move_to_even_pole(const VectorXd& areas, PartMap& map);
 

@@ -78,7 +78,7 @@ double rough_overflow(const VectorXd& u, const VectorXd& areas)
     const double middle = u.dot(areas) / areas.sum(), low = middle - 0.5 * bins * step;
     std::array<double, bins + 1> area{}, moment{};  // of all bins below; moment in steps from low
     constexpr double per_step = 1.0 / step;
-    double beyond = 0.0;  // what the ends hold less than it is
+    double beyond = 0.0;  // cost beyond the ends of the histogram
     for (Eigen::Index f = 0; f < u.size(); ++f) {
         const double at = (u[f] - low) * per_step;
         const double held = std::clamp(at, 0.0, bins - 1e-9);

@@ -1,4 +1,4 @@
-// What uneven texel density costs.
+// The cost of uneven texel density.
 #pragma once
 
 #include "core/types.h"
@@ -10,25 +10,26 @@ namespace koebe {
 /// Texel densities within this factor count as even: log 3, in u = 1/2 log(UV area / area).
 inline constexpr double factor_three = 1.0986122886681098;
 
-/// What a face costs at most, in u: its area is lost to the artist.
+/// Most that a face can cost, in u. A lost face costs as much: the artist cannot paint on it.
 inline constexpr double lost_cost = 6.0;
 
-/// What a part is judged by: a little less, so that with rounding and the spread between neighbours all is within it.
+/// Width of the even window, by which parts are judged. Less than a factor 3, so that rounding and differences between
+/// neighbours stay within it.
 inline constexpr double even_range = 0.8 * factor_three;
 
 struct Evenness {
-    double overflow =
-        0.0;            ///< sum of area times the distance of u from [from, from + even_range], at most lost_cost each
-    double from = 0.0;  ///< the best window's lower end; where there is a choice, its middle
-    double inside = 0.0;  ///< area within the window
+    double overflow = 0.0;  ///< sum of area times the distance of u from [from, from + even_range]; the distance counts
+                            ///< at most lost_cost
+    double from = 0.0;      ///< the lower end of the best window; the middle of a range of equally good ends
+    double inside = 0.0;    ///< area within the window
 };
 
-/// The window of least overflow. Sorted once, its ends move to where as much area lies below as above.
+/// The window of least overflow: as much area lies below as above it. The faces are sorted once.
 /// @param u (F) @param areas (F)
-/// @param lost (F) 1: the face has no area in the map. It costs lost_cost wherever the window lies; empty: none is lost
+/// @param lost (F) 1: the face has no area in the map, and costs lost_cost for every window; empty: no face is lost
 Evenness evenness(const VectorXd& u, const VectorXd& areas, const std::vector<char>& lost = {});
 
-/// About the same overflow by a histogram, without sorting: to compare many maps of one part.
+/// Nearly the same overflow, from a histogram instead of sorting. For comparing many maps of one part.
 double rough_overflow(const VectorXd& u, const VectorXd& areas);
 
 }  // namespace koebe

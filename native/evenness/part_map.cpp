@@ -19,11 +19,11 @@ namespace koebe {
 namespace {
 
 constexpr double least_edge = 1e-11;  // disk units: shorter ones are lost in the rounding of a map
-constexpr double deep_hole = 1e-7;    // disk units: round a smaller one a map is only precise about 0
+constexpr double deep_hole = 1e-7;    // disk units: a map is precise round a smaller hole only if the hole is at 0
 
 double area_in_plane(Complex a, Complex b, Complex c) { return 0.5 * std::imag(std::conj(b - a) * (c - a)); }
 
-/// Values of lost faces from their neighbours' where those have any, and all smoothed a little.
+/// Gives lost faces the values of their neighbours, if those have any. Then smooths all values a little.
 void smooth(const PartMesh& part, VectorXd& u, std::vector<char>& lost)
 {
     for (int round = 0; round < 4; ++round) {
@@ -74,7 +74,7 @@ void measure(const PartMesh& part, const Corner& corner, double floor, PartMap& 
     smooth(part, map.u, map.lost);
 }
 
-/// The two loops on circles about 0: log z is kept as well, which is precise at any depth.
+/// Puts the two loops on circles about 0. Keeps log z too, which is precise at any depth.
 bool map_annulus(const PartMesh& part, PartMap& map)
 {
     const auto& loops = part.surface.loops;

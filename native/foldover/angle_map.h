@@ -11,8 +11,9 @@
 
 namespace koebe {
 
-/// The error of an angle: arg w, w the corner's image turned back by the angle on the surface. Small errors come from
-/// the series of the arctangent, off by 1e-8 of them at worst and several times as fast as the library's function.
+/// The error of an angle: arg w, where w is the corner's image turned back by the angle on the surface. Small errors
+/// come from the series of the arctangent. It is off by at most 1e-8 of the error, and several times as fast as the
+/// library.
 inline double angle_of(Complex w)
 {
     const double x = w.real(), y = w.imag();
@@ -30,8 +31,8 @@ class AngleMap {
 public:
     enum class Mobility : char { held, sliding, free };
 
-    /// A corner of a face, seen from its vertex: the places of its own error, of the next and the previous corner's,
-    /// and the vertices of these two corners.
+    /// A corner of a face, seen from its vertex: the indices of its error and of the errors of the next and the
+    /// previous corner, and the vertices of these two corners.
     struct Corner {
         Index own, after, before;
         Index next, previous;
@@ -57,7 +58,7 @@ public:
         return {corners_.data() + begin_[v], corners_.data() + begin_[v + 1]};
     }
     Index vertex_count() const { return static_cast<Index>(points.size()); }
-    /// Whether the face has an area on the surface. Only then it has angles.
+    /// Whether the face has an area on the surface. Otherwise it has no angles.
     bool counts(const Corner& corner) const { return turn_[corner.own] != 0.0; }
 
     /// Errors of a corner's face whose edges lead to the next vertex and to the previous one.

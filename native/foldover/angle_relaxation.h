@@ -5,11 +5,11 @@
 
 namespace koebe {
 
-/// Sweeps over all vertices that move. Each goes to where sum_k w_k e_k^2 over the corners of its faces is least to
-/// first order, e_k the error of an angle and w_k = 1 / max(|e_k|, least), and beyond by over-relaxation. It stays if
-/// the sum of |e_k| does not fall, a face would get too small, or it would pass a vertex of its loop. The map's errors
-/// must be up to date, and are kept so.
-/// @param least the least error in a weight, radians @param forward whether to go by rising vertex numbers
+/// Sweeps over all vertices that move. For each it minimizes sum_k w_k e_k^2 over the corners of its faces, to first
+/// order and with over-relaxation. e_k is the error of an angle, and w_k = 1 / max(|e_k|, least). A vertex stays if the
+/// sum of |e_k| would not fall, a face would get too small, or the vertex would pass another of its loop. The map's
+/// errors must be up to date, and stay up to date.
+/// @param least the least error in a weight, radians @param forward true: by ascending vertex numbers
 /// @return by how much the sum of all |e_k| fell
 double relax_angles(AngleMap& map, double least, bool forward);
 

@@ -29,12 +29,13 @@ struct FaceMap {
     double squared_norm() const { return 2.0 * (std::norm(like) + std::norm(unlike)); }
 };
 
-/// A face's wanted shape: like is the sum of its numbers times the image's corners, unlike that of their conjugates.
+/// A face's wanted shape, as three numbers. `like` is the sum of numbers times corners of the image. `unlike` has the
+/// conjugate numbers.
 struct WantedShape {
     /// @param edges columns: 0-1 and 0-2
     explicit WantedShape(const Eigen::Matrix2d& edges);
 
-    /// @param second, third corners of the image less its first, so that no digits cancel
+    /// @param second, third corners of the image minus its first corner, so that no digits cancel
     FaceMap map_to(Complex second, Complex third) const
     {
         return {detail::product(number[1], second) + detail::product(number[2], third),
@@ -52,9 +53,9 @@ struct Symmetric {
     Symmetric positive_part() const;
 };
 
-/// Derivatives of a face's term by its corners, with the Hessian made positive semidefinite. With the shape's numbers
-/// c, the Hessian is `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as turns and scalings, plus `along` in u and w: the
-/// directions in which the sizes of the map's two parts grow.
+/// Derivatives of a face's term by its corners, with the Hessian made positive semidefinite. c are the shape's numbers.
+/// The Hessian is `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as turns and scalings, plus `along` in the directions
+/// u and w, in which |like| and |unlike| of the map grow.
 struct FaceDerivatives {
     double term;
     std::array<Complex, 3> gradient;
@@ -79,7 +80,7 @@ struct FaceDerivatives {
     }
 };
 
-/// (|J|^2 + theta (D^2 + 1)) / chi(D - floor), D = det J, or a power of that (foldover_free.h).
+/// The term (|J|^2 + theta (D^2 + 1)) / chi(D - floor) with D = det J, or a power of it (foldover_free.h).
 struct FaceEnergy {
     double area_weight, power, slack;
     double epsilon = 1.0;

@@ -19,17 +19,17 @@ struct FoldoverPlaces {
 };
 
 struct FoldoverProblem : FoldoverPlaces {
-    /// sliding: along its circle, which stays. riding: along its track, which moves.
+    /// sliding: along a circle that stays. riding: along a track that moves.
     enum class Mobility : char { held, sliding, free, riding };
 
     Triangles triangles;                     ///< (F, 3)
     std::vector<Eigen::Matrix2d> reference;  ///< (F) columns: edges 0-1 and 0-2 of the wanted shape, of positive area
     VectorXd floor;                          ///< (F) lower bound of the determinant, in the reference's areas
-    VectorXd weight;                         ///< (F) of each face in the sum; empty: 1
+    VectorXd weight;                         ///< (F) weights of faces in the sum; empty: 1
     std::vector<Mobility> mobility;          ///< (V)
-    std::vector<Circle> circles;             ///< (V) of sliding and of pulled vertices
-    VectorXd pull;                           ///< (V) of free vertices to their circles, dimensionless; empty: 0
-    std::vector<char> pull_inside;           ///< (V) 1: pulled to the circle's centre instead; empty: none of them
+    std::vector<Circle> circles;             ///< (V) circles of sliding and of pulled vertices
+    VectorXd pull;                           ///< (V) pull of free vertices to their circles, dimensionless; empty: 0
+    std::vector<char> pull_inside;           ///< (V) 1: pulled to the circle's centre instead; empty: no vertex is
     std::vector<int> track_of;               ///< (V) track of riding vertices; empty: no vertex rides
     CornerLifts lift;                        ///< (F) numbers of periods; empty without periods
 };

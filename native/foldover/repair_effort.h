@@ -11,7 +11,7 @@ namespace koebe {
 /// The unit is a Newton step for one face, so that the search ends at the same place on every machine.
 class RepairEffort {
 public:
-    /// Allows as much as 30 steps of the whole surface cost. Small surfaces get `small` more, or 2,000 steps.
+    /// Allows the cost of 30 steps of the whole surface. Small surfaces get `small` more, or 2,000 steps.
     /// @param faces of the surface
     explicit RepairEffort(Eigen::Index faces, std::size_t small = 100000);
 

@@ -130,7 +130,7 @@ PolygonMesh read_stl(std::string_view bytes)
 {
     if (is_text_stl(bytes)) return read_text_stl(bytes);
     if (bytes.size() < header_bytes + facet_bytes * facet_count(bytes))
-        throw InputError("neither a text STL, which starts with 'solid', nor a binary one of the length it says");
+        throw InputError("the file is no STL: a text starts with 'solid', a binary file is as long as its header says");
     return read_binary_stl(bytes);
 }
 

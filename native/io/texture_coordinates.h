@@ -14,15 +14,14 @@ inline double texture_coordinate(double disk_coordinate) { return std::clamp(0.5
 /// @throws InputError disk_points does not have one row per vertex
 inline void require_point_for_each_vertex(const PolygonMesh& mesh, const PlanarPoints& disk_points)
 {
-    if (disk_points.rows() != mesh.vertices.rows())
-        throw InputError("as many points of the disk as vertices are needed");
+    if (disk_points.rows() != mesh.vertices.rows()) throw InputError("each vertex needs one point of the disk");
 }
 
 /// @throws InputError corner_uvs does not have one row per corner
 inline void require_point_for_each_corner(const PolygonMesh& mesh, const PlanarPoints& corner_uvs)
 {
     if (corner_uvs.rows() != static_cast<Eigen::Index>(mesh.corners.size()))
-        throw InputError("as many texture coordinates as corners are needed");
+        throw InputError("each corner needs texture coordinates");
 }
 
 }  // namespace koebe::io

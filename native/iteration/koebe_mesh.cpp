@@ -236,9 +236,9 @@ void require_possible(const KoebeMeshOptions& mesh_options, int loop_count, Meth
 {
     if (!mesh_options.schedule.empty()) require_schedule(mesh_options.schedule, loop_count, method);
     if (mesh_options.partners == Partners::changing && (method != Method::gk || !mesh_options.schedule.empty()))
-        throw InputError("partners change with the generalized method alone, and without a schedule");
+        throw InputError("changing partners need the generalized method and no schedule");
     if (mesh_options.annulus == AnnulusBackend::yamabe && mesh_options.metric == KoebeMeshOptions::Metric::first)
-        throw InputError("the Yamabe flow needs one metric on surface and disks: a planar or reflected one");
+        throw InputError("the Yamabe flow needs a planar or reflected metric: the same on surface and disks");
 }
 
 KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles, const EdgeLengths& lengths,

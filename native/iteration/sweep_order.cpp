@@ -57,7 +57,7 @@ void require_schedule(const Sweep& schedule, int loop_count, Method method)
                              std::to_string(opens));
         for (const int k : step) {
             if (k < 0 || k >= loop_count)
-                throw InputError("the schedule names loop " + std::to_string(k) + ", the surface has 0 to " +
+                throw InputError("the schedule names loop " + std::to_string(k) + ", but the surface has loops 0 to " +
                                  std::to_string(loop_count - 1));
             opened[k] = 1;
         }

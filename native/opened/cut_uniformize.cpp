@@ -57,8 +57,8 @@ NamedVertex find_named(const std::vector<SurfacePiece>& pieces, const CanonicalM
     }
     Index name = vertex;
     mesh.name_vertex(name);
-    throw InputError("vertex " + std::to_string(name) + " cannot be the " + what + ": no piece has it " +
-                         (on_loop ? "on a boundary loop" : "inside"),
+    throw InputError("vertex " + std::to_string(name) + " cannot be the " + what + ": it lies " +
+                         (on_loop ? "on no boundary loop" : "inside no piece"),
                      ElementKind::vertices, {vertex});
 }
 

@@ -27,7 +27,7 @@ std::string of_kind(CutKind kind, const std::vector<const SurfaceCut*>& cuts)
     switch (kind) {
     case CutKind::crowded_edge: return counted(cuts.size(), "seam") + " along edges of three or more faces";
     case CutKind::orientation: return counted(cuts.size(), "seam") + " where the surface changes its side";
-    case CutKind::bow_tie: return "fans of faces parted in " + counted(cuts.front()->vertices.size(), "vertex");
+    case CutKind::bow_tie: return "fans of faces separated at " + counted(cuts.front()->vertices.size(), "vertex");
     case CutKind::handle: return counted(cuts.size(), "handle") + " cut";
     case CutKind::opening: return counted(cuts.size(), "slit") + " that open a closed surface";
     }
@@ -60,12 +60,12 @@ Warning left_out_warning(const std::vector<LeftOutFace>& left_out)
         warning.elements.push_back(out.face);
         degenerate += out.degenerate ? 1 : 0;
     }
-    if (degenerate > 0) warning.sentence = counted(degenerate, "face") + " of fewer than three different vertices";
+    if (degenerate > 0) warning.sentence = counted(degenerate, "face") + " with fewer than three different vertices";
     if (const std::size_t twice = left_out.size() - degenerate; twice > 0) {
         if (degenerate > 0) warning.sentence += " and ";
-        warning.sentence += counted(twice, "face") + " with the vertices of another one";
+        warning.sentence += counted(twice, "face") + " with the vertices of another face";
     }
-    warning.sentence += " left out of the map, and drawn where their neighbours are";
+    warning.sentence += " left out of the map, and drawn on their neighbours";
     return warning;
 }
 
@@ -89,7 +89,7 @@ std::vector<Warning> merged(const std::vector<MappedPiece>& pieces)
         }
         Warning all{kind, "in " + counted(pieces_with[kind], "piece") + " of " + std::to_string(pieces.size()) + ": " +
                               own.front()->sentence};
-        if (own.size() > 1) all.sentence += ", and the like";
+        if (own.size() > 1) all.sentence += ", and similar warnings";
         all.advice = own.front()->advice;
         if (elements_of(kind) != ElementKind::loops)
             for (const Warning* warning : own)
@@ -109,7 +109,7 @@ std::string cut_text(const SurfaceCut& cut)
     switch (cut.kind) {
     case CutKind::crowded_edge: return "seam along edges of three or more faces, " + along;
     case CutKind::orientation: return "seam where the surface changes its side, " + along;
-    case CutKind::bow_tie: return "fans of faces parted in " + counted(cut.vertices.size(), "vertex");
+    case CutKind::bow_tie: return "fans of faces separated at " + counted(cut.vertices.size(), "vertex");
     case CutKind::handle: return (closed ? "loop through a handle, " : "part of a loop through a handle, ") + along;
     case CutKind::opening: return "slit that opens a closed surface, " + along;
     }

@@ -35,7 +35,7 @@ void CellBoard::take(const CellShape& shape, int x, int y)
     }
 }
 
-/// Bit i: of the 2^k cells from x + i on one is taken.
+/// Bit i: one of the 2^k cells from x + i on is taken.
 std::uint64_t CellBoard::taken(int row, int k, int x) const
 {
     const std::uint64_t* words =

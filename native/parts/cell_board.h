@@ -8,8 +8,8 @@
 
 namespace koebe {
 
-/// Each row is kept as levels of words: bit x of level k says that one of the 2^k cells from x on is taken. So a run of
-/// any length is tested at 64 columns by two words of a level.
+/// Each row has levels of words. Bit x of level k is set if any of the 2^k cells from x on is taken. So two words of a
+/// level test a run of any length at 64 columns.
 class CellBoard {
 public:
     /// @param side cells, a multiple of 64
@@ -18,11 +18,11 @@ public:
     void clear();
     void take(const CellShape& shape, int x, int y);
 
-    /// The first column at which the shape has room with its lowest row there; -1: none.
-    /// @param order of its runs, in which they are tested
+    /// The first column at which the shape has room if its lowest row is row y; -1: it has no room there.
+    /// @param order the shape's runs, in the order in which they are tested
     int first_room(const CellShape& shape, const std::vector<CellRun>& order, int y) const;
 
-    std::int64_t tests() const { return tests_; }  ///< of a run at 64 columns, so far
+    std::int64_t tests() const { return tests_; }  ///< tests so far, each of a run at 64 columns
 
 private:
     static constexpr int levels = 8;
@@ -32,7 +32,7 @@ private:
     std::uint64_t blocked(const CellRun& run, int y, int x) const;
 
     int side_;
-    std::size_t row_words_;  // two of them beyond the side, empty
+    std::size_t row_words_;  // with two empty words beyond the side
     std::vector<std::uint64_t> words_;
     mutable std::int64_t tests_ = 0;
 };

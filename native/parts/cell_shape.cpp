@@ -62,7 +62,7 @@ private:
     std::vector<std::uint64_t> bits_;
 };
 
-/// The cells that come nearer to an edge than `reach`, by an octagon round the circle of that radius.
+/// The cells nearer to an edge than `reach`. An octagon round the circle of that radius decides.
 void paint_edge(GridPoint a, GridPoint b, std::int64_t reach, Drawing& drawing)
 {
     if (a[1] > b[1]) std::swap(a, b);
@@ -72,7 +72,7 @@ void paint_edge(GridPoint a, GridPoint b, std::int64_t reach, Drawing& drawing)
     for (std::int64_t row = floor_ratio(a[1] - reach, grid_cell); row < last; ++row) {
         const std::int64_t low = row * grid_cell, high = low + grid_cell;
         std::int64_t from = INT64_MAX, to = INT64_MIN;
-        // How far the octagon round a point of the edge reaches within the row is concave along the edge.
+        // Along the edge, the reach of the octagon within the row is a concave function.
         const auto consider = [&](std::int64_t left, std::int64_t right, std::int64_t y) {
             const std::int64_t away = std::max<std::int64_t>({low - y, y - high, 0});
             if (away > reach) return;
@@ -91,7 +91,7 @@ void paint_edge(GridPoint a, GridPoint b, std::int64_t reach, Drawing& drawing)
     }
 }
 
-/// Cells whose middle is inside.
+/// The cells whose middle is inside.
 void paint_inside(const std::vector<GridLoop>& loops, int height, Drawing& drawing)
 {
     std::vector<std::vector<std::pair<std::int64_t, int>>> crossings(static_cast<std::size_t>(height));

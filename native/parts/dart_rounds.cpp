@@ -15,11 +15,11 @@ namespace {
 
 constexpr int most_dart_rounds = 8;
 constexpr EvenEffort trial_effort{4, 2};
-constexpr double least_surplus = 0.02;   // of a part's energy: what the darts of one round must promise
-constexpr double reach_of_darts = 0.25;  // on the surface, in roots of its area: what a dart changes
-constexpr double refused_around = 0.06;  // a dart's tip, if the dart did not pay
+constexpr double least_surplus = 0.02;   // of a part's energy: the least promise of one round's darts
+constexpr double reach_of_darts = 0.25;  // radius of a dart's effect on the surface, in roots of its area
+constexpr double refused_around = 0.06;  // radius round the tip of a dart that did not pay: no new tips there
 
-constexpr double coarse_grid = 1 << 21;  // points in the unit square: an eighth of those of 32-bit floats
+constexpr double coarse_grid = 1 << 21;  // steps along the unit square: an eighth of those of 32-bit floats
 
 using EdgeEnds = std::pair<Index, Index>;
 
@@ -69,8 +69,9 @@ public:
 private:
     struct Trial {
         std::vector<Dart> darts;
-        std::vector<std::pair<std::size_t, std::size_t>> image;  ///< part and place of each dart's; empty: of no mirror
-        std::optional<HeldPart> opened;                          ///< none if the darts cannot be opened
+        std::vector<std::pair<std::size_t, std::size_t>>
+            image;                       ///< part and place of each dart's image; empty: no mirror
+        std::optional<HeldPart> opened;  ///< empty if the darts cannot be opened
         std::vector<double> gain;
     };
 
@@ -120,7 +121,7 @@ private:
                     loop.vertices.push_back(found->second);
     }
 
-    /// (parts, darts) 1 for those that pay, with their images.
+    /// (parts, darts) 1 for darts that pay together with their images.
     std::vector<std::vector<char>> paying() const
     {
         const auto surplus = [&](std::size_t k, std::size_t i) {
@@ -168,8 +169,8 @@ private:
                 refused_[k][v] = 1;
     }
 
-    /// Leaves of the promising darts those that have an image, in this part or another, and adds the images. Of two
-    /// that are in each other's way the one of the earlier part, or of more promise, stays.
+    /// Keeps only promising darts that have an image, in this part or another, and adds the images. Of two darts in
+    /// each other's way the dart of the earlier part, or with more promise, stays.
     void pair_images()
     {
         std::map<EdgeEnds, EdgePlace> places;
@@ -263,7 +264,7 @@ private:
 
     std::vector<HeldPart>& parts_;
     std::vector<std::vector<char>> refused_;
-    std::vector<VectorXd> energy_;  // (parts) of the faces, before this round
+    std::vector<VectorXd> energy_;  // (parts) energies of the faces, before this round
     std::vector<Trial> trials_;
     double even_, price_;
     int threads_;

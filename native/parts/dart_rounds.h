@@ -15,14 +15,14 @@ struct HeldPart {
     std::vector<RoundLoop> round;
 };
 
-/// Whether loops stay apart when their points are rounded, more coarsely than they will be stored.
+/// Whether loops stay apart when their points are rounded. The rounding is coarser than that of stored UVs.
 bool survives_storing(const FlatPart& flat);
 
-/// Each round opens the darts that promise most (darts.h), relaxes their parts, and keeps the darts that released more
-/// energy than they cost; the others are closed again. On a mirror image of itself darts come in pairs, and a pair is
-/// kept or closed as one.
+/// Each round opens the most promising darts (darts.h) and relaxes their parts. Darts that released more energy than
+/// they cost stay. The other darts are closed again. On a surface that is its own mirror image darts come in pairs:
+/// both stay, or both are closed.
 /// @param parts relaxed for this E
-/// @param price of a dart as long as the root of the surface's area, in energy
+/// @param price price, in energy, of a dart as long as the root of the surface's area
 void cut_darts(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context);
 
 }  // namespace koebe

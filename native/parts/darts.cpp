@@ -18,14 +18,15 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_darts = 16;   // at once
-constexpr double apart_by = 0.12;        // tips, in roots of the surface's area,
-constexpr double apart_in_part = 0.25;   // or of the part's, whichever is less
-constexpr double longest = 0.5;          // of a dart, in roots of the surface's area
+constexpr std::size_t most_darts = 16;   // opened together
+constexpr double apart_by = 0.12;        // distance of tips, in roots of the surface's area,
+constexpr double apart_in_part = 0.25;   // or in roots of the part's area; the smaller counts
+constexpr double longest = 0.5;          // length of a dart, in roots of the surface's area
 constexpr double price_of_one = 0.03;    // of a new dart, as a length
 constexpr double share_if_round = 0.25;  // of the foretold gain, if the dart begins at a loop that stays round
-constexpr double clear_of_round = 0.04;  // other darts, from loops that stay round, in roots of the surface's area
-constexpr double first_gap = 0.05;       // between the sides of a dart, over the least height of a face beside it
+constexpr double clear_of_round =
+    0.04;                           // least distance of other darts from round loops, in roots of the surface's area
+constexpr double first_gap = 0.05;  // between the sides of a dart, over the least height of a face beside it
 
 Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
@@ -50,7 +51,7 @@ SeamedMesh seamed(const FlatPart& flat)
     return mesh;
 }
 
-/// The way to the boundary from a vertex. @return none for a vertex on it, or from which none leads there
+/// The path from a vertex to the boundary. @return nothing if the vertex is on it, or if there is no path
 Dart shortest_dart(const Triangles& triangles, const PathTree& tree, Index tip)
 {
     Dart dart;
@@ -95,7 +96,7 @@ public:
     }
 
 private:
-    /// Of the faces from the edge to one neighbour counter-clockwise to that to another one, or to the boundary.
+    /// The force of the faces from the edge to one neighbour, counter-clockwise to another neighbour or the boundary.
     Complex pull_of_left(Index v, Index from, Index to) const
     {
         const Triangles& triangles = flat_.surface.triangles;

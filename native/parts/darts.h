@@ -13,30 +13,29 @@ namespace koebe {
 /// A path along edges from a vertex inside a part to its boundary.
 struct Dart {
     std::vector<Index> vertices;   ///< from the tip to the boundary
-    std::vector<Index> halfedges;  ///< each from a vertex to the next one, or back
+    std::vector<Index> halfedges;  ///< each between two successive vertices, in either direction
     double length = 0.0;           ///< on the surface
-    double gain = 0.0;             ///< energy that it releases, foretold
-    double cost = 0.0;             ///< less for a dart that lengthens another
+    double gain = 0.0;             ///< forecast of the energy that it releases
+    double cost = 0.0;             ///< in energy; less for a dart that lengthens another dart
 };
 
-/// The darts that may pay, some way apart. A dart is worth what its opening releases: with T the force by which the
-/// two sides of the path are pulled apart, summed along it, and Y = 8 t / (1 + t) the stiffness of E_t
-/// (relax/even_map.h) against being stretched one way, 2 T^2 / Y by the formula for a crack that runs in from the edge
-/// of a plate.
+/// The darts that may pay, at some distance from each other. Opening a dart releases about 2 T^2 / Y, as for a crack
+/// that runs in from the edge of a plate. T is the force that pulls the two sides of the path apart, summed along the
+/// path. Y = 8 t / (1 + t) is the stiffness of E_t (relax/even_map.h) against stretching in one direction.
 ///
-/// @param flat relaxed for this E @param forces at its corners
-/// @param price of a dart as long as the root of the surface's area, in energy
-/// @param refused (V) 1 for vertices that are no tips
+/// @param flat a part relaxed for this E @param forces the forces at its corners
+/// @param price price, in energy, of a dart as long as the root of the surface's area
+/// @param refused (V) 1 for vertices that must not be tips
 std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces, double even, double price,
                                   const std::vector<char>& refused);
 
-/// Opens darts, no two of which share a vertex. Vertices keep their numbers, second sides get new ones, and both sides
-/// are drawn a little apart.
-/// @return (V) the vertex that each vertex was; none, and nothing changed, if the darts cannot be opened
+/// Opens darts. No two darts share a vertex. One side of a dart keeps its vertices, and the other side gets new
+/// vertices. Both sides are drawn a little apart.
+/// @return (V) the vertex that each vertex was. None if the darts cannot be opened: then nothing changes
 std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<Dart>& darts);
 
-/// The dart that is nearest to each face on the surface; -1 where none is near. @param reach (darts) how far a dart
-/// counts
+/// For each face the dart nearest to it on the surface; -1 without a dart within reach. @param reach (darts) the
+/// distance up to which each dart counts
 std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach);
 
 }  // namespace koebe

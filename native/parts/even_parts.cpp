@@ -14,14 +14,14 @@
 namespace koebe {
 namespace {
 
-constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: what lies farther off is free
-constexpr double first_even = 0.02, least_even = 0.005;  // of the search for E
-constexpr EvenEffort search{.most_steps = 12};           // for one,
-constexpr EvenEffort look{4, 1, 8};                      // and for a first look:
-constexpr double clearly_worse = 1.02;                   // angles that are not tried on
-constexpr double step = 1.5;                             // from one to the next
-constexpr double even_with_darts = 0.1;                  // E, unless it is asked for,
-constexpr std::array less_even_with_darts{0.06, 0.03};   // or else with the same darts
+constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: vertices farther off are free
+constexpr double first_even = 0.02, least_even = 0.005;  // start and end of the search for E
+constexpr EvenEffort search{.most_steps = 12};           // for an E of the search, and before it for
+constexpr EvenEffort look{4, 1, 8};                      // a first look, which ends the trial if
+constexpr double clearly_worse = 1.02;                   // angles are worse by this factor
+constexpr double step = 1.5;                             // factor from one E to the next
+constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given,
+constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are then worse
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -118,7 +118,7 @@ public:
         return left;
     }
 
-    /// With darts first; if these do not serve, from one E to the next, as long as angles are no worse than at 0.
+    /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
     double relax_freely()
     {
         const double conformal = angles();

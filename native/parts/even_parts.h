@@ -1,4 +1,4 @@
-// Flat parts made more even, each by itself, between conformal and true to size.
+// Makes flat parts more even, each by itself, between conformal and true to size.
 #pragma once
 
 #include "core/map_options.h"
@@ -12,19 +12,19 @@
 namespace koebe {
 
 struct EvenOptions {
-    std::optional<double> even;  ///< E; none: one at which the mean angle error is no worse than that of the flat parts
-    LoopForm loops = LoopForm::round;  ///< whether vertices that are held stay on the circles and lines of their rims
-    double darts = 0.0;                ///< from 0, none, to 1, many
+    std::optional<double> even;  ///< E; without a value: an E at which the mean angle error is no worse than before
+    LoopForm loops = LoopForm::round;  ///< round: held vertices stay on the circles and lines of their rims
+    double darts = 0.0;                ///< from 0 (no darts) to 1 (many)
     int threads = 0;
 };
 
 struct EvenParts {
-    double even = 0.0;              ///< E
-    std::vector<std::size_t> left;  ///< parts that stay as they were, though asked for
+    double even = 0.0;              ///< the E of the parts
+    std::vector<std::size_t> left;  ///< parts that stay as they were, although E is not 0
 };
 
-/// Relaxes all parts (relax/even_map.h), and cuts darts into them (dart_rounds.h) unless E is 0; a part that is not one
-/// to one as it lies stays as it is.
+/// Relaxes all parts (relax/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. A part that is not one to
+/// one stays as it is.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
 }  // namespace koebe

@@ -26,9 +26,9 @@ namespace koebe {
 namespace {
 
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
-constexpr double rounded_edge = 1e-11;   // of the image's extent: shorter edges are rounding alone
-constexpr double most_image = 4.0;       // UV area of a part over its area: what even texels never need
-constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges tell nothing of a loop's course
+constexpr double rounded_edge = 1e-11;   // of the image's extent: shorter edges are only rounding
+constexpr double most_image = 4.0;       // UV area of a part over its area: even texels never need more
+constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges say nothing about a loop's course
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
 {
@@ -56,9 +56,9 @@ double longest_edge(const PlanarPoints& p, const Triangles& triangles, Eigen::In
     return longest;
 }
 
-/// UV area as area in the mean of u, what is outside the window of least overflow taken as at its ends: so parts that
-/// lie within their windows have one texel density. Faces that are too small to be told from rounding have none. A part
-/// whose even faces are a small piece of its image is not blown up for them: it would take the square from the others.
+/// Scales a part so that the mean of u is 0, with u cut off at the ends of the window of least overflow. So parts
+/// within their windows get one texel density. Faces as small as rounding do not count. A part whose even faces are
+/// only a small piece of its image is not enlarged for them: the other parts would lose too much room.
 void scale_evenly(const PartMesh& mesh, FlatPart& flat)
 {
     const Eigen::Index count = flat.surface.triangles.rows();
@@ -94,7 +94,7 @@ Index stored_flips(const Surface& surface, const PlanarPoints& uv)
     return count;
 }
 
-/// The inside of a disk again, with the boundary where the map has it: a Moebius map of the vertices alone bends faces.
+/// Makes the inside of a disk again with the boundary held: moving only the vertices by a Moebius map bends faces.
 PlanarPoints harmonic_again(const PartMesh& mesh, const VectorXcd& positions)
 {
     const Surface& surface = mesh.surface;
@@ -112,7 +112,7 @@ PlanarPoints harmonic_again(const PartMesh& mesh, const VectorXcd& positions)
     return points;
 }
 
-/// The vertices where the map has them, or harmonic again: with the fewer faces turned over, then the less angle error.
+/// The map's places, or harmonic places: whichever has fewer faces turned over, then less angle error.
 class DiskPoints {
 public:
     explicit DiskPoints(const PartMesh& mesh) : mesh_(mesh) {}
@@ -143,9 +143,8 @@ private:
     double error_ = 0.0;
 };
 
-/// Which vertices the part's loops have become; its angles made better, and rims at cuts let off their circles and
-/// lines.
-/// @param own vertex of the part, for each of the flat part
+/// Finds the rims of the part's loops, improves its angles, and frees rims at cuts from their circles and lines.
+/// @param own for each vertex of the flat part the vertex of the part
 void settle(const PartMesh& mesh, const std::vector<Index>& own, const FlatOptions& options, FlatPart& flat,
             ExecutionContext& context)
 {
@@ -167,7 +166,7 @@ void settle(const PartMesh& mesh, const std::vector<Index>& own, const FlatOptio
     flat.held = std::move(freedom.held);
 }
 
-/// Without a slit, and without points yet.
+/// The flat part without a slit, and without points yet.
 FlatPart unopened(const PartMesh& mesh)
 {
     FlatPart flat;
@@ -192,7 +191,7 @@ FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext&
     return flat;
 }
 
-/// Opened along its slit. @return no points if that cannot be
+/// The flat part opened along its slit. @return without points if it cannot be opened
 FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext& context)
 {
     FlatPart flat;

@@ -19,16 +19,16 @@ namespace {
 constexpr double most_lost = 0.005;      // of a part's area, in faces without area as stored
 constexpr double lost_anyway = 1e-5;     // of the surface's area: not worth a cut
 constexpr int most_halvings = 6;         // of one part
-constexpr double most_uneven = 2.0;      // overflow over area: of one map that can be painted on
-constexpr double worth_repairing = 1.2;  // of the parts' angle error: more than that repairs do not take off one map's
-constexpr double small_error = 1.0;      // degrees: nobody sees less
-constexpr double large_error = 10.0;     // degrees: of a surface so crumpled that a map not repaired tells little of it
-constexpr double most_worse = 0.5;       // overflow over area: what repairs may add
-constexpr double most_bent = 5.0, right_angle = 90.0;  // degrees of angle error: what repairs may add
-constexpr double clearly = 0.9;                        // of the parts' angle error: one map that has less is better
-constexpr std::size_t few_faces = 24;                  // a part of fewer is not cut
-constexpr std::size_t many_faces = 4000;               // a part of more is cut first if it has
-constexpr double most_turned = 0.01;                   // more of its faces turned over
+constexpr double most_uneven = 2.0;      // overflow over area: most for one map that can be painted on
+constexpr double worth_repairing = 1.2;  // one map's angle error over the parts': repairs do not remove more
+constexpr double small_error = 1.0;      // degrees: a smaller error is not seen
+constexpr double large_error = 10.0;     // degrees: the surface is crumpled, and a map without repairs says little
+constexpr double most_worse = 0.5;       // overflow over area that repairs may add
+constexpr double most_bent = 5.0, right_angle = 90.0;  // degrees of angle error that repairs may add
+constexpr double clearly = 0.9;                        // of the parts' angle error: one map with less is better
+constexpr std::size_t few_faces = 24;                  // a part with fewer faces is not cut
+constexpr std::size_t many_faces = 4000;               // a part with more faces is cut first if
+constexpr double most_turned = 0.01;                   // more of its faces are turned over
 
 /// @param slit (3F) half-edges of the whole
 void prefer_slits(PartMesh& part, const std::vector<char>& slit)
@@ -98,7 +98,7 @@ private:
     double side_;
 };
 
-/// What the overflow of the flat part is, in area times u.
+/// The overflow of the flat part, in area times u.
 double overflow_of(const FlatPart& flat, const VectorXd& areas)
 {
     const FlatDensity density = flat_density(flat, areas);
@@ -135,8 +135,8 @@ double summed_angle_error(const Vertices& vertices, const Triangles& triangles, 
     return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
 }
 
-/// Flips turned back, and what that has cost, if it is more than a part: the part may be far less even than the map
-/// that it was judged by, and bent.
+/// Turns flips back. Notes the cost of the repair if it is more than a part: the repaired part may be far less even
+/// than the map that judged it, and bent.
 void repair_and_judge(const Part& part, double part_price, FlatParts& as_one, ExecutionContext& context)
 {
     FlatPart& flat = as_one.parts.front();
@@ -152,8 +152,8 @@ void repair_and_judge(const Part& part, double part_price, FlatParts& as_one, Ex
 FlatParts laid_in_two(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
                       ExecutionContext& context, SplitEffort& effort);
 
-/// A part, cut in two where it has flaws, if that makes them fewer. One that is large and has many is cut first:
-/// repairs take long there, and rarely serve.
+/// Cuts a part with flaws in two, if that makes the flaws fewer. A large part with many flips is cut before it is
+/// repaired: repairs take long there, and rarely help.
 FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
                ExecutionContext& context, SplitEffort& effort)
 {
@@ -192,7 +192,7 @@ PlanarPoints points_of(const PartMap& map)
     return points;
 }
 
-/// Whether the map by which a piece was split says that as one map it loses much, is very uneven, or bends more.
+/// Whether the map by which a piece was split shows that as one map it loses much, is very uneven, or bends more.
 bool hopeless_as_one(const Part& root, double error)
 {
     const PartMap& map = root.map;
@@ -201,7 +201,7 @@ bool hopeless_as_one(const Part& root, double error)
     return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
 }
 
-/// A whole piece by the map that it was split by, if that has no flaws as stored; else as uniformize repairs it.
+/// A whole piece in the map by which it was split, if that has no flaws as stored; else as uniformize repairs it.
 FlatPart as_one_map(const CutSurface& whole, const Part* root, ExecutionContext& context)
 {
     if (root != nullptr && root->map.positions.size() > 0) {

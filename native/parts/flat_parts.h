@@ -1,4 +1,4 @@
-// The parts of a piece, flat: each is looked at as it will be stored, and cut in two where it has come out badly.
+// Lays the parts of a piece flat. Each part is checked as it will be stored, and cut in two if it has flaws.
 #pragma once
 
 #include "parts/flat_part.h"
@@ -9,11 +9,11 @@
 
 namespace koebe {
 
-/// What is wrong with flat parts as they are stored.
+/// The flaws of flat parts as they are stored.
 struct Flaws {
-    double lost = 0.0;    ///< area of faces without area, of parts where it is more than a part may lose
-    Index turned = 0;     ///< faces turned over, and parts whose boundary crosses itself
-    double spoilt = 0.0;  ///< area that repairs have cost texels or angles as much as if it were lost
+    double lost = 0.0;    ///< area of faces stored without area, in parts that lose more than a part may
+    Index turned = 0;     ///< number of faces turned over, plus parts whose boundary crosses itself
+    double spoilt = 0.0;  ///< damage to texels and angles by repairs, as the area whose loss would cost as much
 
     bool broken() const { return lost > 0.0 || turned > 0; }
     bool any() const { return broken() || spoilt > 0.0; }
@@ -24,17 +24,17 @@ struct FlatParts {
     Flaws flaws;
 };
 
-/// Side by side; of a mirror image one after the other, as each slit follows those before it. A part is judged by a map
-/// whose flipped faces have not been turned back, and by 64-bit numbers; one of which much is lost or overlaps when it
-/// lies as it is stored is cut in two across its length, as often as that helps.
-/// @param parts let go of, one by one
+/// Lays parts flat side by side. On a mirror image of itself one after the other, as slits follow earlier slits.
+/// The splitting judged each part in 64 bits, with its flipped faces. A part that loses much area or overlaps as it is
+/// stored is now cut in two across its length, as often as that helps.
+/// @param parts released one by one
 FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
                      const FlatOptions& options, int threads, ExecutionContext& context, SplitEffort& effort);
 
-/// A whole piece as one map, where that is usable and clearly better than its parts: coarse or crumpled
-/// surfaces have less angle error without cuts. Where it bends a little less, the parts are polished, their boundaries
-/// held.
-/// @param whole with a boundary @param root the map of the whole piece by which it was split; none if there is none
+/// The whole piece as one map, if that is usable and clearly better than its parts: coarse or crumpled surfaces have
+/// less angle error without cuts. If its angle error is only a little less, the parts are polished with their
+/// boundaries held.
+/// @param whole has a boundary @param root the map of the whole piece by which it was split, or null
 /// @return no part if the parts are better
 std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, FlatParts& parts,
                                       ExecutionContext& context);

@@ -13,15 +13,15 @@
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index most_faces = 30000;  // of a part all of which moves
-constexpr int rings = 12;                   // of a larger one
+constexpr Eigen::Index most_faces = 30000;  // most faces of a part that moves as a whole
+constexpr int rings = 12;                   // rings that move in a larger part
 constexpr int most_steps = 5;
-constexpr double worthwhile = 5e-3;         // relative fall of the angle error that another step is made for
+constexpr double worthwhile = 5e-3;         // relative fall of the angle error that is worth another step
 constexpr int halvings = 4;                 // of a step
 constexpr double tether = 0.2;              // eps
 constexpr double least_distortion = 0.3;    // |mu| at which a weight is taken, over the mean
 constexpr double least_face_height = 1e-2;  // of a face, over its longest edge
-constexpr double shortest_drawn = 1e-7;  // edges, over the part's extent: shorter ones tell nothing of a loop's course
+constexpr double shortest_drawn = 1e-7;     // over the part's extent: shorter edges say nothing about a loop's course
 
 /// f_zbar = sum zbar_k f_k and f_z = sum z_k f_k of a face's linear map.
 struct FaceWeights {
@@ -98,7 +98,7 @@ private:
 
     Index unknown(Index v) const { return unknown_[same_[v]]; }
 
-    /// Those near the rims, and which vertices move.
+    /// Finds the faces near the rims, and the vertices that move.
     void choose_faces(const Surface& surface, const RimFreedom& freedom)
     {
         const Triangles& triangles = surface.triangles;

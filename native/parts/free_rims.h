@@ -1,4 +1,4 @@
-// Rims at cuts, which follow the surface's edges.
+// Lets rims at cuts follow the surface's edges.
 #pragma once
 
 #include "core/types.h"
@@ -11,18 +11,18 @@ namespace koebe {
 
 /// Which vertices of a flat part may move.
 struct RimFreedom {
-    std::vector<Index> same;  ///< (V) vertices with one number move alike, which is that of the first of them
+    std::vector<Index> same;  ///< (V) vertices with the same number move alike: the number of the first of them
     std::vector<char> held;   ///< (V) 1 for vertices that stay
 };
 
-/// Makes the angle error less, rims at cuts free of their circles and lines. A cut runs in a zigzag along edges; put on
-/// a circle it bends the faces beside it. Minimizes sum |mu_f| + eps sum |d_v|^2 / h_v^2, mu_f = f_zbar / f_z of a
-/// face's linear map, d_v the way of a vertex, h_v its edges' length in the plane: any conformal map would do for the
-/// first sum, by the second a rim keeps its course, and only what few edges span changes. By least squares (as Levy,
-/// Petitjean, Ray and Maillot 2002), f_z taken from the map before, reweighted. Of a large part only some rings beside
-/// the rims that are free move.
+/// Lowers the angle error by freeing rims at cuts from their circles and lines. A cut is a zigzag of edges. On a circle
+/// it bends the faces beside it. Minimizes sum |mu_f| + eps sum |d_v|^2 / h_v^2, with mu_f = f_zbar / f_z of a face's
+/// linear map, d_v the way of a vertex, and h_v the length of its edges in the plane. The second sum keeps the course
+/// of a rim, and lets only details of a few edges change: the first sum alone has any conformal map as its minimum.
+/// Solved by reweighted least squares (Levy, Petitjean, Ray and Maillot 2002), with f_z of the last map. In a large
+/// part only some rings beside the free rims move.
 ///
-/// A step is taken if the mean angle error falls, no more faces are turned over and no more loop edges cross.
+/// A step is taken if the mean angle error falls, and neither flips nor crossings of loops become more.
 /// @param vertices (V, 3) @param points (V, 2), moved in place
 /// @throws Cancelled
 void free_rims(const Vertices& vertices, const Surface& surface, const RimFreedom& freedom, PlanarPoints& points,

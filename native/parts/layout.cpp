@@ -28,14 +28,14 @@
 namespace koebe {
 namespace {
 
-constexpr double own_piece = 0.25;      // of the area: a piece of less pays less for its parts,
-constexpr double small_piece = 0.01;    // and one of less than this pays in proportion to its area
+constexpr double own_piece = 0.25;      // of the area: in a smaller piece parts cost less,
+constexpr double small_piece = 0.01;    // and below this in proportion to the piece's area
 constexpr int rounds = 2;               // of splitting and merging
-constexpr double vain = 0.9;            // of the overflow: cuts that leave more of it are in vain
+constexpr double vain = 0.9;            // of the overflow: cuts that leave more are in vain
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
 
-/// Within the unit cube first, as areas of huge or tiny meshes are beyond the range of a double; then of area 1.
+/// Scales a mesh to area 1. First into the unit cube, as areas of huge or tiny meshes are beyond the range of a double.
 Vertices of_area_one(const Vertices& vertices, const Triangles& triangles)
 {
     const Eigen::RowVector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
@@ -48,7 +48,7 @@ Vertices of_area_one(const Vertices& vertices, const Triangles& triangles)
     return scaled / std::sqrt(area);
 }
 
-/// The mesh as it is, if it can be mapped so.
+/// The mesh itself as one piece, if it can be mapped directly.
 OpenedSurface strict_surface(const Vertices& vertices, const Triangles& triangles)
 {
     validate_arrays(vertices, triangles);
@@ -70,8 +70,8 @@ double overflow_of(const std::vector<PartPointer>& parts)
     return sum;
 }
 
-/// Split and merged, each with its map; as they were where cuts bring next to nothing, as between many tight holes.
-/// @param first faces of the parts to begin with; empty: one of all
+/// Splits and merges parts, and maps them. They stay as they were if cuts bring next to nothing, for example between
+/// many tight holes. @param first faces of the first parts; empty: one part with all faces
 std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::vector<Index>> first,
                                     const SplitOptions& options, ExecutionContext& context, SplitEffort& effort)
 {
@@ -87,7 +87,7 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
     return parts;
 }
 
-/// Where the parts of a large surface are decided on a coarse one. @return none if it is closed and stays whole
+/// Decides the parts of a large surface on a coarse surface. @return empty if it is closed and stays whole
 std::vector<PartPointer> parts_by_coarse_surface(const CutSurface& whole, const SplitOptions& options,
                                                  ExecutionContext& context, SplitEffort& effort)
 {
@@ -138,8 +138,8 @@ std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std:
     return slit;
 }
 
-/// Of each piece, its boundary edges that are cuts, as another boundary edge lies in the same place: by vertices of the
-/// input that stand for all of one place.
+/// The boundary edges of each piece that are cuts, because another boundary edge lies in the same place. One vertex of
+/// the input stands for all vertices of a place.
 class SeamPlaces {
 public:
     SeamPlaces(const OpenedSurface& opened, const Vertices& vertices)
@@ -183,9 +183,8 @@ private:
     std::unordered_set<std::uint64_t> border_;
 };
 
-/// What the parts of a piece cost. The price is for the whole surface: by it a small piece would never be split,
-/// however many of its faces are lost. Lengths of cuts are in roots of the whole's area, of which a small piece has
-/// little.
+/// The prices in a piece. The price is for the whole surface: with it a small piece would never be split, even if it
+/// lost all its faces. Lengths of cuts are in roots of the whole's area, so cuts of a small piece are short.
 /// @param area of the piece; that of the whole is 1
 SplitOptions prices_for(double area, double price, int threads)
 {
@@ -237,7 +236,7 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     const bool is_cut = parts.size() > 1;
     FlatParts flats = flat_parts(whole, mirror, parts, {prices.cut_price, prices.part_price, options.round_cuts},
                                  threads, context, effort);
-    // A part that was cut for its flaws has been looked at as one.
+    // A part that was cut for its flaws has been tried as one part.
     if (!is_large && (is_cut || flats.parts.size() == 1))
         if (auto one = better_as_one(stays_closed ? opened() : whole, root.get(), flats, context)) {
             flats.parts.clear();
@@ -292,7 +291,7 @@ bool is_turn_of(const Triangles& a, const Triangles& b, Index f)
     return false;
 }
 
-/// Left-out faces lie where the face is that they are like.
+/// Puts left-out faces where the face lies that they double.
 void place_left_out(const OpenedSurface& opened, PartsLayout& layout)
 {
     for (const LeftOutFace& face : opened.left_out) {

@@ -11,7 +11,7 @@ namespace koebe {
 namespace {
 
 constexpr double margin = 8.0 / 2048;  // between parts, in the unit square
-constexpr double rim_slack = 5e-5;     // by which a repair may move a rim there,
+constexpr double rim_slack = 5e-5;     // a repair may move a rim there by this,
 constexpr int packing_rounds = 4;      // before the part is packed again
 
 /// The part's loops, and its faces that are turned over: a fold may lie outside the loops. A tube's straight ends stay
@@ -27,7 +27,7 @@ Outline outline_of(const FlatPart& flat)
     return outline;
 }
 
-/// How far a vertex of the boundary has moved, at most.
+/// The largest way of a boundary vertex.
 double rim_moved(const FlatPart& flat, const PlanarPoints& from, const PlanarPoints& to)
 {
     double most = 0.0;

@@ -8,9 +8,9 @@
 
 namespace koebe {
 
-/// Into the unit square, and flips turned back there. Parts whose outline changes by that are packed once more; the
-/// last time they stay as they were.
-/// @param flats whose kinds and points may change @return (V, 2) of each, in [0, 1]^2
+/// Packs parts into the unit square, then turns flipped faces back there. If that changes an outline, all parts are
+/// packed again. In the last round a repair may not change an outline.
+/// @param flats their kinds and points may change @return for each part its points (V, 2) in [0, 1]^2
 /// @throws SolverError, Cancelled
 std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context);
 

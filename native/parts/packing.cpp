@@ -17,11 +17,11 @@
 namespace koebe {
 namespace {
 
-constexpr int least_side = 1024;           // cells of the square,
-constexpr double cells_an_island = 32.0;   // and at least as many, times the root of the number of islands
-constexpr double share_of_margins = 0.25;  // of an island's side at most, if all were equal squares
-constexpr double worth_a_turn = 0.999;     // of the area of the box
-constexpr std::size_t most_sides = 1000;   // of the hull, along which boxes are tried
+constexpr int least_side = 1024;           // cells along the square,
+constexpr double cells_an_island = 32.0;   // and at least this times the root of the number of islands
+constexpr double share_of_margins = 0.25;  // most margin, over an island's side if all were equal squares
+constexpr double worth_a_turn = 0.999;     // of the area of the box: a turn must make it smaller than this
+constexpr std::size_t most_sides = 1000;   // sides of the hull along which boxes are tried
 constexpr double next_scale = 0.95;        // times the last while nothing fits, by the share of what does,
 constexpr double least_factor = 0.8;
 constexpr int most_scales = 600;
@@ -217,8 +217,8 @@ private:
         return random_ >> 33;
     }
 
-    /// No larger one has room: each island takes at least its area, half the margin along its extent on both sides, and
-    /// a disk of the margin's width.
+    /// The largest scale that can have room: each island takes at least its area, half the margin along its extent on
+    /// both sides, and a disk of the margin's width.
     double largest_scale() const
     {
         double area = 0.0, along = 0.0, extent = 0.0;
@@ -232,7 +232,7 @@ private:
         return std::min((1.0 - margin_) / extent, 2.0 * rest / (along + std::sqrt(along * along + 4.0 * area * rest)));
     }
 
-    /// By falling area, in the first round after it by falling extent, then by areas with a random factor.
+    /// The order: first by falling area, then by falling extent, then by areas with random factors.
     std::vector<std::size_t> by_size(int round)
     {
         std::vector<double> size;
@@ -254,7 +254,7 @@ private:
                 step *= 0.5;
     }
 
-    /// Whether all find room at that scale; then it is the best one.
+    /// Whether all islands find room at that scale. If so, it becomes the best scale.
     bool fits(const std::vector<std::size_t>& order, Rule rule, double scale)
     {
         failed_ = 0;
@@ -283,7 +283,7 @@ private:
                 return false;
             }
             taken += drawn_[k][0].shape.cells();
-            // What lies lower is full for the next.
+            // Lower rows are full for the next island.
             from = is_many_ ? spots[k].y : std::max(0, spots[k].y - drawn_[k][0].shape.height / 2);
         }
         places_.clear();
@@ -340,7 +340,7 @@ private:
     double drawn_scale_ = 0.0, best_scale_ = 0.0;
     std::vector<IslandPlace> places_;
     std::size_t failed_ = 0;  // place in the order of the island that found no room
-    double room_ = 0.0;       // share of the islands' cells that found it, or would at most
+    double room_ = 0.0;       // share of the islands' cells that found room, or at most would
     std::uint64_t random_ = 1;
 };
 
@@ -350,7 +350,7 @@ Packing pack_islands(const std::vector<Outline>& outlines, double margin)
 {
     if (outlines.empty()) return {{}, 1.0, margin};
     for (const Outline& outline : outlines)
-        if (!outline.points.allFinite()) throw SolverError("an island to pack is not finite");
+        if (!outline.points.allFinite()) throw SolverError("an island to pack has a point that is NaN or infinite");
     return Packer(outlines, margin).pack();
 }
 

@@ -1,4 +1,4 @@
-// Islands into the unit square.
+// Packs islands into the unit square.
 #pragma once
 
 #include "core/api.h"
@@ -8,14 +8,14 @@
 
 namespace koebe {
 
-/// What an island covers: the inside of closed loops.
+/// The area that an island covers: the inside of closed loops.
 struct Outline {
     PlanarPoints points;
-    std::vector<VertexLoop> loops;  ///< an inner loop that runs against the outer one is a hole
-    bool along_axes = false;        ///< it lies along the axes already: quarter turns alone
+    std::vector<VertexLoop> loops;  ///< a loop that runs against the outer loop is a hole
+    bool along_axes = false;        ///< the island lies along the axes already: it gets only quarter turns
 };
 
-/// Where points go: offset + scale·turn·z.
+/// The place of an island: a point z goes to offset + scale·turn·z.
 struct IslandPlace {
     Complex turn = 1.0;
     Complex offset = 0.0;
@@ -23,21 +23,21 @@ struct IslandPlace {
 
 struct Packing {
     std::vector<IslandPlace> places;
-    double scale = 1.0;   ///< of all islands
-    double margin = 0.0;  ///< as it was kept
+    double scale = 1.0;   ///< the same for all islands
+    double margin = 0.0;  ///< the margin that was kept
 };
 
-/// Puts islands into the unit square, as large as it finds room for. None is mirrored. Each lies with its smallest
-/// enclosing rectangle along the axes, or as it lay along them. Outlines are drawn on a grid of cells, with half the
-/// margin round them, and the largest are placed first, each in the lowest place where its cells are free; smaller ones
-/// go into hollows and holes. Several orders and rules are tried, more where islands are few. All decisions are on
-/// integers: the result is the same on every system.
-/// @param margin between two islands, and half of it to the border, in units of the square; of many islands less, such
-/// that they have room
+/// Puts islands into the unit square, as large as it can. No island is mirrored. Each is turned so that its smallest
+/// enclosing rectangle lies along the axes, unless it lies along them already. Outlines are drawn on a grid of cells,
+/// with half the margin round them. Large islands are placed first, each in the lowest free place; small islands go
+/// into hollows and holes. Several orders and rules are tried, more for few islands. All decisions are on integers, so
+/// the result is the same on every system.
+/// @param margin distance of two islands, and twice the distance from the border, in sides of the square. Many islands
+/// get a smaller margin, so that they have room
 /// @throws SolverError points that are NaN or infinite
 Packing pack_islands(const std::vector<Outline>& outlines, double margin);
 
-/// Points (V, 2) of an island where it is placed.
+/// The points (V, 2) of an island, moved to its place.
 PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale);
 
 }  // namespace koebe

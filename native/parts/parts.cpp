@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* lower_price = "A lower price makes more parts, and more even ones";
 
-/// Of some faces, each corner a vertex of its own.
+/// Some faces, with a vertex for each corner.
 ComputedDistortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces)
 {
     const Eigen::Index count = static_cast<Eigen::Index>(faces.size());
@@ -78,7 +78,7 @@ void report_density(const PartsLayout& layout, const PlanarPoints& uv, const std
     }
 }
 
-/// The length of the edges whose faces do not meet in the UVs, for each further side.
+/// The length of edges whose faces do not meet in the UVs. An edge of more than two faces counts for each further face.
 double seam_length(const PartsLayout& layout, const std::vector<Index>& faces)
 {
     using Side = std::array<double, 6>;  // the edge's vertices and their UVs
@@ -108,7 +108,8 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     std::vector<Warning> warnings;
     if (!left_out.empty())
         warnings.push_back({WarningKind::collapsed_faces,
-                            counted(left_out.size(), "face") + " of no area or like another, in no part", left_out});
+                            counted(left_out.size(), "face") + " without area or doubling another face, in no part",
+                            left_out});
     warn_reoriented(layout.reoriented, warnings);
     if (!distortion.below_resolution.empty())
         warnings.push_back({WarningKind::below_resolution,
@@ -117,7 +118,7 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     if (distortion.flipped.size() > distortion.below_resolution.size()) {
         std::vector<Index> flipped;
         std::ranges::set_difference(distortion.flipped, distortion.below_resolution, std::back_inserter(flipped));
-        warnings.push_back({WarningKind::flipped, counted(flipped.size(), "face") + " flipped as 32-bit UVs", flipped});
+        warnings.push_back({WarningKind::flipped, counted(flipped.size(), "face") + " flipped in 32-bit UVs", flipped});
     }
     if (!layout.crossing.empty())
         warnings.push_back({WarningKind::not_one_to_one,
@@ -145,7 +146,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     PartsLayout layout = parts_layout(vertices, triangles, options, context);
-    const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report is true of it
+    const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
 
     PartsResult result;
     result.vertex_count = static_cast<Index>(vertices.rows());

@@ -14,8 +14,8 @@ namespace koebe {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-constexpr double price_of_turning = 2.0;  // of an edge across the strip, against one along it
-constexpr double chosen_share = 1e-4;     // of an edge's cost where the caller wants the slit
+constexpr double price_of_turning = 2.0;  // cost of an edge across the strip, over that of an edge along it
+constexpr double chosen_share = 1e-4;     // share of an edge's cost where the caller wants the slit
 
 /// The difference of two angles in (-pi, pi].
 double turn(double from, double to)

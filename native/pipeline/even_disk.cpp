@@ -74,7 +74,8 @@ void require_even_disk(double even, Index center)
 {
     require_even(even);
     if (even > 0.0 && center >= 0)
-        throw InputError("a map that is made more even keeps no vertex at the centre", ElementKind::vertices, {center});
+        throw InputError("even and center exclude each other: a more even map keeps no vertex at the centre",
+                         ElementKind::vertices, {center});
 }
 
 bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMap& map, ExecutionContext& context)

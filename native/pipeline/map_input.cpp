@@ -60,8 +60,8 @@ Index find_center(const MapInput& input, const UniformizeOptions& options, Index
 {
     if (options.center < 0) return -1;
     if (options.balance != Balance::none)
-        throw InputError("center and balance exclude each other: both choose the automorphism of the disk");
-    if (options.center >= vertex_count) throw no_place_for(options.center, "0", "there is none");
+        throw InputError("center and balance exclude each other: both choose the centre of the disk");
+    if (options.center >= vertex_count) throw no_place_for(options.center, "0", "it does not exist");
     const auto found = std::ranges::find(input.original, options.center);
     if (found == input.original.end()) throw no_place_for(options.center, "0", "it belongs to no face");
     const Index center = static_cast<Index>(found - input.original.begin());
@@ -88,7 +88,7 @@ VectorXd find_importance(const MapInput& input, const UniformizeOptions& options
 void require_importance(const UniformizeOptions& options, Index vertex_count)
 {
     if (options.importance.empty()) return;
-    if (options.balance != Balance::area) throw InputError("importance is of the balance: ask for balance too");
+    if (options.balance != Balance::area) throw InputError("importance needs balance area: it weighs the balance");
     if (options.importance.size() != static_cast<std::size_t>(vertex_count))
         throw InputError("there must be an importance for each vertex: " + std::to_string(vertex_count) + ", not " +
                          std::to_string(options.importance.size()));

@@ -44,9 +44,10 @@ Warning flap_warning(const MapInput& whole, const std::vector<Flap>& flaps)
         ++inner;
         if (!first) first = &flap;
     }
-    std::string text = counted(flaps.size(), "part") + " of " + counted(faces.size(), "face") +
-                       " in all, the first behind the edge " + std::to_string(whole.original[flaps[0].first]) + "-" +
-                       std::to_string(whole.original[flaps[0].last]) + ", hang on their loop by that edge alone: ";
+    std::string text = "hanging on a loop by one edge: " + counted(flaps.size(), "part") + " with " +
+                       counted(faces.size(), "face") + ", the first by the edge " +
+                       std::to_string(whole.original[flaps[0].first]) + "-" +
+                       std::to_string(whole.original[flaps[0].last]) + "; ";
     text += inner == 0 ? "drawn along the unit circle"
                        : counted(inner, "part") + " drawn inside their hole, with " + counted(rim, "vertex") +
                              " off the circle, the first " + std::to_string(whole.original[first->rim[0]]);
@@ -125,11 +126,12 @@ std::vector<Warning> circle_warnings(const CircleMap& map)
         if (!loops.empty()) warnings.push_back({kind, sentence + std::to_string(loops.size()), loops});
     };
     add(WarningKind::shrunk_circles,
-        "circles that met another made smaller, the mesh between them is too coarse: ", map.shrunk);
+        "circles made smaller because they met another circle, where the mesh is too coarse: ", map.shrunk);
     add(WarningKind::lost_circles,
-        "circles of no meaning, the loop too deep inside for rounding or the mesh around it too coarse: ", map.lost);
+        "circles without meaning, because the loop is too deep for rounding or the mesh around it too coarse: ",
+        map.lost);
     add(WarningKind::replaced_circles,
-        "loops on other circles than the iteration's, where on those faces would turn over: ", map.replaced);
+        "loops put on other circles, because faces would turn over on the circles of the iteration: ", map.replaced);
     return warnings;
 }
 
@@ -138,18 +140,18 @@ std::vector<Warning> input_warnings(const MapInput& whole)
     std::vector<Warning> warnings;
     if (const auto& unused = whole.surface.unused; !unused.empty())
         warnings.push_back({WarningKind::unused_vertices,
-                            "vertices of no face, put at the centre: " + std::to_string(unused.size()), unused});
+                            "vertices that belong to no face, put at the centre: " + std::to_string(unused.size()),
+                            unused});
     const auto& turned = whole.surface.reoriented;
-    warn_reoriented(
-        turned, warnings,
-        2 * turned.size() == static_cast<std::size_t>(whole.surface.triangles.rows())
-            ? "They are as many as the others: which side is the front follows from the numbers of the faces alone"
-            : "");
+    warn_reoriented(turned, warnings,
+                    2 * turned.size() == static_cast<std::size_t>(whole.surface.triangles.rows())
+                        ? "These are half of the faces: only the numbers of the faces decide which side is the front"
+                        : "");
     if (whole.thinnest < delicate)
         warnings.push_back(
             {WarningKind::thin_faces,
              "faces so thin that the last digits of their coordinates show in the map: turned or scaled, "
-             "the surface may get another one"});
+             "the surface may get another map"});
     return warnings;
 }
 
@@ -159,10 +161,10 @@ std::vector<Warning> iteration_warnings(const KoebeOutcome& outcome, bool no_cir
     if (outcome.raised_angles > 0)
         warnings.push_back(
             {WarningKind::no_flux, counted(static_cast<std::size_t>(outcome.raised_angles), "boundary vertex step") +
-                                       " without flux, kept apart by a least distance"});
+                                       " without flux: the vertices are kept apart by a least distance"});
     if (no_circles)
         warnings.push_back({WarningKind::no_circles,
-                            "the iteration led to no circles: these are such as fit a map of low angle error"});
+                            "the iteration led to no circles: these circles were fitted to a map of low angle error"});
     if (!outcome.converged)
         warnings.push_back({WarningKind::not_converged,
                             "not converged in " + counted(static_cast<std::size_t>(outcome.sweeps), "sweep")});
@@ -177,11 +179,12 @@ std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv
     for (const VertexLoop& loop : whole.loops) rim += loop.size();
     const std::size_t inside = whole.original.size() - rim;
     if (whole.loops.size() > 1 && static_cast<double>(inside) < coarse * static_cast<double>(rim))
-        warnings.push_back({WarningKind::coarse_mesh,
-                            "too coarse: " + counted(inside, "vertex") + " between the loops' " + std::to_string(rim) +
-                                ", so that faces reach from loop to loop and the map is far from conformal (mean angle "
-                                "error " +
-                                figure(distortion.angle_error_deg.mean) + " degrees); subdivide the mesh"});
+        warnings.push_back(
+            {WarningKind::coarse_mesh,
+             "too coarse: " + counted(inside, "vertex") + " inside and " + std::to_string(rim) +
+                 " on loops. Faces reach from loop to loop, and the map is far from conformal (mean angle "
+                 "error " +
+                 figure(distortion.angle_error_deg.mean) + " degrees). Subdivide the mesh"});
     if (!flaps.empty()) warnings.push_back(flap_warning(whole, flaps));
     std::vector<Index> freed;
     for (const Index v : untangled.freed) freed.push_back(whole.original[v]);
@@ -192,7 +195,7 @@ std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv
              counted(region.faces.size(), "face") + " around vertex " + std::to_string(whole.original[region.tip]) +
                  ", nearest to loop " + std::to_string(region.loop) +
                  ", shrank below the resolution of 32-bit UVs (edges from " + figure(region.shortest) + " to " +
-                 figure(region.extent) + "), " + counted(region.flipped, "face") + " of them to no area",
+                 figure(region.extent) + "), " + counted(region.flipped, "face") + " of them flipped",
              input_faces(whole, region.faces),
              region.faces.size() < limb ? "" : "A long limb does this: a seam or a hole near its end helps"});
     if (!untangled.tangled.empty())

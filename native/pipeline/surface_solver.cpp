@@ -29,8 +29,8 @@ SurfaceSolver::SurfaceSolver(const Vertices& vertices, const Triangles& triangle
     : impl_(std::make_unique<Impl>())
 {
     if (!options.vertex_names.empty() || !options.face_names.empty())
-        throw InputError("a surface that is mapped again goes by its own numbers");
-    if (options.engine != Engine::condensed) throw InputError("the mesh engine keeps nothing from map to map");
+        throw InputError("SurfaceSolver takes no vertex_names and no face_names");
+    if (options.engine != Engine::condensed) throw InputError("SurfaceSolver does not have the mesh engine");
     impl_->triangles = std::make_shared<const Triangles>(triangles);
     impl_->options = options;
     impl_->vertex_count = static_cast<Index>(vertices.rows());

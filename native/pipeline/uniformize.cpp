@@ -234,7 +234,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     if (out_of_place) {
         result.converged = false;
         result.warnings.push_back({WarningKind::out_of_place,
-                                   "the vertex for the centre could not be brought there without turning faces over",
+                                   "the vertex could not be moved to the centre without turning faces over",
                                    {options.center}});
     }
     if (not_even) warn_not_even({}, result.warnings);

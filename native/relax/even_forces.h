@@ -1,4 +1,4 @@
-// What each face counts in the energy of an even map, and how it pulls at its corners.
+// The energy of each face in an even map, and its forces at the corners.
 #pragma once
 
 #include "core/types.h"
@@ -10,11 +10,11 @@ namespace koebe {
 
 struct EvenForces {
     VectorXd energy;                           ///< (F) A ((s1^2 + s2^2) / (s1 s2) - 2 + t (s1 s2 + 1 / (s1 s2) - 2))
-    std::vector<std::array<Complex, 3>> pull;  ///< (F) less the energy's gradient by the places of the corners
+    std::vector<std::array<Complex, 3>> pull;  ///< (F) minus the gradient of the energy by the places of the corners
 };
 
 /// The terms of E_t (relax/even_map.h), face by face.
-/// @param vertices (V, 3) in the unit of the points @param triangles (F, 3) @param points (V, 2) no face turned over
+/// @param vertices (V, 3) in the unit of the points @param triangles (F, 3) @param points (V, 2) without flipped faces
 /// @param even E, 0 to 1
 EvenForces even_forces(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points, double even);
 

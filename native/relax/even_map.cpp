@@ -23,22 +23,22 @@ namespace {
 
 using Mobility = FoldoverProblem::Mobility;
 
-constexpr double longest_approach = 8.0;  // of a face's size to that of the surface, as areas,
-constexpr double few_far = 1e-3;          // until no more of the surface's area differs by more
-constexpr double nearer = 0.9;            // and as long as that, or the energy, becomes less by so much
-constexpr double much_less = 0.99;        // energy, for faces on their way to go on
+constexpr double longest_approach = 8.0;  // most ratio of a face's next area to its present area,
+constexpr double few_far = 1e-3;          // until the wanted sizes differ by more only on this share of the area
+constexpr double nearer = 0.9;            // and as long as this share, or the energy, falls to this
+constexpr double much_less = 0.99;        // the energy must fall to this, for faces to go on
 constexpr int steps_an_approach = 4;
 constexpr double settled = 5e-4;        // relative decrease of the energy
 constexpr int steps_a_round = 5;        // with the void,
 constexpr double settled_round = 1e-3;  // and the relative decrease of the energy at which they end
-constexpr double void_weight = 1e-3;    // of a face of the void, over a mean one of the surface
-constexpr double least_weight = 1e-3;   // of a face of the surface, over the mean
-constexpr double hopeless = 100.0;      // ratio of a face's stretches: one that has more of it weighs less
+constexpr double void_weight = 1e-3;    // weight of a face of the void, over a mean face of the surface
+constexpr double least_weight = 1e-3;   // weight of a face of the surface, over the mean
+constexpr double hopeless = 100.0;      // ratio of a face's stretches: above it a face weighs less
 constexpr std::size_t any_circle = 3;   // points lie on a circle wherever they are
 constexpr double least_gap = 1e-4;      // between loops, over the extent
 constexpr double rounding = 1.5e-7;     // twice the area a face can lose by 32-bit floats, over its edge and the extent
 constexpr double roomy = 1000.0;        // times that: a face as large is not hindered
-constexpr double shortest_drawn = 1e-7;  // edges, over the extent: shorter ones tell nothing of a loop's course
+constexpr double shortest_drawn = 1e-7;  // over the extent: shorter edges say nothing about a loop's course
 constexpr std::array grids{1 << 19, 1 << 20, 1 << 21, 1 << 22};  // points along the extent; 32-bit floats have 1 << 24
 
 double area(const CornerPlaces& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }
@@ -68,7 +68,7 @@ public:
                 mobility_[v] = Mobility::riding;
                 track_of_[v] = static_cast<int>(k);
             }
-        // All may be moved along, so one vertex stays.
+        // Otherwise the whole map could move, so one vertex stays.
         if (const auto free = std::ranges::find(mobility_, Mobility::free); free != mobility_.end())
             *free = Mobility::held;
     }
@@ -82,7 +82,7 @@ public:
         return apart(points, shortest_);
     }
 
-    /// By the surface alone, at first towards sizes that are not far from those it has (Liu, Ye, Ni and Fu 2018).
+    /// Minimizes without the void, at first towards sizes near the present sizes (Liu, Ye, Ni and Fu 2018).
     /// @return whether a loop was in the way
     bool relax_alone(EvenMap& result)
     {
@@ -301,13 +301,13 @@ private:
     FlatSurface flat_;
     double weight_, extent_;
     EvenEffort effort_;
-    double shortest_ = 0.0;  // edges that are looked at, in the unit of the points
+    double shortest_ = 0.0;  // edges that count, in the unit of the points
     int grid_ = 0;           // the coarsest on which loops are apart at first, and so after each step; 0: none
     ExecutionContext& context_;
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
     std::vector<int> track_of_;
-    const std::vector<Complex> none_;  // the periods of what has none
+    const std::vector<Complex> none_;  // for maps without periods
 };
 
 }  // namespace

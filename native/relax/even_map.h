@@ -1,4 +1,4 @@
-// Any one-to-one map of a surface into the plane, made more even: from conformal to true to size.
+// Makes a one-to-one map into the plane more even, from conformal to true to size.
 #pragma once
 
 #include "core/types.h"
@@ -13,54 +13,54 @@ namespace koebe {
 /// @throws InputError E is not from 0 to 1
 void require_even(double even);
 
-/// What a map is to be scaled by for its area to be the surface's. @param image_area of the map
+/// The factor by which to scale a map so that its area is the surface's area. @param image_area area of the map
 double scale_to_size(const Vertices& vertices, const Triangles& triangles, double image_area);
 
-/// What areas weigh against angles: t = E / (1.1 - E), 0 at the conformal end, 1/10 of E = 0.1, and 10 at E = 1.
+/// Weight of areas against angles: t = E / (1.1 - E). It is 0 at E = 0, 0.1 at E = 0.1, and 10 at E = 1.
 /// @param even E, 0 to 1
 double area_weight(double even);
 
-/// Vertices of a loop that stay on one circle or straight line, which moves.
+/// Vertices of a loop that stay on a circle or a straight line. The circle or line moves.
 struct RoundLoop {
     std::vector<Index> vertices;
     Track track;
 };
 
-/// A surface and its map. What is relaxed is the map alone.
+/// A surface and its map. Relaxing changes only the map: points, tracks of `round`, and periods.
 struct FlatSurface {
-    const Vertices& vertices;              ///< (V, 3) in the unit that the map is to have
+    const Vertices& vertices;              ///< (V, 3) in the unit of the wanted map
     const Triangles& triangles;            ///< (F, 3)
     const std::vector<VertexLoop>& loops;  ///< all boundary loops
-    PlanarPoints& points;                  ///< (V, 2) one to one
+    PlanarPoints& points;                  ///< (V, 2) the map, one to one
     std::vector<RoundLoop>& round;         ///< loops that are not free
-    /// Of a tile: how many of each period are added to the places of a face's corners, and the periods, which are
-    /// relaxed too. Its loops are holes, of which no edge is lifted.
+    /// Only for tiles: how many of each period to add at the corners of faces, and the periods, which are relaxed too.
+    /// All loops of a tile are holes. No edge of a loop is lifted.
     CornerLifts lift = {};
     std::vector<Complex>* periods = nullptr;
-    /// Refuses steps that leave the domain, as where circles would meet; empty: no step.
+    /// Refuses steps that leave the domain, for example if circles would meet; empty: refuses no step.
     std::function<bool(const FoldoverPlaces&)> refuses = {};
 };
 
 struct EvenEffort {
-    int most_steps = 60;     ///< of Newton's method at the end, when all faces are near their size
-    int most_rounds = 20;    ///< with the void, where loops would cross
-    int most_in_all = 1000;  ///< Newton steps, before the void takes part
+    int most_steps = 60;     ///< Newton steps at the end, when all faces are near their size
+    int most_rounds = 20;    ///< rounds with the void, if loops would cross
+    int most_in_all = 1000;  ///< Newton steps without the void
 };
 
 struct EvenMap {
     bool moved = false;
     int iterations = 0;  ///< Newton steps
-    int rounds = 0;      ///< of them with the void, which is triangulated anew for each
+    int rounds = 0;      ///< rounds with the void, triangulated anew in each round
 };
 
-/// Minimizes E_t = sum A ((s1^2 + s2^2) / (s1 s2) - 2 + t (s1 s2 + 1 / (s1 s2) - 2)) over the faces, s1 and s2 the
-/// singular values of the face's map and A its area: angles by the first term (Hormann and Greiner 2000), areas by the
-/// second (Degener, Meseth and Klein 2003). No step turns a face over, lets circles of round loops meet, or lets a loop
-/// cross itself or another: where one would, the void around the map and in its holes is triangulated and takes part,
-/// each of its faces to keep its shape (Jiang, Schaefer and Panozzo 2017).
+/// Minimizes E_t = sum A ((s1^2 + s2^2) / (s1 s2) - 2 + t (s1 s2 + 1 / (s1 s2) - 2)) over the faces. s1 and s2 are the
+/// singular values of a face's map, and A is its area. The first term measures angles (Hormann and Greiner 2000), the
+/// second areas (Degener, Meseth and Klein 2003). No step turns a face over, makes circles of round loops meet, or
+/// makes loops cross. If a step would make loops cross, the void around the map and in its holes is triangulated and
+/// takes part: its faces want to keep their shapes (Jiang, Schaefer and Panozzo 2017).
 ///
 /// A map that is not one to one to begin with is left as it is.
-/// @param extent of the square that the points are stored in as 32-bit floats, in their unit
+/// @param extent side of the square in which the points are stored as 32-bit floats, in the unit of the points
 /// @throws Cancelled
 EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,
                   const EvenEffort& effort = {});

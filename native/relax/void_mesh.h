@@ -8,13 +8,13 @@
 namespace koebe {
 
 struct VoidMesh {
-    PlanarPoints points;  ///< (V + n, 2) the surface's, the four corners of the frame, and those of the void alone
-    Triangles triangles;  ///< counter-clockwise, of the void alone
+    PlanarPoints points;  ///< (V + n, 2) points of the surface, four corners of the frame, other points of the void
+    Triangles triangles;  ///< triangles of the void only, counter-clockwise
 };
 
-/// A frame round the surface, and all between it and the loops, and inside of inner loops.
-/// @param loops simple and apart; the one that encloses most is the outer one
-/// @throws InputError if they are not
+/// Triangulates the space between a frame and the outer loop, and the inside of each inner loop.
+/// @param loops simple and apart; the loop that encloses most is the outer loop
+/// @throws InputError loops that are not simple, or not apart
 VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points);
 
 }  // namespace koebe

@@ -67,14 +67,13 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
             {WarningKind::no_circles, "circles of the handles meet each other or a hole: the UVs are cut along edges"});
     else if (const auto unequal = std::ranges::count_if(result.handles, unequal_circles);
              unequal > 0 && normalization == SchottkyNormalization::circles)
-        result.warnings.push_back({WarningKind::no_circles, "equal circles have no room in any position that was "
-                                                            "tried: those of " +
-                                                                counted(static_cast<std::size_t>(unequal), "handle") +
-                                                                " differ"});
+        result.warnings.push_back({WarningKind::no_circles, "no position with room for equal circles was found: "
+                                                            "the two circles differ for " +
+                                                                counted(static_cast<std::size_t>(unequal), "handle")});
     if (std::ranges::any_of(result.handles, [](const SchottkyHandle& handle) { return handle.misfit > large_misfit; }))
         result.warnings.push_back({WarningKind::coarse_mesh,
-                                   "the sides of a handle's cut miss each other by half of their radius and more: the "
-                                   "faces are too large there"});
+                                   "the two sides of a handle's cut miss each other by half their radius or more: the "
+                                   "faces there are too large"});
     std::vector<Index> off_circle;
     for (const SchottkyHole& hole : result.holes)
         off_circle.insert(off_circle.end(), hole.off_circle.begin(), hole.off_circle.end());
@@ -142,8 +141,8 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
         handle.outer = j == plane.outer_handle;
         handle.misfit = plane.misfit[j];
         if (std::min(handle.circles[0].radius, handle.circles[1].radius) < least_circle)
-            throw SolverError("a handle is too long beside its girth for a plane: rounding loses its end",
-                              ElementKind::vertices, handle.cut);
+            throw SolverError("a handle is too long for its girth: rounding loses its end", ElementKind::vertices,
+                              handle.cut);
     }
     result.turned = surface.reoriented;
     result.sweeps = static_cast<int>(best.map.changes.size());
@@ -180,8 +179,7 @@ SchottkyResult schottky_map_here(const Vertices& vertices, const Triangles& tria
         if (result.converged)
             result.warnings.push_back(
                 {WarningKind::no_circles,
-                 "where equal circles have room the map is not one to one: this is the one of the "
-                 "least area distortion"});
+                 "the map with equal circles is not one to one: this is the map of least area distortion instead"});
     }
     take_verdict({.most_lost = options.most_lost}, result);
     return result;

@@ -194,8 +194,8 @@ void require_own_circles(const std::vector<LoopReport>& loops)
     if (!shrunk.empty())
         throw InputError(
             "the circles of " + std::to_string(shrunk.size()) +
-                " loops are not those of the surface, as the mesh is too coarse for them or they are lost in "
-                "rounding: there is no conformal module (loops listed, the outer one is 0)",
+                " loops say nothing about the surface, because the mesh is too coarse or rounding loses them: "
+                "there is no conformal module (loops listed, 0 is the outer loop)",
             ElementKind::loops, shrunk);
 }
 

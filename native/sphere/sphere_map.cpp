@@ -243,16 +243,16 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
     std::erase_if(unused, [&](Index v) { return std::ranges::binary_search(domain.original, v); });
     if (!unused.empty())
         result.warnings.push_back({WarningKind::unused_vertices,
-                                   counted(unused.size(), "vertex") + " of no face put at (0, 0, 1)",
+                                   counted(unused.size(), "vertex") + " without a face, put at (0, 0, 1)",
                                    std::move(unused)});
     if (domain.loops.empty() && !map.converged)
         result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
     if (drawn)
         result.warnings.push_back(
-            {WarningKind::coarse_mesh, "too few faces to be spread evenly over the sphere: they were drawn together"});
+            {WarningKind::coarse_mesh, "too few faces to spread them evenly over the sphere: they lie close together"});
     else if (opened)
         result.warnings.push_back(
-            {WarningKind::coarse_mesh, "faces of the balanced map turn over: one opened at a vertex is in its place"});
+            {WarningKind::coarse_mesh, "faces of the balanced map turn over: a map opened at a vertex replaces it"});
     else if (!balanced)
         result.warnings.push_back({WarningKind::not_converged,
                                    "no even spread over the sphere was found: half of the surface shrinks to a point"});

@@ -1,4 +1,4 @@
-// Closed surfaces, cut in two in place of the slit that opens them.
+// Cuts closed surfaces in two. This replaces the slit that opens them.
 #pragma once
 
 #include "cut/open_surface.h"
@@ -9,13 +9,14 @@
 
 namespace koebe {
 
-/// A piece that was opened by a slit alone, closed again. Vertices are the piece's, those that the slit has doubled
-/// under one of their numbers.
-/// @param vertices (V') of the piece @return none if it has another boundary, or handles
+/// Closes a piece that was opened only by a slit. Vertices keep the piece's numbers. Of two vertices that the slit made
+/// out of one, one number stays.
+/// @param vertices (V') of the piece @return nothing if the piece has another boundary, or handles
 std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertices& vertices,
                                          const std::vector<Index>& polygon);
 
-/// The pieces that halving (halving.h) cuts it into. @return faces of each, rising; none if no curve was found
+/// The two pieces of a closed surface (halving.h). @return the faces of each piece, ascending; empty if no curve was
+/// found
 std::vector<std::vector<Index>> halves(const CutSurface& closed);
 
 }  // namespace koebe

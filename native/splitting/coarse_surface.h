@@ -11,12 +11,12 @@ namespace koebe {
 struct CoarseSurface {
     Vertices vertices;
     Triangles triangles;
-    std::vector<Index> face;       ///< of the fine surface, which each face was
-    std::vector<Index> vertex_at;  ///< (V) the vertex of the coarse surface to which each of the fine one was drawn
+    std::vector<Index> face;       ///< for each coarse face the fine face from which it came
+    std::vector<Index> vertex_at;  ///< (V) for each fine vertex the coarse vertex that it was moved to
 };
 
-/// The edges collapsed by which vertices are drawn least far, until so many faces are left or none can go: no face
-/// turned over, the topology and the number of loops kept (OpenMesh's collapse).
+/// Collapses edges (OpenMesh), those first that move vertices least, until `faces` are left or no edge can go. Never
+/// turns a face over. Keeps the topology and the number of loops.
 CoarseSurface coarse_surface(const CutSurface& whole, Index faces, ExecutionContext& context);
 
 }  // namespace koebe

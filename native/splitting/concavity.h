@@ -5,9 +5,9 @@
 
 namespace koebe {
 
-/// Mean curvature at the scale of a radius, by the bends of the edges, averaged over the vertices within about the
-/// radius by diffusion: above 0 where the surface bulges, below 0 where it is hollow, in the inverse of the surface's
-/// unit. The side to which most of its area looks away from its middle is the outer one.
+/// Mean curvature at the scale of a radius: the bends of the edges, averaged within about the radius by diffusion.
+/// Positive where the surface bulges, negative where it is hollow. Unit: the inverse of the surface's unit. The outer
+/// side is the side on which most of the area faces away from the surface's middle.
 /// @param radius in the surface's unit @return (V)
 VectorXd mean_curvature(const CutSurface& whole, double radius);
 

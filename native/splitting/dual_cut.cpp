@@ -41,8 +41,8 @@ void add_edge(Graph& graph, Index a, Index b, double capacity)
     boost::put(boost::edge_reverse, graph, back, forth);
 }
 
-/// Which faces go to one side together: those of one polygon, and those round a loop unless some of them are given to
-/// either side. Their sides become the same.
+/// Groups of faces that stay on one side: the faces of a polygon, and the faces round a loop, unless `sides` has both
+/// sides there. Gives the faces of a group the same side.
 class Groups {
 public:
     Groups(const PartMesh& part, std::vector<Side>& sides) : sides_(sides), parent_(sides.size())

@@ -77,7 +77,7 @@ std::vector<Index> pieces_by_label(const CutSurface& whole, const std::vector<in
     return piece;
 }
 
-/// By edges. @param faces rising
+/// Whether edges connect the faces. @param faces ascending
 bool are_connected(const CutSurface& whole, const std::vector<Index>& faces)
 {
     std::vector<char> open(static_cast<std::size_t>(whole.areas.size()), 0);
@@ -93,7 +93,8 @@ bool are_connected(const CutSurface& whole, const std::vector<Index>& faces)
     return queue.size() == faces.size();
 }
 
-/// Pieces beside the largest of their label go to the neighbour with the longest border, the smallest first.
+/// Of each label only the largest piece stays. The others go to the neighbour with the longest border, the smallest
+/// first.
 void join_pieces(const CutSurface& whole, std::vector<int>& label, int count)
 {
     for (std::size_t round = 0; round < label.size(); ++round) {
@@ -140,7 +141,7 @@ std::vector<int> fine_labels(const CutSurface& whole, const CoarseSurface& coars
         std::vector<Index> faces;
         for (std::size_t f = 0; f < fine.size(); ++f)
             if (fine[f] == pair.first || fine[f] == pair.second) faces.push_back(static_cast<Index>(f));
-        if (faces.empty() || !are_connected(whole, faces)) continue;  // a border that was drawn before has parted them
+        if (faces.empty() || !are_connected(whole, faces)) continue;  // an earlier border has separated them
         const PartMesh both = some_or_all(whole, std::move(faces));
         std::vector<Side> sides;
         for (const Index f : both.faces)

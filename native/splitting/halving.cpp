@@ -14,7 +14,7 @@ namespace {
 
 constexpr double least_half = 0.35;  // of the area
 
-/// By path along the edges; no number where no path leads.
+/// Lengths of paths along edges; -1 without a path.
 std::vector<double> distances(const EdgeGraph& graph, Index from)
 {
     std::vector<double> distance = shortest_paths(graph, {from}).distance;

@@ -7,9 +7,9 @@
 
 namespace koebe {
 
-/// The shortest curve between the 35 % and the 65 % of the area that are nearest the two ends of the part, which are
-/// vertices far apart. It asks no map, so it helps where a map says nothing.
-/// @return (F) 1 on one side, 0 on the other; empty if no curve was found, as polygons may stand in the way
+/// Takes two vertices far apart as the ends. Cuts along the shortest curve that leaves at least 35 % of the area on
+/// each side, where faces are ordered from end to end. Needs no map, so it helps where the map is useless.
+/// @return (F) 1 on one side, 0 on the other; empty if no curve was found: polygons can be in the way
 std::vector<int> halving(const PartMesh& part);
 
 }  // namespace koebe

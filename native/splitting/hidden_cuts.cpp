@@ -17,14 +17,14 @@
 namespace koebe {
 namespace {
 
-constexpr double scale = 0.03;      // of the root of the area: of hollows that count
-constexpr double band = 0.08;       // of the root of the area: half the width in which a cut may move
-constexpr double least_core = 0.6;  // of a part's area: what stays in it
+constexpr double scale = 0.03;      // size of the hollows that count, in roots of the area
+constexpr double band = 0.08;       // half the width in which a cut may move, in roots of the area
+constexpr double least_core = 0.6;  // of a part's area: at least this stays in the part
 constexpr double strength = 0.5;    // log of the factor on an edge's length, for a standard deviation of the curvature
 constexpr double most_deviation = 1.5;  // standard deviations that count
-constexpr double worthwhile = 0.98;     // of the border's length with the factors
-constexpr double small_price = 0.1;     // of a part, that a cut better hidden may cost
-constexpr double longest = 1.02;        // of the border, over its length before
+constexpr double worthwhile = 0.98;     // weighted length of a border, over that before
+constexpr double small_price = 0.1;     // of a part's price: most that hiding a cut may cost
+constexpr double longest = 1.02;        // length of a border, over its length before
 
 /// Distance of each face from the border, from middle to middle; the nearest first. @param label (F) 0 and 1
 std::vector<double> border_distance(const PartMesh& both, const std::vector<int>& label)
@@ -124,7 +124,7 @@ BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, cons
     return cost;
 }
 
-/// Whether some edge is between them: a border that was moved before may have parted them.
+/// Whether the parts share an edge: an earlier move may have separated them.
 bool are_neighbours(const CutSurface& whole, const Part& a, const Part& b)
 {
     return std::ranges::any_of(a.mesh.faces, [&](Index f) {
@@ -136,7 +136,7 @@ bool are_neighbours(const CutSurface& whole, const Part& a, const Part& b)
     });
 }
 
-/// The two parts with their border elsewhere; none if that is no better.
+/// The two parts with a new border; empty if that is no better.
 std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const SplitOptions& options,
                                                  const VectorXd& curvature, const Part& a, const Part& b,
                                                  ExecutionContext& context, SplitEffort& effort)
@@ -202,7 +202,8 @@ Borders longest_borders(const CutSurface& whole, const std::vector<PartPointer>&
     return borders;
 }
 
-/// Those that share no part with one before them, taken out: side by side they give what one after the other would.
+/// Takes out the borders that share no part with an earlier border. Done side by side, their result is the same as one
+/// after the other.
 Borders next_borders(Borders& borders)
 {
     std::set<int> taken;

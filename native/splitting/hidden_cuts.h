@@ -1,4 +1,4 @@
-// Cuts moved to where they are less seen.
+// Moves cuts to places where they are seen less.
 #pragma once
 
 #include "splitting/splitting.h"
@@ -7,9 +7,9 @@
 
 namespace koebe {
 
-/// Cuts each border between two parts anew: the minimum cut within a band round it, edges in hollows counting as
-/// shorter and those on ridges as longer. Kept where the parts stay as many, with as many loops each, and cost no more
-/// than before but for a small share of a part's price. @param parts each with a map of its own
+/// Replaces each border between two parts by a minimum cut within a band round it. Edges in hollows count as shorter,
+/// and edges on ridges as longer. A new border stays if the numbers of parts and of their loops stay, and if the cost
+/// rises by at most a small share of a part's price. @param parts each has a map of its own
 void hide_cuts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                ExecutionContext& context, SplitEffort& effort);
 

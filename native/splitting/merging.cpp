@@ -10,14 +10,14 @@
 namespace koebe {
 namespace {
 
-constexpr double worth_mapping = -0.25;  // of a part's price: predicted gains from which on the map is made
+constexpr double worth_mapping = -0.25;  // of a part's price: with a larger predicted gain the merged part is mapped
 constexpr std::size_t most_at_once = 4;  // merges tried side by side, for any number of threads
-constexpr std::size_t few = 20;          // faces: a part of fewer is a crumb, and
-constexpr std::size_t small = 400;       // one of fewer than the whole has over this
-constexpr double crumb_worth = 4.0;      // prices of a part, beside that and its cut's: a crumb that saves more stays
-constexpr double sure = 0.5;             // of price and forecast: a gain that needs no map to be sure of
+constexpr std::size_t few = 20;          // a part with fewer faces is a crumb, and
+constexpr std::size_t small = 400;       // a part with less than one face in so many of the whole
+constexpr double crumb_worth = 4.0;      // prices of a part: a crumb stays if it saves more, beside its own price
+constexpr double sure = 0.5;             // of price and forecast: a larger gain needs no map
 
-/// The smallest part that both come from.
+/// The smallest part from which both parts come.
 std::shared_ptr<const Part> common_origin(const Part& a, const Part& b)
 {
     std::set<const Part*> origins;
@@ -43,7 +43,7 @@ std::map<std::pair<int, int>, double> borders(const CutSurface& whole, const std
     return result;
 }
 
-/// Both as one part, not mapped yet; none if they are all of a closed surface.
+/// Both parts as one, not mapped yet; empty if they are all faces of a closed surface.
 PartPointer joined(const CutSurface& whole, const Part& a, const Part& b, std::shared_ptr<const Part> origin)
 {
     std::vector<Index> faces = a.mesh.faces;
@@ -55,13 +55,13 @@ PartPointer joined(const CutSurface& whole, const Part& a, const Part& b, std::s
     return both;
 }
 
-/// What both cost, and their being two.
+/// The cost of both parts, and the price of having two.
 double cost_apart(const Part& a, const Part& b, double border, const SplitOptions& options)
 {
     return a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
 }
 
-/// Both as one part, if that is the better: parts of the two halves of a closed surface, which have no common origin.
+/// Both parts as one, if that is better. For parts of the two halves of a closed surface: they have no common origin.
 PartPointer merged_halves(const CutSurface& whole, const Part& a, const Part& b, double saved,
                           ExecutionContext& context, SplitEffort& effort)
 {
@@ -71,7 +71,7 @@ PartPointer merged_halves(const CutSurface& whole, const Part& a, const Part& b,
     return both->map.overflow < saved ? both : PartPointer{};
 }
 
-/// Both as one part, if that is the better.
+/// Both parts as one, if that is better.
 PartPointer merged(const CutSurface& whole, const SplitOptions& options, const Part& a, const Part& b, double border,
                    ExecutionContext& context, SplitEffort& effort)
 {
@@ -87,7 +87,7 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
         }
     }
     if (origin->map.measured && std::ranges::count(piece, 0) == static_cast<std::ptrdiff_t>(piece.size())) {
-        // The cut is taken back that was made there, and not made again.
+        // The cut that was made there is taken back, and not made again.
         if (!(origin->map.overflow < saved)) return {};
         return std::make_shared<Part>(Part{origin->mesh, origin->map, origin->parent, true});
     }
@@ -95,7 +95,8 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
     if (forecast.lost_area > 0.0 || saved - forecast.overflow < worth_mapping * options.part_price) return {};
     PartPointer both = joined(whole, a, b, origin);
     if (saved - forecast.overflow > sure * (options.part_price + forecast.overflow)) {
-        both->map = restricted_map(origin->mesh, origin->map, both->mesh);  // mapped when no more comes to it
+        both->map =
+            restricted_map(origin->mesh, origin->map, both->mesh);  // mapped when nothing more is merged into it
         if (both->map.overflow < saved) return both;
     }
     map_anew(whole, *both, context, effort);
@@ -111,7 +112,7 @@ bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
         PartPointer a, b;
         double border;
     };
-    std::map<std::pair<PartPointer, PartPointer>, PartPointer> tried;  // with what came of it, perhaps nothing
+    std::map<std::pair<PartPointer, PartPointer>, PartPointer> tried;  // with the result, perhaps empty
     const auto try_all = [&](const std::vector<Candidate>& wave) {
         std::vector<PartPointer> results(wave.size());
         std::vector<SplitEffort> efforts(wave.size());
@@ -137,7 +138,7 @@ bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
             context.checkpoint();
             const auto& [a, b, border] = order[i];
             if (!tried.contains({a, b})) {
-                // With the next ones that have no part in common: what comes of them stays true.
+                // Together with the next pairs that share no part: their results stay valid.
                 std::vector<Candidate> wave;
                 std::set<PartPointer> taken;
                 for (std::size_t k = i; k < order.size() && wave.size() < most_at_once; ++k) {

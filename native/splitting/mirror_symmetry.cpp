@@ -15,8 +15,8 @@
 namespace koebe {
 namespace {
 
-constexpr double worth = 1.5;    // of what the parts cost: symmetric ones may cost so much,
-constexpr double little = 0.03;  // or so much more: the whole area 3 % off in texel density, which nobody sees
+constexpr double worth = 1.5;    // symmetric parts may cost this times as much,
+constexpr double little = 0.03;  // or this much more: a texel density that is 3 % off everywhere, which nobody sees
 
 double border_of(const CutSurface& whole, const std::vector<PartPointer>& parts)
 {
@@ -38,7 +38,7 @@ double cost_of(const CutSurface& whole, const SplitOptions& options, const std::
     return cost;
 }
 
-/// Sets of faces: those of one side as they are in parts, and their images.
+/// Sets of faces: the parts of one side, and their images.
 std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mirror& mirror,
                                                const std::vector<PartPointer>& parts, double chosen)
 {

@@ -75,7 +75,7 @@ double tube_overflow(const MapSample& sample, const Circle& circle)
     return u.allFinite() ? rough_overflow(u, sample.areas) : lost_cost * sample.areas.sum();
 }
 
-/// @param loops of the piece, the outer one first
+/// @param loops loops of the piece, the outer loop first
 void judge(MapSample sample, const std::vector<PieceLoop>& loops, PieceForecast& forecast)
 {
     const double known = forecast.area - forecast.lost_area;

@@ -1,4 +1,4 @@
-// What the map of a part says of its pieces, without their meshes.
+// Forecasts the maps of a part's pieces from the part's map, without making their meshes.
 #pragma once
 
 #include "evenness/part_map.h"
@@ -8,13 +8,14 @@
 namespace koebe {
 
 struct PieceForecast {
-    double area = 0.0, overflow = 0.0, lost_area = 0.0;  ///< as of PartMap
+    double area = 0.0, overflow = 0.0, lost_area = 0.0;  ///< as in PartMap
     double off_round = 0.0;                              ///< the largest deviation of a loop from its circle, in radii
 };
 
-/// Circles stay circles, so up to a Moebius map a piece's map is the part's. Each piece is judged as a disk, its outer
-/// loop on the unit circle, at the even_pole of some of its faces, and of two loops as a tube.
-/// @param piece (F) of the part's faces, from 0 to count, each connected by edges; -1: in none
+/// Circles stay circles, so the part's map is the piece's map up to a Moebius map. Each piece is judged as a disk: its
+/// outer loop on the unit circle, at the even_pole of some of its faces. A piece with two loops is also judged as a
+/// tube.
+/// @param piece (F) the piece of each face, from 0 to count, connected by edges; -1: in no piece
 std::vector<PieceForecast> forecast_pieces(const PartMesh& part, const PartMap& map, const std::vector<Index>& piece,
                                            Index count);
 

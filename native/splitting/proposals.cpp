@@ -97,7 +97,7 @@ Proposal propose(const PartMap& map, const Window& window)
     return proposal;
 }
 
-/// Where the map shrinks most, in each of the pieces that are smaller than the window allows; the costliest first.
+/// The places where the map shrinks most, in each piece below the window; the costliest piece first.
 std::vector<Complex> tips(const PartMesh& part, const PartMap& map, const Window& window)
 {
     std::vector<int> label(part.faces.size());
@@ -139,7 +139,7 @@ std::vector<Side> sides_of(const LogPolar& polar, double from, double until, dou
     return sides;
 }
 
-/// What tubes are proposed about.
+/// A point about which tubes are proposed.
 struct Axis {
     Complex about;
     int hole = -1;  ///< its loop, if it is a hole

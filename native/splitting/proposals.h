@@ -1,4 +1,4 @@
-// Where a part could be cut.
+// Proposes cuts of a part.
 #pragma once
 
 #include "evenness/part_map.h"
@@ -11,12 +11,12 @@ namespace koebe {
 
 struct Proposal {
     std::vector<Side> sides;  ///< (F) for minimum_cut
-    double area = 0.0;        ///< of what is to be even
+    double area = 0.0;        ///< area of the faces that are to be even
     const char* kind = "";
 };
 
-/// Windows of u, whose largest piece is to be an even disk; about tips and holes, in log polar coordinates, tubes, and
-/// circles at their outer ends. @param threads as in side_by_side
+/// Proposes even disks: the largest piece of a window of u. Proposes tubes, in log polar
+/// coordinates about tips and holes, and circles at the outer ends of the tubes. @param threads as in side_by_side
 std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map, int threads, ExecutionContext& context);
 
 }  // namespace koebe

@@ -15,16 +15,16 @@
 namespace koebe {
 namespace {
 
-constexpr double remaining = 0.6;          // of an uneven child's cost, after it is split in its turn
-constexpr double unknown_cost = 0.25;      // in u, of a face that the parent's map has lost: its own may not
-constexpr std::size_t most_looked_at = 8;  // proposals of a part
-constexpr std::size_t most_verified = 3;   // of them
+constexpr double remaining = 0.6;          // of an uneven child's cost: left after later splits
+constexpr double unknown_cost = 0.25;      // in u: cost of a face that the parent's map lost, as its own map may not
+constexpr std::size_t most_looked_at = 8;  // most proposals of a part
+constexpr std::size_t most_verified = 3;   // proposals whose children are mapped
 constexpr double crumb_leaves = 0.9;       // of a part's area
-constexpr double least_return = 0.5;       // of the price, in cost that is gone at once
+constexpr double least_return = 0.5;       // of the price: the cost that a split must save at once
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
-constexpr double surely_lost = 0.02;       // of a part's area: it wants a map of its own
+constexpr double surely_lost = 0.02;       // of a part's area: such a child needs its own map
 constexpr double hopeless = 1.0;           // overflow over area: so uneven that any cut in two is better than none
-constexpr std::size_t few_open = 3;        // parts: what is done for each goes side by side, too
+constexpr std::size_t few_open = 3;        // with fewer open parts, the work for each part goes side by side too
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
                                            // is so large that its cost matters
 
@@ -45,7 +45,7 @@ double cost_of(const PieceForecast& forecast)
     return std::max(forecast.overflow - (lost_cost - unknown_cost) * forecast.lost_area, 0.0);
 }
 
-/// What is left of a child's cost in the end.
+/// The part of a child's cost that is left in the end.
 double expected_cost(double cost, double price)
 {
     return cost > 2.0 * price ? 2.0 * price + remaining * (cost - 2.0 * price) : cost;
@@ -71,8 +71,8 @@ void make_children(const CutSurface& whole, const PartPointer& part, Split& spli
         split.children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, part}));
 }
 
-/// By the maps of the children that have one, and the forecasts of the others. To cut off a crumb must pay by itself,
-/// not by the hope for later splits: they would go one after the other.
+/// The gain by the maps of the children, or by forecasts for children without a map. Cutting off a crumb must pay by
+/// itself, without hope for later splits: otherwise crumbs would go one after the other.
 double gain_of(const Split& split, const Part& part, const SplitOptions& options)
 {
     const double price =
@@ -122,7 +122,7 @@ std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions&
     return splits;
 }
 
-/// The split of most gain once the children that the part's map says little of have maps of their own.
+/// The split of most gain, after children that the part's map cannot judge have got maps of their own.
 Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOptions& options, int threads,
                  ExecutionContext& context, SplitEffort& effort)
 {

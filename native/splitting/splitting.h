@@ -1,4 +1,4 @@
-// The parts of a surface: split where it pays, mapped, and merged again where a cut does not.
+// Splits a surface into parts where that pays, maps the parts, and merges them again where a cut does not pay.
 #pragma once
 
 #include "evenness/part_map.h"
@@ -11,24 +11,24 @@
 namespace koebe {
 
 struct SplitOptions {
-    double part_price = 0.0037;  ///< of a part, in overflow
-    double cut_price = 0.0037;   ///< of a cut as long as the root of the area
-    int threads = 1;             ///< at most; 0: as many as the machine has. The result is the same for any number
+    double part_price = 0.0037;  ///< price of a part, in overflow
+    double cut_price = 0.0037;   ///< price of a cut as long as the root of the area
+    int threads = 1;             ///< most threads; 0: one for each core. The result is the same for any number
 };
 
 struct Part {
     PartMesh mesh;
     PartMap map;
-    std::shared_ptr<const Part> parent = {};  ///< of which it is some of the faces
-    bool settled = false;                     ///< no split of it pays
+    std::shared_ptr<const Part> parent = {};  ///< the part from which it was cut
+    bool settled = false;                     ///< no split of this part pays
 };
 
 using PartPointer = std::shared_ptr<Part>;
 
-/// What the splitting took.
+/// The work of splitting.
 struct SplitEffort {
-    double maps = 0.0;  ///< faces mapped, in faces of the surface
-    int cuts = 0;       ///< minimum cuts
+    double maps = 0.0;  ///< number of faces mapped, over the faces of the surface
+    int cuts = 0;       ///< number of minimum cuts
 };
 
 /// Maps a part anew.
@@ -38,32 +38,32 @@ void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, Sp
 void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threads, ExecutionContext& context,
              SplitEffort& effort);
 
-/// Parts of these faces, mapped; of all, as one, if there are none.
+/// Makes and maps the parts with these faces. Without faces: one part with all faces.
 std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
                                      ExecutionContext& context, SplitEffort& effort);
 
-/// The part cut in two across its length (halving.h), whatever its map says, each piece with a map of its own; none if
-/// no curve was found.
+/// Cuts a part in two across its length (halving.h), whatever its map says. Maps each piece. @return empty if no curve
+/// was found
 std::vector<PartPointer> halved(const CutSurface& whole, const PartPointer& part, int threads,
                                 ExecutionContext& context, SplitEffort& effort);
 
-/// Splits each part by the proposal of most gain, children judged by the parent's map, until nothing pays.
-/// Children whose loops are not round there are mapped before they are judged. Every part that stays has a map of its
+/// Splits each part by the proposal of most gain, until no split pays. The parent's map judges the children. A child is
+/// mapped before it is judged if its loops are not round in the parent's map. Every part that stays has a map of its
 /// own.
 std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions& options,
                                      std::vector<PartPointer> parts, ExecutionContext& context, SplitEffort& effort);
 
-/// Pairs of neighbours that are better apart.
+/// Pairs of neighbours that must not be merged: they are better apart.
 using RefusedMerges = std::set<std::pair<PartPointer, PartPointer>>;
 
-/// Merges neighbours whose cut does not pay, the longest common border first: judged by the map of a part that both
-/// come from, and then mapped.
-/// @param refused known from an earlier call, and more of them @return whether any were
+/// Merges neighbours whose cut does not pay, the longest common border first. The map of their common origin judges
+/// them. Then the merged part is mapped.
+/// @param refused pairs from earlier calls; new pairs are added @return whether any parts were merged
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                  RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort);
 
-/// Merges parts of a few faces, which nobody wants to paint on or to stitch, with the neighbour that they cost the
-/// least in, even where a cut pays by a few prices of a part.
+/// Merges each part of a few faces with the neighbour for which the merged part costs least, even if the cut pays by up
+/// to a few prices of a part: nobody wants to paint on crumbs.
 void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                   ExecutionContext& context, SplitEffort& effort);
 

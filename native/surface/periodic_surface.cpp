@@ -242,7 +242,7 @@ PeriodicSurface periodless_sphere(const Vertices& vertices, const Triangles& tri
     PeriodicSurface domain = prepared(vertices, triangles);
     if (domain.surface.genus != 0)
         throw TopologyError(TopologyKind::genus, "the surface has " + std::to_string(domain.surface.genus) +
-                                                     " handles: a map to the sphere needs one without");
+                                                     " handles: a map to the sphere needs a surface without handles");
     order_loops(domain, {});
     return domain;
 }
@@ -254,7 +254,7 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
     if (surface.genus != 0)
         throw TopologyError(TopologyKind::genus, "the surface has " +
                                                      counted(static_cast<std::size_t>(surface.genus), "handle") +
-                                                     ": a ring has none");
+                                                     ": a ring needs a surface without handles");
     if (surface.loops.size() < 2)
         throw TopologyError(TopologyKind::closed,
                             "a ring needs two boundary loops, the surface has " + std::to_string(surface.loops.size()));
@@ -263,7 +263,7 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
     const std::size_t second = loop_with(domain, inner, first);
     if (first == none) first = loop_with(domain, outer, second);
     if (first == second)
-        throw InputError("the vertices of both rims lie on one loop: the two rims of a ring are different ones",
+        throw InputError("the vertices of both rims lie on one loop: a ring needs two different rims",
                          ElementKind::vertices, {outer, inner});
     order_loops(domain, {first, second});
     domain.first_hole = 2;

@@ -72,8 +72,8 @@ public:
             if (go(extension, bow, 0, context)) return std::move(map_);
         if (go(extension, bows[0], most_unfoldings, context)) return std::move(map_);
         if (go_at_once(extension, context)) return std::move(map_);
-        throw SolverError("no map that is one to one was found: the landmarks stand in each other's way, or the mesh "
-                          "is too coarse for them, most of all at " +
+        throw SolverError("no one-to-one map was found: the landmarks block each other, or the mesh is too coarse for "
+                          "them, worst at " +
                               landmark_numbers(stuck_),
                           ElementKind::landmarks, stuck_);
     }

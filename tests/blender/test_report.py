@@ -257,12 +257,12 @@ def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
 
     assert said("flipped", [6, 7, 9], "3 faces flipped, 2 of them too small; the first face is 6") == (
         [3, 4], "2 faces flipped, 2 triangles of them too small; the first face is 3")  # fmt: skip
-    assert said("below_resolution", [0, 1], "2 faces around vertex 7, near loop 1, 1 face of them to no area") == (
-        [0], "1 face around vertex 107, near loop 1, 1 triangle of them to no area")  # fmt: skip
+    assert said("below_resolution", [0, 1], "2 faces around vertex 7, near loop 1, 1 face of them flipped") == (
+        [0], "1 face around vertex 107, near loop 1, 1 triangle of them flipped")  # fmt: skip
     assert said("off_circle", [4, 5], "2 vertices taken off the circle; the first vertex is 4") == (
         [104, 105], "2 vertices taken off the circle; the first vertex is 104")  # fmt: skip
-    assert said("flaps", [1], "1 part of 1 face in all, the first behind the edge 3-12, hang on 4 loops") == (
-        [0], "1 part of 1 face in all, the first behind the edge 103-112, hang on 4 loops")  # fmt: skip
+    assert said("flaps", [1], "hanging on a loop by one edge: 1 part with 1 face, the first by the edge 3-12") == (
+        [0], "hanging on a loop by one edge: 1 part with 1 face, the first by the edge 103-112")  # fmt: skip
 
 
 # ---------------------------------------------------------------- what is lost

@@ -32,6 +32,6 @@ TEST(FlipReport, a_limb_below_resolution_is_named_with_its_place)
 
 TEST(FlipReport, a_mesh_without_inner_vertices_is_called_too_coarse)
 {
-    EXPECT_TRUE(says(map_flat(make_round_annulus(0.5, 12, 1)), "too coarse: 0 vertices between the loops' 24"));
+    EXPECT_TRUE(says(map_flat(make_round_annulus(0.5, 12, 1)), "too coarse: 0 vertices inside and 24 on loops"));
     EXPECT_TRUE(map_flat(make_round_annulus(0.5, 12, 3)).warnings.empty());
 }

@@ -310,7 +310,7 @@ def test_an_option_that_does_not_fit_one_mesh_fails_that_one(library, tmp_path):
         (["nowhere", "--output", "out"], "does not exist"),
         (["library/notes.txt", "--output", "out"], "no mesh file"),
         (["library/s.blend", "--output", "out"], "--blender"),
-        (["library/a.obj", "other/a.obj", "--output", "out"], "would both be a.obj"),
+        (["library/a.obj", "other/a.obj", "--output", "out"], "would both get the name a.obj"),
         (["library/a.obj", "other/a.ply", "--output", "out"], "would both write"),
         (["other/summary.obj", "--output", "out"], "the summary's name"),
         (["library/a.obj", "--output", "library"], "would replace the mesh"),

@@ -73,7 +73,7 @@ def test_patches_are_a_property_in_ply(folder):
 def test_other_formats_are_refused_before_any_work(tmp_path, command, name):
     run = koebe(command, tmp_path / "missing.obj", name, cwd=tmp_path)
     assert run.returncode == USAGE and run.stdout == ""
-    assert re.fullmatch(r"WrongUsage: OUT: .*OBJ and PLY.*\n", run.stderr), run.stderr
+    assert re.fullmatch(r"WrongUsage: OUT: .*OUT must end in \.obj or \.ply .*\n", run.stderr), run.stderr
     assert names(tmp_path) == set()
 
 
@@ -414,11 +414,11 @@ def test_the_result_line_counts_the_warnings(folder):
     warnings = json.loads((folder / "report.json").read_text())["warnings"]
     assert len(warnings) == 2
     assert re.fullmatch(
-        r"out\.obj: 4 loops, .* flipped, [0-9.]+ s, 2 warnings: faces of fewer than three different vertices.*\n",
+        r"out\.obj: 4 loops, .* flipped, [0-9.]+ s, 2 warnings: faces with fewer than three different vertices.*\n",
         run.stdout,
     ), run.stdout
     run = koebe("fill", "in.obj", "out.obj", cwd=folder)
-    assert re.search(r" s, 1 warning: faces of fewer than three different vertices.*\n$", run.stdout), run.stdout
+    assert re.search(r" s, 1 warning: faces with fewer than three different vertices.*\n$", run.stdout), run.stdout
     assert len(json.loads(koebe("module", "in.obj", cwd=folder).stdout)["warnings"]) == 2
 
 

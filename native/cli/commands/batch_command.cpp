@@ -70,7 +70,7 @@ void add_batch_options(CLI::App& app, Request& request)
 {
     app.add_option("INPUTS", request.inputs, "mesh files, and folders to search with all their folders")->required();
     app.add_option("--output", request.folder,
-                   "folder for the results: each file's name below its input folder, one .json beside each")
+                   "folder for the results. Each file keeps its path below its input folder, with a .json beside it")
         ->required()
         ->type_name("FOLDER");
     app.add_option("--base", request.base, "names are relative to this folder, for runs on single files of it")
@@ -78,10 +78,10 @@ void add_batch_options(CLI::App& app, Request& request)
     app.add_option("--workers", request.workers, "files at a time; 0: one for each core")
         ->check(whole_number(0))
         ->capture_default_str();
-    app.add_option("--time-limit", request.time_limit, "seconds for a file; none if it is not given")
+    app.add_option("--time-limit", request.time_limit, "most seconds for a file. By default there is no limit")
         ->check(number_in({.above = 0.0}))
         ->type_name("SECONDS");
-    app.add_option("--format", request.format, "of the meshes that are written")
+    app.add_option("--format", request.format, "format of the written meshes")
         ->check(CLI::IsMember({"obj", "ply"}))
         ->capture_default_str();
     app.add_flag("--retry", request.retry, "try meshes again that could not be mapped");
@@ -92,15 +92,15 @@ void add_batch_options(CLI::App& app, Request& request)
     CLI::Option* const list =
         app.add_flag("--list", request.list, "map nothing, print a line for each file: its folder, a tab, its name");
     CLI::Option* const none = app.add_flag("--no-summary", request.no_summary, "leave the table to another run");
-    app.add_flag("--summary-only", request.summary_only, "map nothing, write the table of what is there")
+    app.add_flag("--summary-only", request.summary_only, "map nothing, write the table of the results in the folder")
         ->excludes(list)
         ->excludes(none);
     app.add_flag("--exit-zero", request.exit_zero,
-                 "0 also where a mesh was not mapped, for farms: 3 only where the machine failed");
+                 "for farms: exit code 0 even if a mesh was not mapped, 3 only if the machine failed");
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
     app.add_option("--domain", request.domain,
-                   "disk: koebe uniformize; torus, ring: those commands, UVs that are a tile; sphere, schottky: those")
+                   "the map of each file. disk: koebe uniformize; each other word: the command of this name")
         ->check(CLI::IsMember(domains))
         ->capture_default_str();
     for (const OptionRow* row : domain_rows()) {
@@ -125,11 +125,11 @@ void check_domain(const CLI::App& app, const Request& request)
 {
     for (const OptionRow* row : domain_rows())
         if (app.count(row->flag()) > 0 && !row->is_of(request.domain))
-            throw CLI::ValidationError(row->flag(), "is of --domain " + std::string(row->maps));
+            throw CLI::ValidationError(row->flag(), "belongs to --domain " + std::string(row->maps));
     if (request.domain == disk_domain) return;
     for (const CLI::Option* option : request.forwarded)
         if (option->count() > 0 && !has_too(request.domain, option->get_name()))
-            throw CLI::ValidationError(option->get_name(), "is of --domain disk");
+            throw CLI::ValidationError(option->get_name(), "belongs to --domain disk");
 }
 
 /// The settings that a map depends on beside the mesh.
@@ -222,7 +222,7 @@ void print_list(const batch::FileList& list)
     for (const batch::BatchFile& file : list.files) {
         const std::string source = batch::generic_utf8(file.source);
         if (source.find_first_of("\t\r\n") != std::string::npos)
-            throw WrongUsage("no line can hold the name of " + source);
+            throw WrongUsage("a tab or a line break is in the name " + source);
         text += source.substr(0, source.size() - file.name.size() - 1) + "\t" + file.name + "\n";
     }
     print(text);
@@ -266,7 +266,7 @@ int run(const Request& request)
     if (!request.quiet) require_standard_output();
     const batch::FileList list = files_of(request);
     if (list.blends_passed_over > 0 && !request.quiet)
-        std::fprintf(stderr, "%s of Blender's passed over: name the program with --blender\n",
+        std::fprintf(stderr, "%s of Blender's skipped: name the program with --blender\n",
                      counted(list.blends_passed_over, "file").c_str());
     if (list.files.empty()) throw WrongUsage("there is no mesh file in " + request.inputs.front());
     const fs::path output = fs::weakly_canonical(batch::path_of(request.folder));
@@ -282,7 +282,7 @@ int run(const Request& request)
     const batch::BatchOptions options = batch_options(request, output);
     const batch::BatchCount count = run_batch(list.files, options);
     if (count.interrupted) {
-        std::fputs("interrupted: what is done stays, and the same call goes on from there\n", stderr);
+        std::fputs("interrupted: finished files stay, and the same command continues from there\n", stderr);
         return interrupted;
     }
     if (!request.quiet) print(result_line(count, list.files.size(), options), "; the files are written");

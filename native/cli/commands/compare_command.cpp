@@ -107,15 +107,14 @@ void settle_words(Request& request, const CLI::Option& json)
     if (request.json.empty()) request.json = to_standard_output;
     if (!request.csv.empty()) {
         if (request.with_json || request.any_outer || request.loops != "match")
-            throw CLI::ValidationError("--csv", "goes with none of --json, --loops and --any-outer");
+            throw CLI::ValidationError("--csv", "excludes --json, --loops and --any-outer");
         if (request.first.empty()) throw CLI::RequiredError("FOLDER");
         require_different_files(request.files(), {request.first, request.second}, false);
         return;
     }
     require_csv(request);
     if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
-    if (request.any_outer && request.loops != "match")
-        throw CLI::ValidationError("--any-outer", "goes with --loops match");
+    if (request.any_outer && request.loops != "match") throw CLI::ValidationError("--any-outer", "needs --loops match");
     require_different_files(request.files(), {request.first, request.second}, true);
 }
 
@@ -130,11 +129,11 @@ Subcommand add_compare(CLI::App& app)
     options->add_option("B", request->second, "surface with as many holes");
     options
         ->add_option("--loops", request->loops,
-                     "match: the loops that correspond are looked for; length: they correspond by their length")
+                     "match: search for the corresponding loops; length: loops correspond by length")
         ->check(CLI::IsMember({"match", "length"}))
         ->capture_default_str();
     options->add_flag("--any-outer", request->any_outer,
-                      "with match: the outer loop of one may correspond to a hole of the other");
+                      "with match: the outer loop of one surface may correspond to a hole of the other surface");
     add_family_options(*options, *request,
                        "a row each pair of the folder's shapes, in one order of the loops: so the triangle inequality "
                        "holds",

@@ -42,21 +42,21 @@ MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen
     return kind;
 }
 
-/// What is asked of such a map, by its options.
+/// The request for such a map: files and options.
 template <typename Options>
 struct CornerMapRequest : MapRequest {
     Options chosen;
     bool ends_with_input = false;
 };
 
-/// What the help of such a map says.
+/// The words of the help for such a map.
 struct CornerMapHelp {
-    const char* name;  ///< of the command, and of the map in the table of options
+    const char* name;  ///< name of the command, and of the map in the table of options
     const char* does;
     const char* surface;
     const char* picture;
     const char* uvs = "texture coordinates of corners in [0, 1]^2";
-    const char* sphere = nullptr;  ///< what the file of --sphere has; null where there is no such option
+    const char* sphere = nullptr;  ///< description of --sphere; null: there is no such option
 };
 
 /// Adds the command of such a map.

@@ -113,7 +113,7 @@ int run(const Request& request)
     AtomicFile file(request.output);
     std::vector<Warning> warnings = input->warnings;
     if (filled.mesh.face_count() == input->polygons.face_count())
-        warnings.push_back({WarningKind::no_hole, "there is no hole: no boundary but the outer one"});
+        warnings.push_back({WarningKind::no_hole, "there is no hole: the only boundary is the outer one"});
     const std::vector<Warning> losses =
         write_with_patches(file, request.format, filled.mesh, filled.patch, filled.turned, {input->file});
     warnings.insert(warnings.end(), losses.begin(), losses.end());
@@ -145,16 +145,16 @@ Subcommand add_fill(CLI::App& app)
         ->add_option("OUT", request->output,
                      "OBJ to write, with the groups surface, patch_0, patch_1, …, or PLY, with the property patch")
         ->required();
-    CLI::Option* outer =
-        options
-            ->add_option("--outer", request->outer, "loop that stays open: the longest, or that of a vertex (from 0)")
-            ->check(outer_loop_choice({"longest"}))
-            ->type_name("longest|VERTEX")
-            ->capture_default_str();
+    CLI::Option* outer = options
+                             ->add_option("--outer", request->outer,
+                                          "loop that stays open: the longest, or the loop of a vertex (counted from 0)")
+                             ->check(outer_loop_choice({"longest"}))
+                             ->type_name("longest|VERTEX")
+                             ->capture_default_str();
     CLI::Option* all = options->add_flag("--all", request->all, "fill the outer loop too: the surface is closed");
     options
         ->add_option("--loops", request->loops,
-                     "boundary loops to fill, as 0,2: by rank of their lowest vertices, and no others")
+                     "fill only these loops, for example 0,2. Loops are numbered by their lowest vertices")
         ->delimiter(',')
         ->check(whole_number(0))
         ->excludes(outer)

@@ -80,7 +80,7 @@ void require_loop_words(const Request& request)
         if (std::string complaint = whole_number(0)(rank); !complaint.empty())
             throw CLI::ValidationError("--loops", complaint);
     if (request.any_outer && request.loops[0] != "canonical")
-        throw CLI::ValidationError("--any-outer", "goes with --loops canonical");
+        throw CLI::ValidationError("--any-outer", "needs --loops canonical");
     if (request.csv.empty() && std::filesystem::is_directory(request.input))
         throw CLI::ValidationError("IN", "is a folder, which needs --csv FILE");
     require_csv(request);
@@ -99,7 +99,7 @@ Subcommand add_module(CLI::App& app)
     options
         ->add_option("--loops", request->loops,
                      "order of the boundary loops, the outer one first: length (longest first), canonical (by their "
-                     "circles alone), or all of them as 0,2,1, by rank of their lowest vertices")
+                     "circles), or all loops, for example 0,2,1, numbered by their lowest vertices")
         ->delimiter(',')
         ->type_name("length|canonical|RANKS")
         ->capture_default_str();

@@ -23,7 +23,8 @@ int run_parts(const CornerMapRequest<PartsOptions>& request)
     kind.draw = [](const MeshInput&, const PartsResult& result) { return parts_svg(result.uv, result.part); };
     kind.first_words = [](const PartsResult& result) {
         return counted(result.parts.size(), "part") + ", cuts " + rounded("%.2f", result.cut_length) +
-               " of the root of the area, texel density within " + rounded("%.3g", result.density_ratio_5_95);
+               " times the root of the area, texel density within a factor " +
+               rounded("%.3g", result.density_ratio_5_95);
     };
     return run_map_of(request, kind);
 }

@@ -30,11 +30,11 @@ Subcommand add_ricci(CLI::App& app)
 {
     auto request = std::make_shared<Request>();
     request->entries = {{"method", "ricci"}, {"engine", "circle_packing"}};
-    CLI::App* options = app.add_subcommand("ricci", "the same by the discrete Ricci flow, to compare with");
+    CLI::App* options = app.add_subcommand("ricci", "as uniformize, but by the discrete Ricci flow, for comparison");
     add_mesh_arguments(*options, *request);
     options
         ->add_option("--packing", request->packing,
-                     "inversive: circles may be apart, acute: they intersect, and the metric is approximated")
+                     "inversive: circles may be apart; acute: circles intersect, and the metric is approximate")
         ->check(CLI::IsMember({"inversive", "acute"}))
         ->capture_default_str();
     options
@@ -44,7 +44,7 @@ Subcommand add_ricci(CLI::App& app)
         ->capture_default_str();
     options
         ->add_option("--triangulation", request->triangulation,
-                     "delaunay: edges are flipped on the surface before, given: those of the file")
+                     "delaunay: edges are flipped on the surface first; given: the edges of the file")
         ->check(CLI::IsMember({"delaunay", "given"}))
         ->capture_default_str();
     add_options(*options, "ricci", request->options);

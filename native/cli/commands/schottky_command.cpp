@@ -27,7 +27,7 @@ Subcommand add_schottky(CLI::App& app)
     return add_corner_map<SchottkyOptions>(
         app,
         {"schottky",
-         "map a surface with handles into the disk, cut open, its cuts Moebius maps apart and its holes round",
+         "cut a surface with handles open and map it into the disk: Moebius maps join the cuts, holes are round",
          "surface with one handle or more", "write a picture there: the faces, and the circles of the copies"},
         run_schottky);
 }

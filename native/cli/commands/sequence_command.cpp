@@ -119,7 +119,8 @@ private:
             first_ = {file, input.polygons.corners, input.polygons.face_begin, input.triangulation};
         } else if (input.polygons.corners != first_.corners || input.polygons.face_begin != first_.face_begin ||
                    input.polygons.vertices.rows() != surface_->vertex_count()) {
-            throw InputError("it has other faces than " + first_.file + ": a sequence is of one surface");
+            throw InputError("it has other faces than " + first_.file +
+                             ": all files of a sequence must have the same faces");
         }
         input.triangulation = first_.triangulation;  // the surface was made of this triangulation
         return surface_->uniformize(input.polygons.vertices, context);
@@ -146,10 +147,12 @@ Subcommand add_sequence(CLI::App& app)
         app.add_subcommand("sequence", "map many files of one surface whose vertices move, each laid over the first");
     options->add_option("FILES", request->inputs, "meshes with the same faces, in the order of the sequence")
         ->required();
-    options->add_option("--output", request->folder, "folder for the results, a mesh and a .json of each file's name")
+    options
+        ->add_option("--output", request->folder,
+                     "folder for the results: a mesh and a .json for each file, with its name")
         ->required()
         ->type_name("FOLDER");
-    options->add_option("--format", request->extension, "of the meshes that are written")
+    options->add_option("--format", request->extension, "format of the written meshes")
         ->check(CLI::IsMember({"obj", "ply"}))
         ->capture_default_str();
     add_options(*options, "sequence", request->options);

@@ -95,7 +95,7 @@ void add_family_options(CLI::App& app, FamilyRequest& request, const std::string
 {
     app.add_option("--csv", request.csv, table)->type_name("FILE");
     app.add_option("--reference", request.reference,
-                   "with --csv: the file in the folder whose loops the others' correspond to, by default the first")
+                   "with --csv: the file whose loops are matched to those of all other files, by default the first")
         ->type_name("NAME");
     app.add_flag("--error", request.with_error, "with --csv: also bars of the error that " + bars);
 }
@@ -103,7 +103,7 @@ void add_family_options(CLI::App& app, FamilyRequest& request, const std::string
 void require_csv(const FamilyRequest& request)
 {
     if (request.csv.empty() && (request.with_error || !request.reference.empty()))
-        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "goes with --csv");
+        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "needs --csv");
 }
 
 ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::string>& files,
@@ -118,7 +118,7 @@ ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::str
     if (!request.reference.empty()) {
         const auto found =
             std::ranges::find_if(files, [&](const auto& file) { return name(file) == request.reference; });
-        if (found == files.end()) throw InputError("the reference " + request.reference + " is none of the files");
+        if (found == files.end()) throw InputError("the reference " + request.reference + " is not among the files");
         first = static_cast<std::size_t>(found - files.begin());
         reference = read(files[first]);
     } else {

@@ -12,7 +12,7 @@ struct Subcommand {
     std::function<int()> run;  ///< returns an ExitCode; errors are thrown
 };
 
-/// X(name) in the order of the help. `add_name` adds the sub-command.
+/// Calls X(name) for each sub-command, in the order of the help. `add_name` adds the sub-command.
 #define KOEBE_SUBCOMMANDS(X)                                                                                           \
     X(uniformize)                                                                                                      \
     X(batch)                                                                                                           \

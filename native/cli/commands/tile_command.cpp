@@ -45,7 +45,7 @@ Subcommand add_torus(CLI::App& app)
 Subcommand add_ring(CLI::App& app)
 {
     return add_corner_map<TileOptions>(app,
-                                       {"ring", "map a surface with two loops and more to a cylinder, unrolled",
+                                       {"ring", "map a surface with two loops or more to an unrolled cylinder",
                                         "surface of genus 0 with two loops or more", picture},
                                        [](const Request& request) { return run(request, ring_map); });
 }

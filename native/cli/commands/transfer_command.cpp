@@ -145,10 +145,10 @@ Subcommand add_transfer(CLI::App& app)
         app.add_subcommand("transfer", "the points of surface A on surface B, through the two circle domains");
     options->add_option("A", request->first, "surface with holes: OBJ, OFF, PLY or STL")->required();
     options->add_option("B", request->second, "surface with as many holes")->required();
-    options->add_option("OUT", request->output, "OBJ or PLY to write: A's faces, its vertices where they lie on B")
+    options->add_option("OUT", request->output, "OBJ or PLY to write: A's faces, with A's vertices moved onto B")
         ->required();
     options->add_flag("--no-fit", request->aligned_only,
-                      "lay the domains over each other, but bend no hole onto the other's");
+                      "only lay the domains over each other: bend no hole onto another hole");
     options
         ->add_option(
             "--landmarks", request->landmarks,

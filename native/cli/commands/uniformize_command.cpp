@@ -37,7 +37,7 @@ Subcommand add_uniformize(CLI::App& app)
         check_map_files(*request);
         check_uniformize_options(*options, request->options, request->cut);
         if (!request->importance.empty() && request->options.balance == Balance::none)
-            throw CLI::ValidationError("--importance", "is of the balance: give --balance area too");
+            throw CLI::ValidationError("--importance", "needs --balance area");
         if (!request->importance.empty())
             require_different_files(map_files(*request), {request->input, request->importance}, !request->quiet);
         request->entries["options"] = uniformize_report(request->options, request->cut);

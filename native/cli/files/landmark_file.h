@@ -8,7 +8,7 @@
 
 namespace koebe::cli {
 
-/// The points of all lines: on A, and on B.
+/// The points of all lines, on A and on B.
 struct NamedLandmarks {
     std::vector<NamedPoint> on_a, on_b;
 };

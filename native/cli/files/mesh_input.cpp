@@ -32,12 +32,12 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     if (!collapsed.empty())
         input.warnings.push_back(
             {WarningKind::collapsed_faces,
-             "faces of fewer than three different vertices, passed over: " + std::to_string(collapsed.size()),
+             "faces with fewer than three different vertices, left out: " + std::to_string(collapsed.size()),
              collapsed});
     if (const std::vector<Index>& uncut = input.triangulation.uncut; !uncut.empty())
         input.warnings.push_back({WarningKind::left_out,
                                   counted(uncut.size(), "polygon") +
-                                      " left out of the map, which cannot be cut into triangles, each on one point",
+                                      " cannot be cut into triangles: left out of the map, each drawn as one point",
                                   uncut});
     if (input.triangulation.triangles.rows() == 0)
         throw InputError("no face has three different vertices", ElementKind::faces, collapsed);

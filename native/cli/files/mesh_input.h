@@ -1,4 +1,4 @@
-// The input file of every sub-command, as filed and as triangles.
+// The input file of every sub-command: its polygons, and their triangles.
 #pragma once
 
 #include "core/errors.h"
@@ -18,21 +18,21 @@ struct MeshInput {
     PolygonMesh polygons;
     Triangulation triangulation;
     std::vector<Warning> warnings;
-    std::string sha256;    ///< of the file, if requested; empty for a pipe or a device
-    double seconds = 0.0;  ///< to read and triangulate
+    std::string sha256;    ///< hash of the file, if requested; empty for a pipe or a device
+    double seconds = 0.0;  ///< time to read and triangulate
 };
 
 struct ReadOptions {
-    bool keep_file = true;     ///< to write the file's other contents again
+    bool keep_file = true;     ///< needed to write the file's other contents again
     bool any_polygon = false;  ///< polygons that cannot be cut into triangles are a warning, not an error
-    bool hash = false;         ///< takes as long as reading
+    bool hash = false;         ///< computes sha256: takes as long as reading
     int threads = 1;           ///< at most; 0: all cores
 };
 
 /// @throws FileError, InputError, Cancelled
 MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options = {});
 
-/// Translates faces of the triangulation to faces of the file, each once.
+/// The faces of the file that contain these triangles, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
 
 /// Changes the warnings' faces to the file's, and puts the warnings from reading first.

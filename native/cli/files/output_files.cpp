@@ -15,9 +15,9 @@ WrittenFormat required_format(const std::string& out)
 {
     if (const auto format = written_format(out)) return *format;
     const std::string extension = std::filesystem::path(out).extension().string();
-    throw CLI::ValidationError(
-        "OUT", (extension.empty() ? "'" + out + "' names no format" : "the format '" + extension + "' is not written") +
-                   "; OBJ and PLY are: OUT ends in .obj or .ply");
+    throw CLI::ValidationError("OUT", (extension.empty() ? "'" + out + "' names no format"
+                                                         : "the format '" + extension + "' cannot be written") +
+                                          ": OUT must end in .obj or .ply");
 }
 
 void require_different_files(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs,

@@ -19,7 +19,7 @@ WrittenFormat required_format(const std::string& out);
 /// Requires different files. Files are compared on the disk, not by name; OUT may be an input.
 /// @param inputs files that only OUT may replace
 /// @param has_line whether a line goes to standard output
-/// @throws CLI::ValidationError two outputs are the same file, or one is an input or standard output with a line
+/// @throws CLI::ValidationError two outputs are the same file; an output is an input, or standard output if has_line
 void require_different_files(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs,
                              bool has_line);
 

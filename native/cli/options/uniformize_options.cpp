@@ -28,23 +28,23 @@ void check_uniformize_options(const CLI::App& app, const UniformizeOptions& opti
     KoebeMeshOptions::each_option([&](const char* name, auto) {
         const OptionRow* const row = find_row(uniformize_map, name);
         if (row != nullptr && options.engine != Engine::mesh && app.count(row->flag()) > 0)
-            throw CLI::ValidationError(row->flag(), "is an option of --engine mesh");
+            throw CLI::ValidationError(row->flag(), "needs --engine mesh");
     });
     if (mesh.partners == Partners::changing && options.method != Method::gk)
-        throw CLI::ValidationError("--partners", "change with --method gk alone");
+        throw CLI::ValidationError("--partners", "changing needs --method gk");
     if (mesh.partners == Partners::changing && !mesh.schedule.empty())
-        throw CLI::ValidationError("--partners", "and --schedule exclude each other");
+        throw CLI::ValidationError("--partners", "changing excludes --schedule");
     if (mesh.annulus == AnnulusBackend::yamabe && mesh.metric == KoebeMeshOptions::Metric::first)
         throw CLI::ValidationError("--annulus", "yamabe needs --metric planar or reflected");
     if (cut && !mesh.schedule.empty())
-        throw CLI::ValidationError("--cut", "excludes --schedule: which loops there are follows from the cuts");
+        throw CLI::ValidationError("--cut", "excludes --schedule: the cuts decide which loops there are");
     check_center(options);
 }
 
 void check_center(const UniformizeOptions& options)
 {
     if (options.center >= 0 && options.balance != Balance::none)
-        throw CLI::ValidationError("--center", "excludes --balance: both choose the automorphism of the disk");
+        throw CLI::ValidationError("--center", "excludes --balance: both choose the centre of the disk");
 }
 
 nlohmann::ordered_json uniformize_report(const UniformizeOptions& options, bool cut)

@@ -24,9 +24,9 @@ def _check_mesh_engine(options: "_koebe.UniformizeOptions", given: Mapping[str, 
     if options.engine != _koebe.Engine.mesh:
         for name, row in rows("uniformize").items():
             if row.of_mesh_engine and given[name] != row.given:
-                raise OptionError(f"{name} is an option of engine='mesh'")
+                raise OptionError(f"{name} needs engine='mesh'")
     if mesh.partners == _koebe.Partners.changing and (options.method != _koebe.Method.gk or mesh.schedule):
-        raise OptionError("partners change with method='gk' alone, and without a schedule")
+        raise OptionError("changing partners need method='gk' and no schedule")
     if mesh.annulus == _koebe.AnnulusBackend.yamabe and mesh.metric == _koebe.Metric.first:
         raise OptionError("annulus='yamabe' needs metric='planar' or 'reflected'")
 
@@ -35,7 +35,7 @@ def solver_options(of: str, given: Mapping[str, Any]) -> tuple["_koebe.Uniformiz
     """The native options of `uniformize` or of a sequence, and these options for a report."""
     options, said = filled(of, _koebe.UniformizeOptions(), given)
     if options.center >= 0 and options.balance != _koebe.Balance.none:
-        raise OptionError("center and balance exclude each other: both choose the automorphism of the disk")
+        raise OptionError("center and balance exclude each other: both choose the centre of the disk")
     return options, said
 
 
@@ -82,7 +82,7 @@ def uniformize(
     if not chosen.pop("cut"):
         cut = False
     elif options.mesh.schedule or options.mesh.record_steps:
-        raise OptionError("cut excludes schedule and record_steps: they are about the loops of one surface")
+        raise OptionError("cut excludes schedule and record_steps: both name the loops of one surface")
     source = surface_of(vertices, triangles, degenerate=cut)
     options.importance = importance_of(given["importance"], chosen["balance"], len(source.vertices))
     if cut:
@@ -100,7 +100,7 @@ def importance_of(values: Any, balance: str, count: int) -> np.ndarray:
     if values is None:
         return np.zeros(0)
     if balance != "area":
-        raise OptionError("importance is of the balance: it needs balance='area'")
+        raise OptionError("importance needs balance='area': it weighs the balance")
     array = np.asarray(values)
     if array.shape != (count,) or array.dtype.kind not in "fiu":
         raise InputError(f"importance must be ({count},) real numbers, not {array.shape} {array.dtype}")
@@ -184,7 +184,7 @@ def harmonic_map(
     source = surface_of(vertices, triangles)
     chosen = as_indices(fixed, "fixed", len(source.vertices), "vertices")
     if not len(chosen):
-        raise InputError("there must be one fixed vertex at least")
+        raise InputError("at least one vertex must be fixed")
     points = as_points(values, "values", 2, len(chosen))
     return _koebe.harmonic_map(source.vertices, source.triangles, chosen, points, flag(uniform, "uniform"))
 
