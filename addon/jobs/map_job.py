@@ -211,10 +211,15 @@ class Job:
         hidden = sequence_player.shown_instead(plan.obj, plan.layer)
         if hidden is not None:
             outcome.remarks.append(hidden)
-        if material is not None:
-            try:
-                checker.check(plan.obj)
-            except TransferError as error:  # the map is there nevertheless
-                outcome.remarks.append(f"it has no checker. {error}")
-            else:
-                checker.put_on(run, plan.obj, material)
+        self._put_checker(run, outcome, plan.obj, material)
+
+    @staticmethod
+    def _put_checker(run: Transaction, outcome: Any, obj: MeshObject, material: bpy.types.Material | None) -> None:
+        if material is None:
+            return
+        try:
+            checker.check(obj)
+        except TransferError as error:  # the map is there nevertheless
+            outcome.remarks.append(f"it has no checker. {error}")
+        else:
+            checker.put_on(run, obj, material)

@@ -103,7 +103,8 @@ def _check_schottky(handles: int, loops: int) -> None:
 
 
 SCHOTTKY = Domain(
-    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID", _check_schottky, SchottkyOutcome,
+    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID",
+    "HANDLES", ("normalization", "layer", "checker", "checker_size"), _check_schottky, SchottkyOutcome,
     "Unwrap a surface with any number of handles, closed or with holes, into the disk: angles are kept, holes are "
     "round, and both sides of each cut through a handle differ by a Möbius map. The cuts are in the UVs alone",
 )  # fmt: skip

@@ -79,7 +79,8 @@ def _check_sphere(handles: int, loops: int) -> None:
 
 
 SPHERE = Domain(
-    "sphere", "sphere", "Unwrap to Sphere", "MESH_UVSPHERE", _check_sphere, SphereOutcome,
+    "sphere", "sphere", "Unwrap to Sphere", "MESH_UVSPHERE",
+    "SPHERE", ("layout", "add_sphere", "layer", "checker", "checker_size"), _check_sphere, SphereOutcome,
     "Unwrap a surface without handles, closed or with holes, to the sphere and this to UVs: angles are kept on the "
     "sphere, holes are round caps. The cut is in the UVs alone",
 )  # fmt: skip

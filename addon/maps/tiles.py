@@ -163,12 +163,14 @@ def _check_ring(handles: int, loops: int) -> None:
 
 
 TORUS = Domain(
-    "torus", "torus tile", "Unwrap to Torus Tile", "MESH_TORUS", _check_torus, TileOutcome,
+    "torus", "torus tile", "Unwrap to Torus Tile", "MESH_TORUS",
+    "TORUS", ("fit", "even", "loops", "layer", "checker", "checker_size"), _check_torus, TileOutcome,
     "Unwrap a surface with one handle to a tile of a flat torus: angles are kept, holes are round, and a pattern with "
     "its periods has no seam. The cut is in the UVs alone",
 )  # fmt: skip
 RING = Domain(
-    "ring", "cylinder", "Unwrap to Cylinder", "MESH_CYLINDER", _check_ring, TileOutcome,
+    "ring", "cylinder", "Unwrap to Cylinder", "MESH_CYLINDER",
+    "RING", ("rims", "holes", "fit", "even", "loops", "checker", "checker_size"), _check_ring, TileOutcome,
     "Unwrap a surface with two rims to a cylinder, unrolled: angles are kept, the rims are straight, and a pattern "
     "with its period has no seam. The cut is in the UVs alone",
 )  # fmt: skip

@@ -11,9 +11,7 @@ from ..blender.transaction import Transaction
 from ..jobs.sequence_job import SequenceJob
 from ..maps.options import SequenceChoice
 from ..state.option_properties import (
-    ACCURACY_NAMES,
     RANGE_NAMES,
-    SEQUENCE_OPTION_NAMES,
     SequenceProperties,
     sequence_options_of,
 )
@@ -28,7 +26,7 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
     bl_idname = "uv.koebe_sequence"
     bl_label = "Koebe Unwrap Sequence"
     bl_description = tooltip(__doc__)
-    options_shown = tuple(sorted(SEQUENCE_OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
+    options_shown = ("source", *RANGE_NAMES, "target", "play", "checker", "checker_size")  # others are in the panel
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

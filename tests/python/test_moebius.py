@@ -1,29 +1,12 @@
 """Möbius maps of circle domains in UV layers: laws of the maps, and what they leave of the UVs. Without Blender."""
 
-import importlib.util
-import sys
-from pathlib import Path
-
 import koebe
 import numpy as np
 import pytest
+from addon_support import maps_module
 
-MAPS = Path(__file__).resolve().parents[2] / "addon" / "maps"
 POINT, OTHER = 0.3 - 0.5j, -0.2 + 0.6j
 RIM = np.exp(2j * np.pi * np.arange(64) / 64)
-
-
-def maps_module(name):
-    """A module of the add-on's room `maps`, which never imports Blender."""
-    if "koebe_maps" not in sys.modules:
-        spec = importlib.util.spec_from_file_location(
-            "koebe_maps", MAPS / "__init__.py", submodule_search_locations=[str(MAPS)]
-        )
-        sys.modules["koebe_maps"] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(sys.modules["koebe_maps"])
-    return importlib.import_module(f"koebe_maps.{name}")
-
-
 moebius, domains, surfaces = (maps_module(name) for name in ("moebius", "circle_domain", "surface"))
 MAPS_TO_TRY = [
     moebius.to_middle(POINT), moebius.dragged(POINT, OTHER), moebius.rotation(0.7), moebius.inside_out(POINT, 0.2),
