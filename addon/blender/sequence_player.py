@@ -57,7 +57,7 @@ def shown_instead(obj: MeshObject, layer: str) -> str | None:
     stores = own.node_group.nodes if own is not None and (own.show_viewport or own.show_render) else ()
     for node in stores:
         if node.bl_idname == STORE and _enabled(node.inputs, "Name").default_value == layer:
-            return f"its modifier {own.name!r} shows the UVs of its frames in place of these: remove it to see them"
+            return f"its modifier {own.name!r} hides this map: it plays a sequence. Remove the modifier to see this map"
     return None
 
 

@@ -19,7 +19,7 @@ from ..maps.sequence import SequenceOutcome, are_alike, map_sequence, point_valu
 from .choice_job import ChoiceJob
 
 STAYS_IN_EDIT_MODE = (
-    "this is done in Object Mode, and Blender would not find back to Edit Mode with objects that are hidden or not "
+    "the run needs Object Mode, and Blender could not return to Edit Mode with objects that are hidden or not "
     "selected: leave Edit Mode first"
 )
 
@@ -119,7 +119,7 @@ class SequenceJob(ChoiceJob):
         try:
             return map_writing.plan(target, self.options.layer, outcome.maps[0].task.surface, *uv)
         except TransferError as error:  # the attributes are there nevertheless
-            outcome.remarks.append(f"nothing plays its frames. {error}")
+            outcome.remarks.append(f"no modifier plays the frames. {error}")
             return None
 
     def _checkers(self, run: Transaction, plans: list[Any]) -> list[bpy.types.Material | None]:

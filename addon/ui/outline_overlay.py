@@ -35,6 +35,17 @@ def after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None
     _stale = _stale or any(isinstance(update.id, bpy.types.Mesh) for update in depsgraph.updates)
 
 
+@bpy.app.handlers.persistent
+def after_frame(*_: object) -> None:
+    """Called by Blender after a change of frame: while an animation plays, it does not draw UV Editors by itself."""
+    if bpy.app.background or bpy.app.is_job_running("RENDER"):
+        return
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR":
+                area.tag_redraw()
+
+
 def forget() -> None:
     """Read the outlines again if meshes have changed. Drags are not among these changes."""
     global _stale
@@ -94,6 +105,7 @@ def draw_segments(context: bpy.types.Context, uv: np.ndarray) -> None:
 
 HANDLERS = (
     (bpy.app.handlers.depsgraph_update_post, after_update),
+    (bpy.app.handlers.frame_change_post, after_frame),
     (bpy.app.handlers.undo_post, after_undo),
     (bpy.app.handlers.redo_post, after_undo),
     (bpy.app.handlers.load_post, after_undo),

@@ -461,7 +461,7 @@ def test_a_map_that_the_modifier_hides_is_said(capfd):
     add_waving()
     unwrap()
     bpy.ops.uv.koebe_uniformize()
-    assert "its modifier 'Koebe Sequence' shows the UVs of its frames" in capfd.readouterr().out
+    assert "its modifier 'Koebe Sequence' hides this map" in capfd.readouterr().out
 
 
 # ---------------------------------------------------------------- around it
@@ -527,7 +527,7 @@ def test_hidden_objects_are_refused_with_the_reason(addon):
     obj = add_waving()
     obj.hide_set(True)
     job_of, choice = addon("jobs.sequence_job").SequenceJob, addon("maps.options").SequenceChoice
-    with pytest.raises(addon("blender.errors").TransferError, match="while it is hidden"):
+    with pytest.raises(addon("blender.errors").TransferError, match="it is hidden, so Blender does not animate it"):
         job_of([obj], addon("maps.options").Options(checker=False), choice(frames=range(1, 5)))
 
 

@@ -44,14 +44,14 @@ def test_a_good_map_asks_for_nothing(addon):
 
 
 @pytest.mark.parametrize("bad, name, advice", [
-    ({"density": 50.0}, "Evenness", "raise Even, or take Shape: Parts"),
+    ({"density": 50.0}, "Evenness", "raise Even, or choose Shape: Parts"),
     ({"density": 50.0, "parts": 3}, "Evenness", "slider Parts"),
-    ({"density": 50.0, "domain": "sphere"}, "Evenness", "by nature"),
+    ({"density": 50.0, "domain": "sphere"}, "Evenness", "always has uneven texels"),
     ({"density": 5e6}, "Evenness", "Shape: Parts"),
     ({"coverage": 0.1}, "Coverage", "Pack Islands"),
     ({"angle_error": 9.0}, "Angle error", "subdivide"),
     ({"angle_error": 9.0, "even": 0.5}, "Angle error", "lower Even"),
-    ({"flipped": 3}, "Flips", "take Shape: Parts"),
+    ({"flipped": 3}, "Flips", "choose Shape: Parts"),
     ({"flipped": 3, "parts": 3}, "Flips", "repair"),
 ], ids=str)  # fmt: skip
 def test_what_is_bad_comes_with_what_to_do(addon, bad, name, advice):
