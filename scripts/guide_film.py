@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The guide's film: press Unwrap, drag a circle, move the slider Even, press Unwrap again. In a real window.
 
-    xvfb-run -a -s '-screen 0 960x600x24' /usr/bin/python3 scripts/guide_film.py OUT.gif
+    xvfb-run -a -s '-screen 0 880x560x24' /usr/bin/python3 scripts/guide_film.py OUT.gif
 
 It needs what tests/gui needs: the zip of `make package`, a display, xdotool, ImageMagick. Each picture is taken when
 the window is drawn, and the pointer is painted into it.
@@ -18,13 +18,14 @@ sys.path.insert(0, str(ROOT / "tests" / "gui"))
 
 import window as gui  # noqa: E402
 
-SCREEN = (960, 600)
-COLORS = 96
+SCREEN = (880, 560)
+COLORS = 56
+TOP = 26  # pixels of Blender's menus, which are cut off
 SHORT, LONG = 12, 110  # hundredths of a second that a picture is shown
-STEPS = 10  # pictures of a drag
+STEPS = 5  # pictures of a drag
 ARROW = ((0, 0), (0, 17), (4, 13), (7, 20), (10, 19), (7, 12), (12, 12))
 SCENE = f"""
-bpy.ops.wm.open_mainfile(filepath={str(ROOT / "blend_samples" / "face_five_holes.blend")!r}, load_ui=False)
+bpy.ops.wm.open_mainfile(filepath={str(ROOT / "blend_samples" / "suzanne_mask.blend")!r}, load_ui=False)
 view = bpy.context.window_manager.windows[0].view_layer
 obj = next(obj for obj in view.objects if obj.type == 'MESH')
 view.objects.active = obj
@@ -32,6 +33,9 @@ obj.select_set(True)
 for polygon in obj.data.polygons: polygon.use_smooth = True
 bpy.context.scene.koebe_uv.shape = 'DISK'
 bpy.context.scene.koebe_uv.checker_size = 24
+bpy.context.preferences.system.use_region_overlap = False
+bpy.context.scene.render.dither_intensity = 0
+bpy.context.preferences.themes[0].view_3d.space.gradients.background_type = 'SINGLE_COLOR'
 """
 # Two editors alone: the UV Editor on the left, the 3D View on the right.
 EDITORS = """
@@ -84,7 +88,7 @@ class Film:
         arrow = " ".join(f"{self.at[0] + x},{self.at[1] + y}" for x, y in ARROW)
         self.pictures.append(["(", "-delay", str(hundredths), str(path), "-draw", f"polygon {arrow}", ")"])
 
-    def glide(self, x, y, steps=5):
+    def glide(self, x, y, steps=4):
         """Bring the pointer there in steps, with a picture of each."""
         begin = self.at
         for step in range(1, steps + 1):
@@ -105,9 +109,14 @@ class Film:
         self.take(hundredths)
 
     def save(self, path):
-        """All pictures as a GIF that repeats."""
+        """All pictures as a GIF that repeats, in the colours of three of them."""
         shown = [word for picture in self.pictures for word in picture]
-        subprocess.run(["convert", "-fill", "white", "-stroke", "black", *shown, "+dither", "-colors", str(COLORS),
+        some = [self.pictures[number][3] for number in (0, len(self.pictures) // 2, -1)]
+        palette = str(self.folder / "palette.png")
+        subprocess.run(["convert", *some, "+append", "+dither", "-colors", str(COLORS), "-unique-colors", palette],
+                       check=True)  # fmt: skip
+        subprocess.run(["convert", "-fill", "white", "-stroke", "black", *shown, "-crop",
+                        f"{SCREEN[0]}x{SCREEN[1] - TOP}+0+{TOP}", "+repage", "+dither", "-remap", palette,
                         "-layers", "OptimizePlus", "-loop", "0", str(path)], check=True)  # fmt: skip
 
 
@@ -167,7 +176,7 @@ def play(window, film):
     film.let_go(LONG)
     film.glide(x + int(0.3 * width), slider)
     film.press()
-    film.glide(x + int(0.68 * width), slider, 8)
+    film.glide(x + int(0.52 * width), slider, 5)
     film.let_go(4 * SHORT)
     unwrap(window, film, *button)
     film.take(2 * LONG)

@@ -140,7 +140,7 @@ def test_a_report_of_another_layer_is_left_alone():
     ({"rim": 9}, "there is no loop 9: the island has 4"), ({"hole": 4}, "there is no hole 4: the island has 3"),
     ({"center": (1.0, 0.0)}, "inside the disk"), ({"layer": "None"}, "no UV layer 'None'"),
     ({"island": 3}, "no island 3"), ({"object_name": "Nobody"}, "no object 'Nobody'"),
-    ({"rim": 1, "hole": 1}, "cannot be a hole"),
+    ({"rim": 1, "hole": 1}, "cannot be the hole in the middle"),
 ])  # fmt: skip
 def test_what_cannot_be_done_is_said_and_changes_nothing(options, text):
     mapped()

@@ -304,7 +304,7 @@ def test_rims_that_are_not_two_are_an_error():
         with pytest.raises(RuntimeError, match=f"selected vertices are on {words}"):
             ring(rims="selected")
         bpy.ops.object.mode_set(mode="OBJECT")
-    with pytest.raises(RuntimeError, match="but 0 loops of it"):
+    with pytest.raises(RuntimeError, match="selected vertices are on 0 loops"):
         ring(rims="selected")
     assert len(obj.data.uv_layers) == 0
     pick(obj, [])
