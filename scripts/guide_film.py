@@ -98,8 +98,9 @@ class Film:
 
     def press(self):
         """Press the button of the mouse."""
-        gui.xdotool("mousemove", self.at[0] + 1, self.at[1], "sleep", "0.1", "mousemove", *self.at, "mousedown", 1,
-                    "sleep", "0.5")  # fmt: skip
+        self.window.move(*self.at)
+        self.window.settle()
+        gui.xdotool("mousedown", 1, "sleep", "0.5")
         self.take(3 * SHORT)
 
     def let_go(self, hundredths=SHORT):
@@ -133,7 +134,7 @@ def unwrap(window, film, x, y):
     film.press()
     window.run("bpy.context.window_manager.koebe_uv.islands.clear()")
     film.let_go()
-    window.wait(gui.DONE)
+    window.wait(gui.DONE, 240.0)
     window.settle()
     film.take(LONG)
 
