@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "tests" / "gui"))
 import window as gui  # noqa: E402
 
 SCREEN = (880, 560)
-COLORS = 56
+COLORS = 40
 TOP = 26  # pixels of Blender's menus, which are cut off
 SHORT, LONG = 12, 110  # hundredths of a second that a picture is shown
 STEPS = 5  # pictures of a drag

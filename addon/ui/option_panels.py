@@ -112,13 +112,8 @@ class LayerPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("layer", "placement", "margin"):
+        for name in ("layer", "placement", "margin", "checker", "checker_size"):
             draw_option(column, settings, name, context)
-        row = column.row(heading="Checker")
-        row.prop(settings, "checker", text="")
-        size = row.row()
-        size.active, size.use_property_split = settings.checker, False
-        size.prop(settings, "checker_size")
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)
 
