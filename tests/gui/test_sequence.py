@@ -54,7 +54,7 @@ def test_the_window_plays_the_frames(window):
     window.move(*window.middle("VIEW_3D"))
     window.choose(checker_size=12)
     window.press("uv.koebe_sequence", frame_start=1, frame_end=12, checker_size=12)
-    window.wait(f"not heart.computing and len({REPORT}) == 12", 30.0)
+    window.wait(f"not heart.computing and len({REPORT}) == 12", 120.0)
     window.show_textures()
     window.run("for area in bpy.context.window_manager.windows[0].screen.areas:\n"
                "    if area.type == 'VIEW_3D': area.spaces.active.overlay.show_overlays = False")  # fmt: skip
