@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The guide's pictures.
 # Usage: scripts/guide_pictures.sh window     cut out of those that `make test-gui` leaves in out/gui
+#        scripts/guide_pictures.sh film       the film at the top, filmed in a window on a screen of its own
 #        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and mug in parts, a torus tile, a sphere
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,6 +25,9 @@ window)
     cut flat 51_flat_copy 588x420+225+178 560
     cut parts 62_hand_in_parts 1057x772+0+28 800
     ;;
+film)
+    PATH=/usr/bin:$PATH xvfb-run -a -s '-screen 0 880x560x24' /usr/bin/python3 scripts/guide_film.py "$images/guide_film.gif"
+    ;;
 drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
@@ -32,7 +36,7 @@ drawn)
     draw closed_head sphere_picture.py "$images/guide_sphere.jpg"
     ;;
 *)
-    echo "window or drawn" >&2
+    echo "window, film or drawn" >&2
     exit 2
     ;;
 esac

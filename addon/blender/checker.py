@@ -35,7 +35,7 @@ def check(obj: MeshObject) -> None:
     if obj.library is not None:
         raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
     if obj.override_library is not None:
-        raise TransferError(f"{obj.name}: a library override would forget its own materials: make it local first")
+        raise TransferError(f"{obj.name}: it is a library override, which cannot keep the checker: make it local first")
     if len(obj.material_slots) == 0 or any(is_checker(material) for material in obj.data.materials):
         check_mesh(obj)
 

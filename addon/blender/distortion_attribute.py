@@ -83,7 +83,7 @@ def _new_attribute(obj: MeshObject) -> str:
     free = next(n for n in names if n not in mesh.attributes and n not in mesh.uv_layers and n not in obj.vertex_groups)
     made = mesh.color_attributes.new(free, "FLOAT_COLOR", "CORNER")
     if made is None:
-        raise TransferError(f"{obj.name}: Blender makes no colour attribute for it")
+        raise TransferError(f"{obj.name}: Blender could not make a colour attribute")
     return made.name
 
 

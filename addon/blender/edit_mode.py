@@ -22,7 +22,7 @@ def check(context: bpy.types.Context, obj: MeshObject) -> None:
         raise TransferError(f"{obj.name}: it is linked from another file: make it local first")
     if not _visible(context, obj):
         raise TransferError(
-            f"{obj.name}: it is not in local view: leave that first" if _out_of_local_view(context, obj)
+            f"{obj.name}: it is not in the local view: leave the local view first" if _out_of_local_view(context, obj)
             else f"{obj.name}: it is hidden: show it first"
         )  # fmt: skip
 
@@ -54,7 +54,7 @@ def enter(run: Transaction, context: bpy.types.Context, obj: MeshObject) -> None
     layer.objects.active = obj
     bpy.ops.object.mode_set(mode="EDIT")
     if obj.mode != "EDIT":
-        raise TransferError(f"{obj.name}: Blender does not enter Edit Mode with it")
+        raise TransferError(f"{obj.name}: Blender cannot enter Edit Mode with this object")
 
 
 def undo_all(context: bpy.types.Context) -> None:

@@ -88,7 +88,7 @@ def _check_new(one: Filling, taken: set[frozenset[int]]) -> None:
     for triangle in one.triangles[(one.triangles < len(rim)).all(axis=1)].tolist():
         face = frozenset(rim[v] for v in triangle)
         if face in taken:
-            raise FillError("two holes have the same vertices: fill one after the other")
+            raise FillError("two holes have the same vertices: select one hole and fill it, then the other")
         taken.add(face)
 
 

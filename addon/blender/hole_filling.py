@@ -51,7 +51,7 @@ def boundary_loops(mesh: bmesh.types.BMesh) -> list[list[bmesh.types.BMLoop]]:
             loop.append(corner)
             corner = _next_on_boundary(corner)
         if corner is not first:
-            raise FillError("a boundary is no closed loop: faces are turned against each other or too many meet")
+            raise FillError("a boundary is not a closed loop: use Recalculate Outside, or delete surplus faces")
         loops.append(loop)
     return loops
 
@@ -92,10 +92,9 @@ def chosen_loops(mesh: bmesh.types.BMesh, which: str) -> list[list[bmesh.types.B
         loops = [loop for index, loop in enumerate(loops) if longest[part[index]] != index]
     if not loops:
         raise FillError(
-            "no boundary loop is selected"
-            if which == SELECTED
+            "no boundary loop is selected" if which == SELECTED
             else "there is no hole: the only boundary is the outer one"
-        )
+        )  # fmt: skip
     return loops
 
 
@@ -121,10 +120,10 @@ def filling(
     """The patch for one loop. Changes nothing. `koebe` is the native package, `keys` are as for `Continued`."""
     rim = [corner.vert for corner in loop]
     if len(set(rim)) != len(rim):
-        raise FillError("a hole meets itself at a vertex: separate its halves first")
+        raise FillError("a hole touches itself at a vertex: split that vertex first")
     vertices, triangles = _surroundings(loop)
     if not np.ptp(vertices[: len(rim)], axis=0).max() > 0.0:  # NaN too
-        raise FillError("a hole has no extent: merge its doubled vertices")
+        raise FillError("a hole has no size: use Merge by Distance")
     try:
         filled, faces, label = koebe.fill_holes(vertices, triangles, loops=[0], fair=True)
     except koebe.KoebeError as error:
@@ -146,13 +145,13 @@ def _check_room(mesh: bmesh.types.BMesh, rim: list[bmesh.types.BMVert], patch: n
     """Raise FillError if the patch would double a face, or give an edge more than two."""
     for triangle in patch[(patch < len(rim)).all(axis=1)].tolist():
         if mesh.faces.get([rim[v] for v in triangle]) is not None:
-            raise FillError("a hole is the back of a single face: there is nothing to fill")
+            raise FillError("a hole is only the back of one face: there is nothing to fill")
     sides = np.sort(np.concatenate([patch[:, [0, 1]], patch[:, [1, 2]], patch[:, [2, 0]]]), axis=1)
     sides, uses = np.unique(sides[(sides < len(rim)).all(axis=1)], axis=0, return_counts=True)
     for (one, two), faces in zip(sides.tolist(), uses.tolist(), strict=True):
         edge = mesh.edges.get([rim[one], rim[two]])
         if edge is not None and len(edge.link_faces) + faces > 2:
-            raise FillError("a hole cannot be filled without an edge of more than two faces: subdivide around it")
+            raise FillError("a hole cannot be filled, as an edge would get three faces: subdivide around it")
 
 
 def _surroundings(loop: list[bmesh.types.BMLoop]) -> tuple[np.ndarray, np.ndarray]:

@@ -15,7 +15,7 @@ def mark_seams(run: Transaction, obj: MeshObject, edges: np.ndarray) -> None:
     """Make these edges (E,) bool of the mesh that was read seams. Other seams stay. Raises TransferError."""
     taken = compat.seam_name_taken(obj.data)
     if taken is not None:
-        raise TransferError(f"the name {taken!r} is that of something else: give that another name")
+        raise TransferError(f"the name {taken!r} is taken by other data: give that data another name")
     with arrays(obj) as mesh:
         before = compat.seam_edges(mesh)
     after = before | edges

@@ -12,6 +12,7 @@ from .transaction import Transaction
 NAME = "Koebe Sequence"  # of the modifier and its nodes
 STORE = "GeometryNodeStoreNamedAttribute"
 DIGITS = 4  # of a frame in an attribute's name, padded with zeros; a minus counts
+LAYER, PREFIX, FRAMES = "koebe_layer", "koebe_prefix", "koebe_frames"  # what the nodes play, in their properties
 
 
 def put_on(run: Transaction, obj: MeshObject, layer: str, prefix: str, frames: range) -> None:
@@ -22,10 +23,32 @@ def put_on(run: Transaction, obj: MeshObject, layer: str, prefix: str, frames: r
     old = _own(obj)
     groups = {group.name for group in bpy.data.node_groups if group.library is None}
     names = [one.name for one in obj.modifiers]
-    run.before_write(_restore, obj, names, groups, old.name if old else None, old.node_group if old else None)
+    kept = (old.name, old.node_group, old.show_viewport, old.show_render) if old else None
+    run.before_write(_restore, obj, names, groups, kept)
     nodes = _nodes(layer, prefix, frames)
+    nodes[LAYER], nodes[PREFIX], nodes[FRAMES] = layer, prefix, [frames[0], frames[-1], frames.step]
     modifier: Any = old or obj.modifiers.new(NAME, "NODES")
     modifier.node_group = nodes
+    modifier.show_viewport = modifier.show_render = True
+
+
+def frame_shown(obj: MeshObject, layer: str, now: int) -> int | None:
+    """The frame whose UVs the modifier shows in that layer at the scene's frame `now`, or None if it shows none."""
+    own = _own(obj)
+    if own is None or not own.show_viewport or own.node_group.get(LAYER) != layer:
+        return None
+    first, last, step = own.node_group[FRAMES]
+    return int(min(max(first + (now - first) // step * step, first), last))
+
+
+def attribute_shown(obj: MeshObject, layer: str, now: int) -> str | None:
+    """The name of the attribute with these UVs, if the mesh has it."""
+    frame = frame_shown(obj, layer, now)
+    if frame is None:
+        return None
+    own = _own(obj)
+    name = f"{own.node_group[PREFIX]}{frame:0{DIGITS}d}"
+    return name if name in obj.data.attributes else None
 
 
 def shown_instead(obj: MeshObject, layer: str) -> str | None:
@@ -34,7 +57,7 @@ def shown_instead(obj: MeshObject, layer: str) -> str | None:
     stores = own.node_group.nodes if own is not None and (own.show_viewport or own.show_render) else ()
     for node in stores:
         if node.bl_idname == STORE and _enabled(node.inputs, "Name").default_value == layer:
-            return f"its modifier {own.name!r} shows the UVs of its frames in place of these: remove it to see them"
+            return f"its modifier {own.name!r} hides this map: it plays a sequence. Remove the modifier to see this map"
     return None
 
 
@@ -46,12 +69,12 @@ def _own(obj: MeshObject) -> Any:
     return None
 
 
-def _restore(obj: MeshObject, names: list[str], groups: set[str], old: str | None, group: Any) -> None:
+def _restore(obj: MeshObject, names: list[str], groups: set[str], old: tuple[Any, ...] | None) -> None:
     for added in [one for one in obj.modifiers if one.name not in names]:
         obj.modifiers.remove(added)
-    if old is not None and old in obj.modifiers:
-        before: Any = obj.modifiers[old]
-        before.node_group = group
+    if old is not None and old[0] in obj.modifiers:
+        before: Any = obj.modifiers[old[0]]
+        _, before.node_group, before.show_viewport, before.show_render = old
     for made in [one for one in bpy.data.node_groups if one.library is None and one.name not in groups]:
         bpy.data.node_groups.remove(made)
 

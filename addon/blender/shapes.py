@@ -91,7 +91,7 @@ def check_frames(context: bpy.types.Context, obj: MeshObject) -> None:
     check_mesh(obj)
     if not obj.visible_get(view_layer=context.view_layer):
         raise TransferError(
-            f"{obj.name}: Blender leaves out its modifiers and animation while it is hidden: show it first"
+            f"{obj.name}: it is hidden, so Blender does not animate it: show it first"
         )
 
 
@@ -113,7 +113,7 @@ def _evaluated(
             making = ", ".join(repr(one.name) for one in obj.modifiers if one.show_viewport)
             raise TransferError(
                 f"{obj.name}: in {label_of(frame)} its modifiers ({making or 'none of its own'}) make other faces than "
-                "those of the mesh, which have the UVs: turn off in the viewport what adds, removes or joins faces"
+                "the mesh has: turn off in the viewport each modifier that adds, removes or joins faces"
             )
         corners = None
         if with_triangles:

@@ -15,7 +15,7 @@ from .mesh_object import MeshObject, mesh_objects
 from .mesh_reading import bring_up_to_date, read_mark
 from .transaction import Transaction
 
-GONE = "it was deleted or renamed in the meantime"
+GONE = "it was deleted or renamed during the run"
 
 
 def target_objects(context: bpy.types.Context) -> list[MeshObject]:
@@ -36,10 +36,10 @@ def check_readable(obj: MeshObject) -> None:
     """Raise TransferError if the object's mesh is not up to date."""
     mesh = obj.data
     if mesh.is_editmode and obj.mode != "EDIT":
-        raise TransferError(f"{obj.name}: its mesh is in Edit Mode through another object: leave that first")
+        raise TransferError(f"{obj.name}: another object with the same mesh is in Edit Mode: leave Edit Mode first")
     users = [obj] if mesh.users == 1 else [other for other in bpy.data.objects if other.data == mesh]
     if any(other.mode not in {"OBJECT", "EDIT"} for other in users):
-        raise TransferError(f"{obj.name}: its mesh is being sculpted or painted: leave that mode first")
+        raise TransferError(f"{obj.name}: its mesh is in a sculpt or paint mode: leave that mode first")
 
 
 def check_mesh(obj: MeshObject) -> None:
@@ -48,7 +48,7 @@ def check_mesh(obj: MeshObject) -> None:
     if mesh.library is not None:
         raise TransferError(f"{obj.name}: its mesh is linked from another file: make it local first")
     if mesh.override_library is not None:
-        raise TransferError(f"{obj.name}: its mesh is a library override, which keeps no UVs: make it local first")
+        raise TransferError(f"{obj.name}: its mesh is a library override, which cannot keep UVs: make it local first")
     check_readable(obj)
 
 
@@ -77,7 +77,7 @@ class Target:
         check_mesh(obj)
         bring_up_to_date(obj)
         if not all(map(_same, read_mark(obj), self.mark)):
-            raise TransferError(f"{self.name}: its mesh has changed in the meantime")
+            raise TransferError(f"{self.name}: its mesh has changed during the run")
         return obj
 
 

@@ -26,7 +26,7 @@ def check_layer(obj: MeshObject, layer_name: str) -> None:
         return
     if len(mesh.uv_layers) >= MAX_UV_LAYERS:
         raise TransferError(
-            f"{obj.name}: it has {MAX_UV_LAYERS} UV layers, which is all that Blender allows: delete one"
+            f"{obj.name}: it has {MAX_UV_LAYERS} UV layers, and Blender allows no more: delete a layer"
         )
     if layer_name in mesh.attributes:
         raise TransferError(
@@ -40,8 +40,8 @@ def check_layers(obj: MeshObject, names: list[str]) -> None:
     new, left = [name for name in names if name not in layers], MAX_UV_LAYERS - len(layers)
     if len(new) > left:
         raise TransferError(
-            f"{obj.name}: {len(new)} new UV layers are asked for, and there is room for {left}, as Blender allows "
-            f"{MAX_UV_LAYERS}: choose Target: Attributes, which have no limit"
+            f"{obj.name}: {len(new)} new UV layers are needed, and there is room for {left}, as Blender allows "
+            f"{MAX_UV_LAYERS}: choose Target: Attributes, which has no limit"
         )
     for name in names:
         check_layer(obj, name)

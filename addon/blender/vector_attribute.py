@@ -35,6 +35,12 @@ def check(obj: MeshObject, name: str) -> None:
         raise TransferError(f"{obj.name}: the name {name!r} is taken by something else: choose another layer name")
 
 
+def corner_values(obj: MeshObject, name: str) -> np.ndarray:
+    """Values (C, 2) of the attribute at the mesh's corners. Not in Edit Mode."""
+    domain, values = _read(obj.data, name) or ("CORNER", np.zeros((len(obj.data.loops), 3), dtype=np.float32))
+    return values[compat.corner_indices(obj.data)[0] if domain == "POINT" else slice(None), :2]
+
+
 def write(run: Transaction, obj: MeshObject, vectors: Vectors) -> None:
     """Write the values, into a new attribute if that domain has none of that name. Not in Edit Mode."""
     check(obj, vectors.name)

@@ -105,8 +105,6 @@ def parse(arguments: list[str]) -> Request:
     given = {name for name, value in values.items() if value != parser.get_default(name)}
     sequence = _sequence_choice({name: values.pop(name) for name in OF_SEQUENCES}, given)
     given -= {*OF_SEQUENCES}
-    if sequence is not None:
-        values["checker"] = False
     parts, domain = values.pop("parts"), values.pop("domain")
     of, asked = ("parts", "--parts") if parts else (domain, f"--domain {domain}")
     _refuse_others("uniformize" if of == DISK else of, asked, given)
@@ -179,7 +177,7 @@ def _sequence_choice(own: dict[str, Any], given: set[str]) -> options.SequenceCh
         if target is not None:
             raise Stop(USAGE, f"{flag('sequence_target')} needs --sequence")
         return None
-    known = {row.name for row in rows_of("sequence")} | {*OF_SEQUENCES, "checker"}
+    known = {row.name for row in rows_of("sequence")} | {*OF_SEQUENCES}
     for name in sorted(given - known):
         raise Stop(USAGE, f"{flag(name)} is not of --sequence")
     try:

@@ -17,7 +17,7 @@ from ..maps.tile_pattern import Pattern
 from .choice_job import ChoiceJob
 
 BESIDE = 0.1  # of an object's size, between the object and its sphere
-OTHER_PERIODS = "its tiles have other periods: the checker runs over the cuts of the largest one"
+OTHER_PERIODS = "its tiles differ in size: the checker has no seam on the largest tile only"
 
 
 class DomainJob(ChoiceJob):

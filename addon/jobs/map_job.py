@@ -62,16 +62,15 @@ class Job:
             )  # fmt: skip
         if options.outer == "active" and all(task.outer == "auto" for task in self.tasks):
             raise TransferError(
-                "the outer loop is to be that of the active vertex, but no vertex is active: "
-                "select one on the loop, in Edit Mode"
+                "Outer Loop is Active Vertex, but no vertex is active: in Edit Mode, select a vertex of the boundary"
             )
         for wanted, found, what, where in (
-            (options.center, [task.center for task in self.tasks], "centre", "inside the surface"),
-            (options.point, [task.point for task in self.tasks], "point at the right", "on the boundary"),
+            (options.center, [task.center for task in self.tasks], "Centre", "inside the surface"),
+            (options.point, [task.point for task in self.tasks], "Rim Point", "of a boundary"),
         ):
             if wanted == "active" and all(place is None for place in found):
                 raise TransferError(
-                    f"the {what} is to be the active vertex, but no vertex is active: select one {where}, in Edit Mode"
+                    f"{what} is Active Vertex, but no vertex is active: in Edit Mode, select a vertex {where}"
                 )
         if options.importance:
             self._even_importance()
@@ -109,7 +108,7 @@ class Job:
         known = [task.importance for task in self.tasks if task.importance is not None]
         if not known:
             raise TransferError(
-                f"the importance is to be the vertex group {self.options.importance!r}, but no object has one"
+                f"Importance is the vertex group {self.options.importance!r}, but no object has this group"
             )
         least = min(float(one.min()) for one in known) if len(known) == len(self.tasks) else 0.0
         self.tasks = [
@@ -211,10 +210,15 @@ class Job:
         hidden = sequence_player.shown_instead(plan.obj, plan.layer)
         if hidden is not None:
             outcome.remarks.append(hidden)
-        if material is not None:
-            try:
-                checker.check(plan.obj)
-            except TransferError as error:  # the map is there nevertheless
-                outcome.remarks.append(f"it has no checker. {error}")
-            else:
-                checker.put_on(run, plan.obj, material)
+        self._put_checker(run, outcome, plan.obj, material)
+
+    @staticmethod
+    def _put_checker(run: Transaction, outcome: Any, obj: MeshObject, material: bpy.types.Material | None) -> None:
+        if material is None:
+            return
+        try:
+            checker.check(obj)
+        except TransferError as error:  # the map is there nevertheless
+            outcome.remarks.append(f"it did not get the checker. {error}")
+        else:
+            checker.put_on(run, obj, material)

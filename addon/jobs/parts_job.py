@@ -29,4 +29,4 @@ class PartsJob(ChoiceJob):
             try:
                 seams.mark_seams(run, plan.obj, one.cuts)
             except TransferError as error:  # the map is there nevertheless
-                outcome.remarks.append(f"its cuts are no seams. {error}")
+                outcome.remarks.append(f"its cuts were not marked as seams. {error}")

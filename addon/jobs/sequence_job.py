@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..blender import edit_mode, map_writing, sequence_player, shapes, uv_layers, vector_attribute
+from ..blender import checker, edit_mode, map_writing, sequence_player, shapes, uv_layers, vector_attribute
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target
@@ -19,7 +19,7 @@ from ..maps.sequence import SequenceOutcome, are_alike, map_sequence, point_valu
 from .choice_job import ChoiceJob
 
 STAYS_IN_EDIT_MODE = (
-    "this is done in Object Mode, and Blender would not find back to Edit Mode with objects that are hidden or not "
+    "the run needs Object Mode, and Blender could not return to Edit Mode with objects that are hidden or not "
     "selected: leave Edit Mode first"
 )
 
@@ -119,12 +119,25 @@ class SequenceJob(ChoiceJob):
         try:
             return map_writing.plan(target, self.options.layer, outcome.maps[0].task.surface, *uv)
         except TransferError as error:  # the attributes are there nevertheless
-            outcome.remarks.append(f"nothing plays its frames. {error}")
+            outcome.remarks.append(f"no modifier plays the frames. {error}")
             return None
 
+    def _checkers(self, run: Transaction, plans: list[Any]) -> list[bpy.types.Material | None]:
+        """The checker of the layer in which each object shows its first map, or None."""
+        found: list[bpy.types.Material | None] = []
+        for shown, *_ in plans:
+            if shown is None or not self.options.checker:
+                found.append(None)
+            else:
+                pattern = self._pattern(shown, self.options.checker_size)
+                found += checker.materials(run, [shown.obj], shown.layer, [pattern])
+        return found
+
     def _write_one(self, run: Transaction, outcome: Any, plan: Any, material: Any) -> None:
+        outcome.how_shown = self._how_shown(outcome, plan)
         if self.choice.target == "LAYERS":
             map_writing.write_several(run, plan)
+            self._put_checker(run, outcome, plan[0].obj, material)
             return
         shown, obj, vectors = plan
         if obj.mode == "EDIT":
@@ -134,10 +147,24 @@ class SequenceJob(ChoiceJob):
         if shown is None:
             return
         if outcome.alike:
-            super()._write_one(run, outcome, shown, None)
+            outcome.in_uv = True
+            super()._write_one(run, outcome, shown, material)
             return
         map_writing.write(run, shown)
         sequence_player.put_on(run, obj, self.options.layer, self.choice.name(self.options.layer, ""), self.frames)
+        self._put_checker(run, outcome, obj, material)
+
+    def _how_shown(self, outcome: SequenceOutcome, plan: Any) -> str:
+        """A sentence: where the maps are to be seen."""
+        each = "frame" if self.choice.source == "FRAMES" else "shape key"
+        if outcome.alike:
+            return ""  # a warning says what was written
+        if self.choice.target == "LAYERS":
+            said = f"each {each} has its own UV layer. Choose one in Object Data ▸ UV Maps"
+            return said if each == "shape key" else f"{said}, or take Target: Attributes, which plays them"
+        if plan[0] is not None:
+            return "play the timeline: the checker and the UV Editor show the map of each frame"
+        return f"each {each} has its own attribute. An Attribute node in a material shows it: {outcome.written[-1]}"
 
 
 def _begun(task: Task, first: shapes.MeshShape) -> Task:

@@ -86,7 +86,7 @@ class CarryJob(_ShapeJob):
         """Read the objects. Raises NativeError, or TransferError if UVs are missing or no target can be written."""
         own = with_own_meshes(objects)
         if len(own) < 2:
-            raise TransferError("select a surface beside the active one to carry its texture to")
+            raise TransferError("select another surface too: it gets the texture of the active object")
         source = own[0]
         check_readable(source)
         if layer not in source.data.uv_layers:

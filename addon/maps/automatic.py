@@ -20,7 +20,7 @@ NO_DISK = {  # why a surface is no disk, by the kind of `koebe.TopologyError`
     "closed": "the surface is closed",
     "genus": "the surface has a handle",
     "nonmanifold_edge": "some edges have more than two faces",
-    "nonmanifold_vertex": "faces meet in a vertex alone",
+    "nonmanifold_vertex": "some faces touch only in a vertex",
     "nonorientable": "the surface is one-sided",
 }
 

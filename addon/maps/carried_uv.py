@@ -63,7 +63,7 @@ def read_source(koebe: ModuleType, shape: Shape, corner_uv: np.ndarray) -> Sourc
     island, result = shape.island, shape.result
     uv = corner_uv[island.some_corner()].astype(np.float64)
     if np.abs(uv[island.corner_vertex] - corner_uv[island.corners]).max() > ON_CIRCLE:
-        raise ShapeError(f"{shape.name}: its UVs are cut: map it first, with Tube: Annulus")
+        raise ShapeError(f"{shape.name}: its UVs are cut: map it again, with Tube: Annulus")
     circles = []
     for loop, off in zip(result.loops, result.off_circle, strict=True):
         rim = np.setdiff1d(loop, off)
@@ -74,7 +74,7 @@ def read_source(koebe: ModuleType, shape: Shape, corner_uv: np.ndarray) -> Sourc
     center, radius, _ = circles[outer]
     inside = all(np.linalg.norm(c - center) + r < radius for k, (c, r, _) in enumerate(circles) if k != outer)
     if not (radius > 0.0 and inside and max(off for _, _, off in circles) <= ON_CIRCLE):
-        raise ShapeError(f"{shape.name}: its UVs are no circle domain: map it first")
+        raise ShapeError(f"{shape.name}: its UVs are not a disk with round holes: unwrap it with Shape: Disk")
     order = [outer, *(k for k in range(len(circles)) if k != outer)]
     domain = Domain(
         np.array([(circles[k][0] - center) / radius for k in order]),
@@ -113,7 +113,7 @@ def carry(
         bent = _bent_onto_holes(koebe, source, target, match, points)
         fitted = len(_flips(target, source, bent)) <= len(_flips(target, source, points))
         points = bent if fitted else points
-        message = "" if fitted else "the holes are too different to be fitted without flips: aligned only"
+        message = "" if fitted else "the holes are too different to fit without flipped faces: they are only aligned"
     elif not alignment.converged or not target.result.converged:
         message = "not converged"
     report = koebe.distortion(target.island.vertices, target.island.triangles, points)

@@ -101,7 +101,7 @@ class CircleDomain:
         there is no such loop, or if the point is not inside the disk.
         """
         if not abs(center) < 1.0:
-            raise DomainError("the centre has to be inside the disk: less than 1 from (0, 0)")
+            raise DomainError("the centre must be inside the disk: nearer than 1 to (0, 0)")
         changed = self.rim_change(number)
         if hole:
             center = self._middle_of(hole, changed, number)
@@ -114,7 +114,7 @@ class CircleDomain:
         if not 0 < hole < len(self.loops):
             raise DomainError(f"there is no hole {hole}: the island has {len(self.loops) - 1}")
         if hole == rim:
-            raise DomainError(f"loop {hole} is to be the rim, so it cannot be a hole in the middle")
+            raise DomainError(f"loop {hole} becomes the rim, so it cannot be the hole in the middle")
         return own_center(*changed.circle(self.loops[hole].center, self.loops[hole].radius))
 
     def weights(self) -> np.ndarray:
@@ -239,7 +239,7 @@ def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDo
     inside = [dataclasses.replace(loop, center=(loop.center - offset) / scale, radius=loop.radius / scale)
               for loop in holes]  # fmt: skip
     if not all(abs(loop.center) + loop.radius < 1.0 for loop in inside):
-        raise DomainError("its UVs are no circle domain: map it first, with Tube: Annulus")
+        raise DomainError("its UVs are not a disk with round holes: unwrap it with Shape: Disk and Tube: Annulus")
     unit = dataclasses.replace(rim, center=0.0j, radius=1.0)
     return CircleDomain(island, old_uv, (as_complex(plane) - offset) / scale, [unit, *inside], offset, scale)
 
@@ -263,7 +263,7 @@ def _fitted(koebe: ModuleType, plane: np.ndarray, vertices: np.ndarray) -> Loop:
         if len(on) > 2:
             center, radius, off = koebe.fit_circle(plane[on])
     if not (radius > 0.0 and off <= ON_CIRCLE and len(on) >= LEAST_ROUND * len(vertices)):
-        raise DomainError("its UVs are no circle domain: map it first, with Tube: Annulus")
+        raise DomainError("its UVs are not a disk with round holes: unwrap it with Shape: Disk and Tube: Annulus")
     return Loop(vertices, on, complex(*center), radius)
 
 

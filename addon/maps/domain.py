@@ -27,6 +27,8 @@ class Domain:
     title    name of such a map
     button   name of the operator, without "Koebe"
     icon     of the button
+    shape    word of the option `shape` that takes it
+    redo     its options in the redo panel of Unwrap: at most seven, as the shape stands above them
     check    takes the numbers of handles and of boundary loops; raises DomainError
     outcome  a `DomainOutcome`, of one surface
     tooltip  of the operator: at most 239 letters, Blender cuts off the rest
@@ -36,6 +38,8 @@ class Domain:
     title: str
     button: str
     icon: Any  # one of Blender's names
+    shape: str
+    redo: tuple[str, ...]
     check: Callable[[int, int], None]
     outcome: type[Any]
     tooltip: str

@@ -96,7 +96,7 @@ class DomainIsland:
         uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
         uv[of_triangles] = triangle_uv
         if (uv[of_triangles] != triangle_uv).any():
-            raise MapError("its UVs could be cut only through a polygon: triangulate its faces")
+            raise MapError("its UVs cannot be cut along edges: triangulate its faces")
         self.triangle_uv = triangle_uv
         self.corners = np.unique(of_triangles).astype(np.int32)
         self.uv = uv[self.corners]

@@ -8,7 +8,7 @@ class KnownError(Exception):
     """An error whose text is for the artist: what is wrong, and what to do about it."""
 
 
-NOWHERE = "one of its vertices has a coordinate that is NaN or infinite: delete it"
+NOWHERE = "a vertex has a coordinate that is not a finite number: delete this vertex"
 
 
 class MapError(KnownError):

@@ -87,7 +87,7 @@ def flat_layout(surface: Surface, uv: np.ndarray) -> FlatLayout:
         raise FlatError(NOWHERE)
     on_surface, total = areas(in_space, triangles).sum(), np.abs(signed_areas(plane[source], triangles)).sum()
     if not on_surface > 0.0:
-        raise FlatError("none of its faces has an area")
+        raise FlatError("all faces have area 0")
     scale = float(np.sqrt(on_surface / total))
     points = scale * plane[source]
     points -= points.min(axis=0)

@@ -98,12 +98,13 @@ def _circle(
 def _check_schottky(handles: int, loops: int) -> None:
     if not handles:
         raise DomainError(
-            "this surface has no handle: Unwrap Handles needs one at least", "uniformize" if loops else "sphere"
+            "this surface has no handle: Unwrap Handles needs at least one", "uniformize" if loops else "sphere"
         )
 
 
 SCHOTTKY = Domain(
-    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID", _check_schottky, SchottkyOutcome,
-    "Unwrap a surface with any number of handles, closed or with holes, into the disk: angles are kept, holes are "
-    "round, and both sides of each cut through a handle differ by a Möbius map. The cuts are in the UVs alone",
+    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID",
+    "HANDLES", ("normalization", "layer", "checker", "checker_size"), _check_schottky, SchottkyOutcome,
+    "Unwrap a surface with any number of handles, closed or with holes, into a disk. Angles are kept, and holes are "
+    "round. Each handle is cut open, in the UVs only",
 )  # fmt: skip

@@ -32,7 +32,7 @@ from .wording import counted
 # Of the largest coordinate: the distance from a line that rounding to 32 bits can cause, and a little more.
 FLAT = 2.4e-7
 FEW = 1000  # triangles that are checked first
-UNROLLED_STAYS = "not made more even, as it is unrolled: Unwrap to Cylinder makes it even"
+UNROLLED_STAYS = "Even does nothing to an unrolled tube: use Unwrap to Cylinder"
 MOST_IMPORTANT = 4.0  # texel density at importance 1 over that at 0, as in the solver
 
 
@@ -270,7 +270,7 @@ def check_area(island: Island) -> None:
     """Raise MapError if every face is collapsed. The solver judges coordinates that are not finite."""
     some = island.triangles[:: max(1, len(island.triangles) // FEW)]
     if _are_flat(island.vertices, some) and _are_flat(island.vertices, island.triangles):
-        raise MapError("the surface is collapsed to a line: none of its faces has an area")
+        raise MapError("the surface is collapsed to a line: all faces have area 0")
 
 
 def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:

@@ -12,7 +12,7 @@ from .triangles import as_points, flipped_triangles
 from .upright import upright_turn
 
 GRID = 2.0**-24  # UV units: for multiples u in [0, 1] both u and 1 - u are exact in 32 bits
-NO_MIRROR = "no plane was found in which the surface is its own mirror image, vertex by vertex and face by face"
+NO_MIRROR = "the mesh is not symmetric: some vertices or faces have no mirror image"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,7 +46,7 @@ def symmetric(koebe: ModuleType, domain: CircleDomain) -> Symmetry:
     uv = _exact(domain, halfway, image)
     flipped = flipped_triangles(domain.island.triangles, uv)
     if len(flipped) > len(flipped_triangles(domain.island.triangles, domain.old_uv)):
-        raise DomainError("made symmetric, some triangles would be turned over: it stays as it is")
+        raise DomainError("the symmetric map would turn some triangles over, so the map stays as it was")
     pairs = int(np.count_nonzero(image != np.arange(len(image)))) // 2
     return Symmetry(CircleImage(domain, loops, uv, flipped), pairs, domain.scale * float(np.abs(halfway - z).max()))
 
@@ -58,7 +58,7 @@ def _partners(domain: CircleDomain, image: np.ndarray) -> list[int]:
         number[loop.vertices] = k
     partner = [int(number[image[loop.vertices[0]]]) for loop in domain.loops]
     if partner[0] != 0:
-        raise DomainError("its rim is not symmetric: make a loop the rim that is its own mirror image")
+        raise DomainError("its rim is not symmetric: choose another boundary as the rim")
     return partner
 
 

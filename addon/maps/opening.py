@@ -71,7 +71,7 @@ def _piece(island: Island, corners: np.ndarray, vertex: np.ndarray, piece: "koeb
     shared = (vertex[own] >= 0).any()  # some corner is also in another piece
     vertex[own] = piece.triangles
     if shared or (vertex[own] != piece.triangles).any():
-        raise MapError("it could be opened only by a cut through a polygon: triangulate its faces")
+        raise MapError("it cannot be opened along edges: triangulate its faces")
     used, face = np.unique(own), island.triangle_face[piece.source_face]
     return Island(
         vertices=piece.vertices,

@@ -50,7 +50,7 @@ class Chosen:
             if problem := row.problem(getattr(self, row.name)):
                 raise OptionError(row.name, problem)
         if getattr(self, "even", 0.0) and getattr(self, "holes", "circles") != "circles":
-            raise OptionError("even", "it excludes slits, which would not stay straight: set Holes to Circles")
+            raise OptionError("even", "it does not work with slits: set Holes to Circles")
 
     def solver_arguments(self) -> dict[str, Any]:
         """Keyword arguments of the solver's function, except vertices and values computed for each island."""
@@ -89,13 +89,13 @@ class Options(Chosen):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.symmetry != "off" and (self.center != "auto" or self.point != "auto"):
-            raise OptionError("symmetry", "it excludes a centre and a rim point: all choose where the disk's centre is")
+            raise OptionError("symmetry", "it does not work with Centre or Rim Point")
         if self.importance and self.balance != "area":
-            raise OptionError("importance", "it weighs the balance: set Balance to Area")
+            raise OptionError("importance", "it needs Balance: set Balance to Area")
         if self.even > 0.0 and self.symmetry != "off":
-            raise OptionError("even", "it excludes symmetry, which would change the sizes of faces: set Even to 0")
+            raise OptionError("even", "it does not work with Symmetry: set Even to 0")
         if self.even > 0.0 and self.center != "auto":
-            raise OptionError("even", "it excludes a centre, which would not stay in the middle: set Even to 0")
+            raise OptionError("even", "it does not work with Centre: set Even to 0")
         _check_layer_name(self.layer)
 
 

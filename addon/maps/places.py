@@ -27,8 +27,8 @@ def check_center(island: Island, vertex: int) -> None:
     """Raise MapError if it lies on the boundary."""
     if _on_rim(island)[vertex]:
         raise MapError(
-            f"vertex {island.source_vertex[vertex]} cannot be the centre: it is on the boundary or a seam; "
-            "take one inside"
+            f"vertex {island.source_vertex[vertex]} cannot be the centre: it is on a boundary or a seam. "
+            "Choose a vertex inside"
         )
 
 
@@ -36,8 +36,8 @@ def check_point(island: Island, vertex: int) -> None:
     """Raise MapError if it lies inside."""
     if not _on_rim(island)[vertex]:
         raise MapError(
-            f"vertex {island.source_vertex[vertex]} cannot be the point at the right: it is inside; "
-            "take one on the boundary"
+            f"vertex {island.source_vertex[vertex]} cannot be the rim point: it is inside. "
+            "Choose a vertex of a boundary"
         )
 
 

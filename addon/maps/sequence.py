@@ -45,6 +45,8 @@ class SequenceOutcome(Outcome):
     broken   the shape that could not be mapped
     alike    number of shapes that are equal up to their places, and so have one map; 0 otherwise
     written  the UV layer for each shape or, if not `in_layers`, its attribute
+    in_uv    whether a UV layer has the only map, beside the attribute
+    how_shown  a sentence: where the maps are to be seen
     """
 
     labels: list[str]
@@ -53,6 +55,8 @@ class SequenceOutcome(Outcome):
     alike: int = 0
     written: list[str] = dataclasses.field(default_factory=list)
     in_layers: bool = True
+    in_uv: bool = False
+    how_shown: str = ""
 
     @property
     def name(self) -> str:
@@ -104,10 +108,17 @@ class SequenceOutcome(Outcome):
         for label, made in zip(self.labels, self.maps, strict=True):
             for text in dict.fromkeys(made.said_warnings()):
                 found.setdefault(text, []).append(label)
-        own = [f"nothing moves: its faces keep their form in all {self.alike} shapes, and one map is written"]
-        return own * (self.alike > 0) + [
+        return self._nothing_moves() + [
             text if len(labels) == len(self.labels) else f"{text} ({named(labels)})" for text, labels in found.items()
         ]
+
+    def _nothing_moves(self) -> list[str]:
+        if self.alike:
+            return [f"nothing moves: its faces keep their form in all {self.alike} shapes, so one map is written"]
+        return ["only one shape was mapped, so nothing moves"] if len(self.maps) == 1 else []
+
+    def said_notes(self) -> list[str]:
+        return [self.how_shown] if self.how_shown else []
 
     def entries(self) -> list[dict[str, Any]]:
         """One entry of the JSON report per shape and island; `shape` and `written` name the shape and its UVs."""
@@ -123,12 +134,16 @@ class SequenceOutcome(Outcome):
         """Rows of the report for each shape and island. The layer is the shape's, if it has one."""
         if not self.mapped:
             return [self._failure_row()]
-        said, layers = self.figures(), self.written if self.in_layers else [""] * len(self.written)
+        said = "; ".join(filter(None, [self.how_shown, self.figures()]))
+        layers = self.written if self.in_layers else [layer if self.in_uv else ""] * len(self.written)
+        own = [*self._nothing_moves(), *self.remarks]
         return [
-            {**row, "object_name": self.task.name, "shape": label, "note": "; ".join(filter(None, [said, row["note"]]))}
+            {**row, "object_name": self.task.name, "shape": label, "note": "; ".join(filter(None, [said, row["note"]])),
+             "message": "; ".join(filter(None, [*own, row["message"]])),
+             "warnings": [*({"text": text} for text in own), *row["warnings"]]}
             for label, layer, made in zip(self.labels, layers, self.maps, strict=True)
             for row in made.rows(layer)
-        ]
+        ]  # fmt: skip
 
 
 def are_alike(shapes: Sequence[Shape], triangles: np.ndarray) -> bool:

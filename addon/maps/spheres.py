@@ -50,7 +50,7 @@ class SphereOutcome(DomainOutcome):
 
     def notes(self) -> list[tuple[SphereIsland, str]]:
         """Notes on torn faces."""
-        where = f"{WHERE_TORN[self.choice.layout]} torn in the UVs: none fit there"
+        where = f"{WHERE_TORN[self.choice.layout]} torn in the UVs, as no UVs fit there"
         found = [(one, len(one.torn_faces)) for one in self.mapped]
         return [(one, f"{counted(count, 'face')} {where}") for one, count in found if count]
 
@@ -79,7 +79,8 @@ def _check_sphere(handles: int, loops: int) -> None:
 
 
 SPHERE = Domain(
-    "sphere", "sphere", "Unwrap to Sphere", "MESH_UVSPHERE", _check_sphere, SphereOutcome,
-    "Unwrap a surface without handles, closed or with holes, to the sphere and this to UVs: angles are kept on the "
-    "sphere, holes are round caps. The cut is in the UVs alone",
+    "sphere", "sphere", "Unwrap to Sphere", "MESH_UVSPHERE",
+    "SPHERE", ("layout", "add_sphere", "layer", "checker", "checker_size"), _check_sphere, SphereOutcome,
+    "Unwrap a surface without handles, closed or with holes, to a sphere, and lay the sphere out as UVs. Angles are "
+    "kept on the sphere, and holes are round. The cut is in the UVs only",
 )  # fmt: skip

@@ -15,7 +15,7 @@ WORSE, NOISE = 1.05, 0.05  # factor on the angle error, plus degrees: the allowe
 def make_symmetric(koebe: ModuleType, one: IslandOutcome) -> None:
     """Make a mapped and placed island exactly symmetric, or note why it does not change."""
     if one.unrolled:
-        one.remark = "not made symmetric: it is unrolled"
+        one.remark = "not made symmetric, as it is unrolled"
         return
     try:
         domain = domain_in(koebe, one.island, one.uv)

@@ -43,7 +43,7 @@ def fitted(uv: np.ndarray, triangles: np.ndarray, periods: np.ndarray, fit: str)
     corners = places[number] + lift @ exact
     low, extent = corners.min(axis=0), float(np.ptp(corners, axis=0).max())
     if not extent < LONGEST:
-        raise MapError("its tile is too long for UVs of 32 bits: take Fit: Inside")
+        raise MapError("its tile is too long for Blender's UVs: choose Fit: Inside")
     grid = 2.0 ** (int(np.ceil(np.log2(extent * (1.0 + 2.0 ** (3 - BITS))))) - BITS)
     steps = np.rint(exact / grid).astype(np.int64)
     points = np.rint((places - low) / grid).astype(np.int64)[number] + lift.astype(np.int64) @ steps
@@ -56,7 +56,7 @@ def _matrix(uv: np.ndarray, periods: np.ndarray, fit: str) -> tuple[np.ndarray, 
     """The linear map, and the resulting periods (k, 2), the first along u."""
     length = float(periods[0, 0])
     if not length > 1.0 / LONGEST:
-        raise MapError("its tile is too long for UVs of 32 bits: take Fit: Inside")
+        raise MapError("its tile is too long for Blender's UVs: choose Fit: Inside")
     if fit == "period":
         exact = periods / length
         exact[0] = (1.0, 0.0)

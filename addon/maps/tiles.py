@@ -65,7 +65,7 @@ class TileOutcome(DomainOutcome):
 
     def warnings(self, one: TileIsland) -> list[dict[str, Any]]:
         lost = len(np.setdiff1d(one.flipped, one.result.flipped_faces))
-        text = f"{counted(lost, 'triangle')} turned over as the tile was fitted: take Fit: Inside"
+        text = f"{counted(lost, 'triangle')} turned over when the tile was fitted: choose Fit: Inside"
         return [*super().warnings(one), *[own_warning("flipped", text)] * (lost > 0)]
 
     def figures(self) -> list[str]:
@@ -124,8 +124,8 @@ def rims_of(island: Island, loops: list[np.ndarray], rims: str, picked: np.ndarr
     touched = [] if picked is None else [loop for loop in loops if picked[island.source_vertex[loop]].any()]
     if rims == "selected" and len(touched) != 2:
         raise MapError(
-            f"the rims are to be the two loops with selected vertices, but {counted(len(touched), 'loop')} of it "
-            "have some: select on two loops, in Edit Mode"
+            f"Rims is Selected, but selected vertices are on {counted(len(touched), 'loop')}: in Edit Mode, select a "
+            "vertex on each of two loops, and no face"
         )
     length = [_length(island, loop) for loop in loops]
     two = touched if len(touched) == 2 else [loops[k] for k in np.argsort(length, kind="stable")[: -3 : -1]]
@@ -149,26 +149,28 @@ def _check_torus(handles: int, loops: int) -> None:
     if handles:
         raise DomainError(f"this surface has {handles} handles: a torus tile needs exactly one", *takers(handles))
     raise DomainError(
-        "this surface has no handle: a torus tile needs one, like that of a mug", "ring" if loops > 1 else "parts"
+        "this surface has no handle: a torus tile needs one, like the handle of a mug", "ring" if loops > 1 else "parts"
     )
 
 
 def _check_ring(handles: int, loops: int) -> None:
     if handles:
         had = counted(handles, "handle")
-        raise DomainError(f"this surface has {had}: a cylinder has none", *takers(handles))
+        raise DomainError(f"this surface has {had}: a cylinder must have no handle", *takers(handles))
     if loops < 2:
         had = "one boundary loop" if loops else "no boundary loop"
-        raise DomainError(f"this surface has {had}: a cylinder needs two, its rims", "parts")
+        raise DomainError(f"this surface has {had}: a cylinder needs two, for its ends", "parts")
 
 
 TORUS = Domain(
-    "torus", "torus tile", "Unwrap to Torus Tile", "MESH_TORUS", _check_torus, TileOutcome,
-    "Unwrap a surface with one handle to a tile of a flat torus: angles are kept, holes are round, and a pattern with "
-    "its periods has no seam. The cut is in the UVs alone",
+    "torus", "torus tile", "Unwrap to Torus Tile", "MESH_TORUS",
+    "TORUS", ("fit", "even", "loops", "layer", "checker", "checker_size"), _check_torus, TileOutcome,
+    "Unwrap a surface with one handle, like a ring or a mug, to a tile. Angles are kept, and holes are round. A "
+    "pattern that repeats with the tile has no seam. The cut is in the UVs only",
 )  # fmt: skip
 RING = Domain(
-    "ring", "cylinder", "Unwrap to Cylinder", "MESH_CYLINDER", _check_ring, TileOutcome,
-    "Unwrap a surface with two rims to a cylinder, unrolled: angles are kept, the rims are straight, and a pattern "
-    "with its period has no seam. The cut is in the UVs alone",
+    "ring", "cylinder", "Unwrap to Cylinder", "MESH_CYLINDER",
+    "RING", ("rims", "holes", "fit", "even", "loops", "checker", "checker_size"), _check_ring, TileOutcome,
+    "Unwrap a surface with two ends, like a tube, to an unrolled cylinder. Angles are kept, and the ends are straight. "
+    "A pattern that repeats round it has no seam. The cut is in the UVs only",
 )  # fmt: skip

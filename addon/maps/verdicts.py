@@ -38,9 +38,9 @@ def _evenness(entry: Any) -> Figure:
         if entry.parts:
             advice = "Texels are uneven: move the slider Parts to the right"
         elif entry.domain in ("sphere", "schottky"):
-            advice = "Texels are uneven here by nature: to paint, take Shape: Parts"
+            advice = "This shape always has uneven texels: to paint, choose Shape: Parts"
         else:
-            advice = "Texels are uneven: raise Even, or take Shape: Parts"
+            advice = "Texels are uneven: raise Even, or choose Shape: Parts"
     value = f"1 : {density_text(entry.density)}" if entry.density <= MOST_TOLD else f"over {MOST_TOLD:.0f}"
     return Figure("Evenness", value, advice)
 
@@ -53,14 +53,14 @@ def _coverage(entry: Any) -> Figure:
 def _angles(entry: Any) -> Figure:
     advice = ""
     if entry.angle_error > TRUE:
-        advice = ("The checker is skewed: lower Even" if entry.even else
-                  "The checker is skewed: subdivide coarse faces, or take more parts")  # fmt: skip
+        advice = ("The checker is bent: lower Even" if entry.even else
+                  "The checker is bent: subdivide large faces, or choose more parts")  # fmt: skip
     return Figure("Angle error", f"{entry.angle_error:.2f}°", advice)
 
 
 def _flips(entry: Any) -> Figure:
     advice = ""
     if entry.flipped:
-        advice = ("Textures show mirrored there: repair these faces" if entry.parts else
-                  "Textures show mirrored there: take Shape: Parts")  # fmt: skip
+        advice = ("Textures look mirrored on these faces: repair the faces" if entry.parts else
+                  "Textures look mirrored on these faces: choose Shape: Parts")  # fmt: skip
     return Figure("Flips", f"{entry.flipped}" if entry.flipped else "none", advice)

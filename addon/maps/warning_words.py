@@ -12,26 +12,26 @@ WORDS = {
     "unused_vertices": ("vertices", "Without a face: {count}. Mesh ▸ Clean Up ▸ Delete Loose removes them"),
     "reoriented_faces": ("faces", "Looking the other way: {count}. Mesh ▸ Normals ▸ Recalculate Outside turns them"),
     "thin_faces": ("", "Some faces are so thin that rounding shows: dissolve them, or merge their vertices"),
-    "coarse_mesh": ("", "There are too few vertices between the holes for round ones: subdivide the surface there"),
-    "no_flux": ("", "A part of a boundary shrinks almost to a point: a seam near it gives it room"),
+    "coarse_mesh": ("", "There are too few vertices between the holes to make them round: subdivide the surface there"),
+    "no_flux": ("", "A part of a boundary shrinks almost to a point: mark a seam near it"),
     "not_converged": ("", "The circles were still moving at the end: raise Sweeps, under Accuracy"),
-    "no_circles": ("", "No round holes were found: subdivide the surface, or take Shape: Parts"),
-    "lost_circles": ("loops", "Too small to be measured in the UVs: {count}. A seam nearby gives more room"),
-    "shrunk_circles": ("loops", "Made smaller, as it met another boundary: {count}. Subdivide the surface in between"),
+    "no_circles": ("", "No round holes were found: subdivide the surface, or choose Shape: Parts"),
+    "lost_circles": ("loops", "Too small in the UVs to be measured: {count}. Mark a seam near them"),
+    "shrunk_circles": ("loops", "Made smaller, so that they do not touch: {count}. Subdivide the surface between them"),
     "replaced_circles": ("loops", "Moved a little, so that no face turns over: {count}. Subdivide the surface there"),
-    "flaps": ("faces", "Hanging on a boundary by one edge alone: {count}. Delete them, or join them better"),
+    "flaps": ("faces", "Connected by one edge only: {count}. Delete them, or connect them better"),
     "off_circle": ("vertices", "Not on the circle of their boundary: {count}. Subdivide the faces there"),
     "below_resolution": (
-        "faces", "Too small in the UVs for any image: {count}. Take Shape: Parts, or put a seam near them"),
-    "flipped": ("faces", "Turned over in the UVs: {count}. Take Shape: Parts, or repair the faces there"),
-    "not_one_to_one": ("faces", "The UVs lie over each other: take Shape: Parts"),
-    "out_of_place": ("vertices", "The vertex for the centre could not be brought there: choose another one"),
+        "faces", "Too small in the UVs for any image: {count}. Choose Shape: Parts, or mark a seam near them"),
+    "flipped": ("faces", "Turned over in the UVs: {count}. Choose Shape: Parts, or repair these faces"),
+    "not_one_to_one": ("faces", "The UVs overlap: choose Shape: Parts"),
+    "out_of_place": ("vertices", "The chosen vertex could not become the centre: choose another vertex"),
     "not_even": (
-        "faces", "Not made more even, as faces would turn over: {count}. Take a smaller Even, or more parts"),
+        "faces", "Even has no effect here, as faces would turn over: {count}. Lower Even, or choose more parts"),
     "lost_area": ("faces", ""),  # what is said of it has the share of the area
     "left_out": (
-        "faces", "Without a place, as they repeat another face: {count}. Mesh ▸ Clean Up ▸ Merge by Distance"),
-    "not_mapped": ("faces", "Without a map, all at one point: {count}. Repair the mesh there"),
+        "faces", "Without UVs, as they repeat another face: {count}. Use Mesh ▸ Clean Up ▸ Merge by Distance"),
+    "not_mapped": ("faces", "Without UVs, all at one point: {count}. Repair the mesh there"),
 }  # fmt: skip
 NOUNS = {"faces": ("face", None), "vertices": ("vertex", "vertices"), "loops": ("boundary", "boundaries")}
 WHOLE = "the whole map"  # what a warning is about that names no elements

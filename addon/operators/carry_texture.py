@@ -20,8 +20,8 @@ from .tooltip import tooltip
 
 
 class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
-    """Give the other selected objects UVs such that the active object's texture fits them too: their holes are laid
-    over its holes as well as a conformal map can. The active object must be mapped, and is not changed"""
+    """Give the other selected objects UVs that fit the texture of the active object. Their holes are laid over its
+    holes, as well as a conformal map can. The active object must be mapped, and is not changed"""
 
     bl_idname = "uv.koebe_carry_texture"
     bl_label = "Koebe Carry Texture"
@@ -37,7 +37,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
     material: BoolProperty(
         name="Material",
         default=True,
-        description="Objects without a material get the active object's",
+        description="Objects without a material get the material of the active object",
     )
 
     @classmethod

@@ -15,8 +15,8 @@ from .tooltip import tooltip
 
 
 class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
-    """Compute the conformal module of the active object, the fingerprint of its shape by its holes, and how far the
-    other selected objects are from it. Changes nothing"""
+    """Compare the shapes of the selected objects with the shape of the active object, by the circles of their holes. 0
+    is the same shape. Nothing is changed"""
 
     bl_idname = "uv.koebe_compare_shapes"
     bl_label = "Koebe Compare Shapes"

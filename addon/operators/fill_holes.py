@@ -15,8 +15,8 @@ from .tooltip import tooltip
 
 
 class MESH_OT_koebe_fill_holes(bpy.types.Operator):
-    """Fill holes with real faces that continue the surface around them. They are selected afterwards, and the UVs
-    are continued into them: the inside of a hole's circle is used. This changes the mesh"""
+    """Fill holes with real faces that continue the surface. The new faces are selected. Their UVs lie inside the circle
+    of the hole. This changes the mesh"""
 
     bl_idname = "mesh.koebe_fill_holes"
     bl_label = "Koebe Fill Holes"
@@ -26,9 +26,9 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
     which: bpy.props.EnumProperty(
         name="Loops",
         items=[
-            (hole_filling.HOLES, "Holes", "All boundary loops but the longest of each connected part"),
+            (hole_filling.HOLES, "Holes", "All boundaries except the longest boundary of each connected part"),
             (hole_filling.SELECTED, "Selected", "The boundary loops whose edges are all selected"),
-            (hole_filling.ALL, "All", "All boundary loops: the surface is closed"),
+            (hole_filling.ALL, "All", "All boundaries. The surface becomes closed"),
         ],
         default=hole_filling.HOLES,
         description="Boundary loops to fill",

@@ -19,7 +19,7 @@ from .polls import has_targets
 from .tooltip import tooltip
 
 GAP = 0.05  # of a layout's width, between two objects
-LAYER = "UV layer whose layout it is; without a name the active one"
+LAYER = "UV layer that is laid flat. Without a name, the active layer"
 
 
 class FlatOperator(OperatorBase):
@@ -46,8 +46,8 @@ class FlatOperator(OperatorBase):
 
 
 class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
-    """Make a flat mesh object of the UV layout: the same faces, cut where the UVs are cut, in the surface's own size.
-    How far its lengths are from those of the surface is said. Lies at the 3D cursor"""
+    """Make a flat mesh object of the UV layout, as large as the surface. It has the same faces, is cut where the UVs
+    are cut, and lies at the 3D cursor. A message says how far its lengths are off"""
 
     bl_idname = "object.koebe_flat_copy"
     bl_label = "Koebe Flat Copy"
@@ -91,8 +91,8 @@ def _restore_selection(layer: bpy.types.ViewLayer, chosen: list[str], active: st
 
 
 class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
-    """Write the UV layout as a drawing for cutting and engraving: outlines and holes of the islands in millimetres,
-    in the surface's own size. How far its lengths are from those of the surface is said"""
+    """Write the UV layout as a drawing for cutting and engraving: outlines and holes of the islands in millimetres, as
+    large as the surface. A message says how far the lengths are off"""
 
     bl_idname = "uv.koebe_flat_svg"
     bl_label = "Koebe Flat SVG"
@@ -109,10 +109,10 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
         min=1e-6,
         soft_max=10.0,
         precision=4,
-        description="Size of the drawing over the size of the surface: 1 is true size, by the scene's units",
+        description="Scale of the drawing: 1 is true size, by the units of the scene",
     )
     edges: BoolProperty(
-        name="Edges", default=False, description="Draw the edges between faces too, in black, to be engraved"
+        name="Edges", default=False, description="Draw the edges between faces too, in black, for engraving"
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:

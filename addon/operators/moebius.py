@@ -30,14 +30,14 @@ from .tooltip import tooltip
 NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to hold a hole, longest click, to snap to the middle
 HINTS = {
     TURN: "Turn: {0:.1f}°      Ctrl: Steps of 5°",
-    HOLE: "Hole {1}: drag it to the middle, where it stays",
+    HOLE: "Hole {1}: near the middle it snaps to the middle",
     "point": "Drag the disk under the pointer",
 }
 
 
 class UV_OT_koebe_moebius(bpy.types.Operator):
-    """Move the circles of a map: drag the disk or a hole, click a hole to make it the rim, drag outside the disk to
-    turn it. Angles are kept and circles stay circles; nothing is computed anew"""
+    """Move the circles of a map. Drag the disk or a hole, click a hole to make it the rim, or drag outside the disk to
+    turn it. Angles are kept and circles stay circles"""
 
     shown: ClassVar[np.ndarray | None] = None  # edges (e, 2) of the dragged domain, complex, in the UVs
     held: ClassVar[tuple[str, np.ndarray] | None] = None  # the dragged object's name and its corners (c,)
@@ -48,22 +48,25 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     object_name: StringProperty(
-        name="Object", description="Name of the object to work on, among those selected or in Edit Mode; else all such"
+        name="Object",
+        description="Name of a selected object. Without a name, the first selected object whose UVs are circles",
     )
-    layer: StringProperty(name="UV Layer", description="UV layer with the circles; without a name the active one")
+    layer: StringProperty(name="UV Layer", description="UV layer with the circles. Without a name, the active layer")
     island: IntProperty(
-        name="Island", min=0, description="Number of the island among those whose UVs are circles; the first one is 0"
+        name="Island",
+        min=0,
+        description="Number of the island. Only islands whose UVs are circles count. The first island is 0",
     )
     rim: IntProperty(
         name="Rim",
         min=0,
-        description="Loop that becomes the rim, by its number in the report; 0 leaves the rim. The disk is then "
+        description="Number of the loop that becomes the rim, as in the report. 0: the rim stays. The disk is then "
         "balanced and upright",
     )
     hole: IntProperty(
         name="Hole in the Middle",
         min=0,
-        description="Hole whose circle comes into the middle of the disk, by its number in the report; 0 for none",
+        description="Number of the hole that moves to the middle of the disk, as in the report. 0: no hole",
     )
     center: FloatVectorProperty(
         name="Centre",
@@ -72,10 +75,13 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         step=1,
         soft_min=-1.0,
         soft_max=1.0,
-        description="Point of the disk that comes into its middle: the rim is the circle of radius 1 around (0, 0)",
+        description="Point that moves to the middle of the disk. The rim is the circle of radius 1 around (0, 0)",
     )
     rotation: FloatProperty(
-        name="Turn", subtype="ANGLE", unit="ROTATION", description="Turn of the disk after that, counter-clockwise"
+        name="Turn",
+        subtype="ANGLE",
+        unit="ROTATION",
+        description="Angle by which the disk turns at the end, counter-clockwise",
     )
 
     @classmethod

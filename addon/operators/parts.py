@@ -11,8 +11,8 @@ from .tooltip import tooltip
 
 
 class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
-    """Cut a surface of any kind into disks and unrolled tubes with even texels: limbs, closed models, handles. In the
-    UVs alone: the mesh stays, but for its seams if they are to be written. In Edit Mode takes the selected faces"""
+    """Cut any surface into parts with even texels, in the UVs only: limbs, closed models, handles. The mesh is not
+    changed, unless you ask for seams. In Edit Mode the selected faces are mapped"""
 
     bl_idname = "uv.koebe_parts"
     bl_label = "Koebe Unwrap to Parts"

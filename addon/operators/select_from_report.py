@@ -32,7 +32,7 @@ class ReportOperator(OperatorBase):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if active_object(context) is None:
-            cls.poll_message_set("There is no report, or its object is gone")
+            cls.poll_message_set("There is no report, or the object of the report is gone")
             return False
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
@@ -56,7 +56,7 @@ class ReportOperator(OperatorBase):
 
 
 class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
-    """Select, in Edit Mode, the elements that keep this island from being mapped"""
+    """Select, in Edit Mode, the elements because of which this island could not be mapped"""
 
     bl_idname = "uv.koebe_select_offenders"
     bl_label = "Select What Is Wrong"
@@ -66,7 +66,7 @@ class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
         if not super().poll(context):
             return False
         if not active_entry(context).offenders:
-            cls.poll_message_set("None of its elements is wrong")
+            cls.poll_message_set("The report names no wrong elements")
             return False
         return True
 
@@ -84,8 +84,8 @@ class FacesOperator(ReportOperator):
 
 
 class UV_OT_koebe_select_flipped(FacesOperator, bpy.types.Operator):
-    """Select, in Edit Mode, the faces of this island that are turned over in the UVs: their area there is zero
-    or negative, so a texture shows mirrored or not at all"""
+    """Select, in Edit Mode, the faces of this island that are turned over in the UVs. Textures look mirrored on them,
+    or do not show at all"""
 
     bl_idname = "uv.koebe_select_flipped"
     bl_label = "Select Flipped Faces"
@@ -94,8 +94,8 @@ class UV_OT_koebe_select_flipped(FacesOperator, bpy.types.Operator):
 
 
 class UV_OT_koebe_select_torn(FacesOperator, bpy.types.Operator):
-    """Select, in Edit Mode, the faces of this island that fit to no UVs of the sphere's layout, as they lie round a
-    pole or round the middle of a side of the square"""
+    """Select, in Edit Mode, the faces of this island to which no UVs fit: the faces round the poles of the sphere, or
+    round the middles of the square's sides"""
 
     bl_idname = "uv.koebe_select_torn"
     bl_label = "Select Torn Faces"
@@ -104,7 +104,7 @@ class UV_OT_koebe_select_torn(FacesOperator, bpy.types.Operator):
 
 
 class UV_OT_koebe_select_warning(ReportOperator, bpy.types.Operator):
-    """Select, in Edit Mode, the faces or vertices of this island that a warning of the report speaks of"""
+    """Select, in Edit Mode, the faces or vertices of this warning"""
 
     bl_idname = "uv.koebe_select_warning"
     bl_label = "Select What It Speaks of"
@@ -139,8 +139,8 @@ class UV_OT_koebe_select_loop(ReportOperator, bpy.types.Operator):
 
 
 class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
-    """Select, in Edit Mode, the edges along which this object was cut in the UVs; where faces were only parted in
-    vertices, these. Marked as seams they stay cuts"""
+    """Select, in Edit Mode, the edges along which this object was cut in the UVs, and the vertices in which faces were
+    separated. Mark them as seams to keep these cuts"""
 
     bl_idname = "uv.koebe_select_cuts"
     bl_label = "Select Cuts"
@@ -151,7 +151,7 @@ class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
         if not super().poll(context):
             return False
         if not any(entry.cuts or entry.cut_edges for entry in entries_of_object(context)):
-            cls.poll_message_set("Nothing of it was cut")
+            cls.poll_message_set("This object was not cut")
             return False
         return True
 

@@ -11,9 +11,7 @@ from ..blender.transaction import Transaction
 from ..jobs.sequence_job import SequenceJob
 from ..maps.options import SequenceChoice
 from ..state.option_properties import (
-    ACCURACY_NAMES,
     RANGE_NAMES,
-    SEQUENCE_OPTION_NAMES,
     SequenceProperties,
     sequence_options_of,
 )
@@ -22,20 +20,20 @@ from .tooltip import tooltip
 
 
 class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
-    """Uniformize the active object in each frame of its animation, or each of its shape keys, all laid over the first,
-    so that a texture stays in its place. Modifiers may move vertices, but make no other faces"""
+    """Unwrap the active object in each frame of its animation, or in each of its shape keys. All maps lie over the
+    first map, so a texture stays in its place. Modifiers may move vertices, but must not make other faces"""
 
     bl_idname = "uv.koebe_sequence"
     bl_label = "Koebe Unwrap Sequence"
     bl_description = tooltip(__doc__)
-    options_shown = tuple(sorted(SEQUENCE_OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
+    options_shown = ("source", *RANGE_NAMES, "target", "play", "checker", "checker_size")  # others are in the panel
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not super().poll(context):
             return False
         if context.active_object not in target_objects(context):
-            cls.poll_message_set("Select the active object: it is the one whose shapes are mapped")
+            cls.poll_message_set("Select the active object: its frames or shape keys are mapped")
             return False
         return True
 

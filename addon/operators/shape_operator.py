@@ -52,8 +52,8 @@ def in_object_mode(cls: type[bpy.types.Operator], context: bpy.types.Context, le
         return False
     if len(target_objects(context)) < least or context.active_object not in context.selected_objects:
         cls.poll_message_set(
-            "Select mesh objects, the active one among them" if least == 1
-            else "Select the other surfaces, then the one whose texture it is: it must be the active one"
+            "Select mesh objects. One of them must be the active object" if least == 1
+            else "Select the other surfaces first, and last the surface that has the texture"
         )  # fmt: skip
         return False
     return context.active_object.type == "MESH"

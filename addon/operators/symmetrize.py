@@ -24,15 +24,15 @@ Done = tuple[MoebiusJob, Symmetry]
 
 
 class UV_OT_koebe_symmetrize(bpy.types.Operator):
-    """Make the UVs of a surface that is its own mirror image exactly symmetric, about a vertical line. The plane is
-    found; circles stay circles. What is not symmetric stays as it is"""
+    """Make the UVs of a mirror-symmetric surface exactly symmetric, about a vertical line. The plane of symmetry is
+    found, and circles stay circles. Other surfaces stay as they are"""
 
     bl_idname = "uv.koebe_symmetrize"
     bl_label = "Koebe Symmetrize"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
-    layer: StringProperty(name="UV Layer", description="UV layer to write; without a name the active one")
+    layer: StringProperty(name="UV Layer", description="UV layer to write. Without a name, the active layer")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -81,7 +81,7 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
             self.report({"WARNING"} if ":" in text else {"INFO"},
                         f"{job.name}: {text}, {made.pairs} pairs of vertices, moved by {made.moved:.1e} at most")
         if problems:
-            self.report({"WARNING"}, "Koebe UV: left as they are. " + few(problems))
+            self.report({"WARNING"}, "Koebe UV: some stay as they were. " + few(problems))
         return {"FINISHED"}
 
 

@@ -11,8 +11,8 @@ from .tooltip import tooltip
 
 
 class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operator):
-    """Unwrap surfaces conformally to the unit disk: angles are kept and every hole becomes a perfect circle. Cuts along
-    seams, and where it has to; in Edit Mode takes the selected faces. The mesh is not changed"""
+    """Unwrap surfaces to a disk with round holes. Angles are kept. Seams are cuts, and a mesh that cannot be mapped
+    directly is cut in the UVs only. In Edit Mode the selected faces are mapped. The mesh is not changed"""
 
     bl_idname = "uv.koebe_uniformize"
     bl_label = "Koebe Uniformize"

@@ -18,23 +18,19 @@ from .tooltip import tooltip
 from .uniformize import UV_OT_koebe_uniformize
 
 # By shape: the name of its map, and the rows of the redo panel, eight with the shape itself.
-MAPS = {"DISK": "uniformize", "PARTS": "parts", "RING": "ring", "TORUS": "torus", "SPHERE": "sphere",
-        "HANDLES": "schottky"}  # fmt: skip
+MAPS = {"DISK": "uniformize", "PARTS": "parts", **{domain.shape: name for name, domain in DOMAINS.items()}}
 SHAPE_OF = {of: shape for shape, of in MAPS.items()}
 ROWS = {
     "AUTO": ("evenness", "keep_angles", "even", "seams", "layer", "checker", "checker_size"),
     "DISK": ("even", "loops", "outer", "tube", "placement", "checker", "checker_size"),
     "PARTS": ("evenness", "keep_angles", "even", "darts", "seams", "write_seams", "checker"),
-    "RING": ("rims", "holes", "fit", "even", "loops", "checker", "checker_size"),
-    "TORUS": ("fit", "even", "loops", "layer", "checker", "checker_size"),
-    "SPHERE": ("layout", "add_sphere", "layer", "checker", "checker_size"),
-    "HANDLES": ("normalization", "layer", "checker", "checker_size"),
+    **{domain.shape: domain.redo for domain in DOMAINS.values()},
 }
 
 
 class UV_OT_koebe_unwrap(MapOperator, mixin("UnwrapProperties", UNWRAP_OPTION_NAMES), bpy.types.Operator):
-    """Unwrap the selected objects, or in Edit Mode the selected faces. Automatic makes a disk with round holes where
-    its texels are even enough, and else cuts into parts. The mesh is not changed"""
+    """Unwrap the selected objects, or in Edit Mode the selected faces. Automatic makes a disk with round holes if its
+    texels are even enough, else parts. The mesh is not changed"""
 
     bl_idname = "uv.koebe_unwrap"
     bl_label = "Koebe Unwrap"

@@ -81,7 +81,7 @@ def copy_options(source: Any, target: Any, of: str = "uniformize") -> None:
 def sequence_options_of(properties: Any) -> Options:
     """The `Options` of the sequence operator. Raises OptionError."""
     values = {name: getattr(properties, name) for name in SEQUENCE_OPTION_NAMES if name in OPTION_NAMES}
-    return Options(**values, placement="pack", checker=False)
+    return Options(**values, placement="pack")
 
 
 def choice_of(of: str, properties: Any) -> Any:

@@ -96,8 +96,8 @@ class KoebeReport(bpy.types.PropertyGroup):
     show_circles: BoolProperty(
         name="Show Circles",
         default=True,
-        description="Draw over the UVs the circles of the last run, with the numbers of the report's loops, and in "
-        "Object Mode, in which Blender shows no UVs, the outlines of the islands",
+        description="Draw the circles of the last run over the UVs, with the numbers of the loops. In Object Mode, "
+        "where Blender shows no UVs, draw the outlines of the islands too",
     )
 
 

@@ -7,7 +7,10 @@ from collections.abc import Iterator
 import bpy
 import numpy as np
 
+from ..blender import sequence_player
 from ..blender.targets import target_objects
+from ..maps.option_table import LARGEST
+from ..maps.options import label_of
 from ..operators.moebius import UV_OT_koebe_moebius
 from ..state.run_report import KoebeIslandReport, report_of
 from . import drawing
@@ -22,15 +25,20 @@ SMALLEST_NUMBER = 3.0  # pixels of radius; smaller circles have no number
 
 
 def visible_islands(context: bpy.types.Context) -> Iterator[KoebeIslandReport]:
-    """Islands of the report whose circles lie at the UVs that the UV Editor shows."""
-    report = report_of(context)
-    targets = {obj.name: obj for obj in target_objects(context)}
-    for entry in report.islands:
-        obj = targets.get(entry.object_name)
-        if entry.mapped and obj is not None:
-            active = obj.data.uv_layers.active
-            if active is not None and active.name == entry.layer:
-                yield entry
+    """Islands of the report whose circles lie at the UVs that the UV Editor shows, of a sequence the present frame's.
+    """
+    # In Edit Mode Blender shows the UVs that the mesh has, which are the first frame's.
+    now = context.scene.frame_current if context.mode == "OBJECT" else -LARGEST
+    shown: dict[str, tuple[str, str]] = {}  # by object: layer and shape
+    for obj in target_objects(context):
+        active = obj.data.uv_layers.active
+        if active is not None:
+            frame = sequence_player.frame_shown(obj, active.name, now)
+            shown[obj.name] = (active.name, "") if frame is None else ("", label_of(frame))
+    for entry in report_of(context).islands:
+        layer, shape = shown.get(entry.object_name, ("", ""))
+        if entry.mapped and entry.layer == layer and (entry.shape == shape if shape else layer):
+            yield entry
 
 
 def unit_circle(segments: int) -> np.ndarray:

@@ -26,7 +26,7 @@ class CirclesTool(bpy.types.WorkSpaceTool):
     @staticmethod
     def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, tool: object) -> None:
         """A line of help in the header."""
-        layout.label(text="Drag the disk or a hole. Click a hole: it becomes the rim. Drag outside: turn")
+        layout.label(text="Drag the disk or a hole. Click a hole to make it the rim. Drag outside to turn the disk")
 
 
 def register() -> None:

@@ -112,13 +112,8 @@ class LayerPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("layer", "placement", "margin"):
+        for name in ("layer", "placement", "margin", "checker", "checker_size"):
             draw_option(column, settings, name, context)
-        row = column.row(heading="Checker")
-        row.prop(settings, "checker", text="")
-        size = row.row()
-        size.active = settings.checker
-        size.prop(settings, "checker_size", text="")
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)
 
@@ -134,9 +129,9 @@ class ToolsPanel(ClosedPanel):
         fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Fill Holes", icon="MESH_DATA").which = "holes"
         if context.mode == "EDIT_MESH":
             fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
-        column.operator(UV_OT_koebe_symmetrize.bl_idname, icon="MOD_MIRROR")
-        column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, icon="MESH_PLANE")
-        column.operator(UV_OT_koebe_flat_svg.bl_idname, icon="EXPORT")
+        column.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
+        column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, text="Flat Copy", icon="MESH_PLANE")
+        column.operator(UV_OT_koebe_flat_svg.bl_idname, text="Flat SVG", icon="EXPORT")
 
 
 class AccuracyPanel(ClosedPanel):

@@ -4,6 +4,7 @@
 import bpy
 import numpy as np
 
+from ..blender import sequence_player, vector_attribute
 from ..blender.mesh_object import MeshObject
 from ..blender.mesh_reading import read_layout
 from ..blender.targets import target_objects
@@ -15,8 +16,8 @@ from .circle_tool import CIRCLES_TOOL
 
 OUTLINE = (0.75, 0.75, 0.75, 0.8)
 
-# By the names of mesh and layer: corners (k, 2) and their UVs (k, 2, 2).
-_known: dict[tuple[str, str], tuple[np.ndarray, np.ndarray]] = {}
+# By the names of mesh, layer and attribute: corners (k, 2) and their UVs (k, 2, 2).
+_known: dict[tuple[str, str, str | None], tuple[np.ndarray, np.ndarray]] = {}
 _stale = False  # whether a mesh has changed since the outlines were read
 
 
@@ -34,6 +35,17 @@ def after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None
     _stale = _stale or any(isinstance(update.id, bpy.types.Mesh) for update in depsgraph.updates)
 
 
+@bpy.app.handlers.persistent
+def after_frame(*_: object) -> None:
+    """Called by Blender after a change of frame: while an animation plays, it does not draw UV Editors by itself."""
+    if bpy.app.background or bpy.app.is_job_running("RENDER"):
+        return
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR":
+                area.tag_redraw()
+
+
 def forget() -> None:
     """Read the outlines again if meshes have changed. Drags are not among these changes."""
     global _stale
@@ -42,18 +54,24 @@ def forget() -> None:
         _stale = False
 
 
-def outlines_of(obj: MeshObject, layer: str) -> tuple[np.ndarray, np.ndarray]:
-    """Corners at the ends of a UV layer's outlines, and their UVs."""
-    key = (obj.data.name_full, layer)
+def outlines_of(obj: MeshObject, layer: str, attribute: str | None) -> tuple[np.ndarray, np.ndarray]:
+    """Corners at the ends of a UV layer's outlines, and their UVs: those of an attribute, where it has any."""
+    key = (obj.data.name_full, layer, attribute)
     if key not in _known:
         vertex, edge, following, uv = read_layout(obj, layer)
+        if attribute is not None:
+            played = vector_attribute.corner_values(obj, attribute)
+            uv = np.where(played.any(axis=1, keepdims=True), played, uv)
         ends = outline(vertex, edge, following, uv)
         _known[key] = ends, uv[ends]
     return _known[key]
 
 
 def draw() -> None:
-    """Draw the outlines of the report's objects; with the tool Koebe Circles, of all objects that it works on."""
+    """Draw the outlines of the report's objects; with the tool Koebe Circles, of all objects that it works on.
+
+    If the object plays a sequence, they are those of the present frame.
+    """
     context = bpy.context
     report = report_of(context)
     if context.space_data.mode != "UV" or context.mode != "OBJECT" or not report.show_circles:
@@ -64,9 +82,12 @@ def draw() -> None:
     reported = {(entry.object_name, entry.layer) for entry in report.islands if entry.mapped}
     for obj in target_objects(context):
         active = obj.data.uv_layers.active
-        if active is None or not (all_of_them or (obj.name, active.name) in reported):
+        if active is None:
             continue
-        ends, uv = outlines_of(obj, active.name)
+        attribute = sequence_player.attribute_shown(obj, active.name, context.scene.frame_current)
+        if not (all_of_them or attribute is not None or (obj.name, active.name) in reported):
+            continue
+        ends, uv = outlines_of(obj, active.name, attribute)
         held = UV_OT_koebe_moebius.held
         if held is not None and held[0] == obj.name:
             uv = uv[~np.isin(ends[:, 0], held[1])]
@@ -84,6 +105,7 @@ def draw_segments(context: bpy.types.Context, uv: np.ndarray) -> None:
 
 HANDLERS = (
     (bpy.app.handlers.depsgraph_update_post, after_update),
+    (bpy.app.handlers.frame_change_post, after_frame),
     (bpy.app.handlers.undo_post, after_undo),
     (bpy.app.handlers.redo_post, after_undo),
     (bpy.app.handlers.load_post, after_undo),

@@ -44,7 +44,7 @@ class KoebePreferences(bpy.types.AddonPreferences):
         name="Shortcut Shift Alt U",
         default=False,
         update=update_shortcut,
-        description="Koebe Unwrap with Shift Alt U in Object Mode, Edit Mode and the UV Editor",
+        description="Shift Alt U unwraps in Object Mode, in Edit Mode and in the UV Editor",
     )
 
     def draw(self, context: bpy.types.Context) -> None:

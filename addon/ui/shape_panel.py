@@ -42,7 +42,7 @@ def draw_module(column: bpy.types.UILayout, shapes: KoebeShapes) -> None:
     column.label(text=f"Module of {shapes.source}", icon="MESH_CIRCLE")
     numbers = list(shapes.module)
     if not numbers:
-        column.label(text="All disks are alike")
+        column.label(text="All disks have the same module")
     rows = {"": dict(zip("xyr", "xyr", strict=True))} if numbers else {}
     for number in numbers[:MAX_NUMBERS]:
         letter, hole = number.name.split("_")

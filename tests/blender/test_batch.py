@@ -167,8 +167,8 @@ def test_parts_are_those_of_the_operator(batch, tmp_path):
 
 @pytest.mark.alike
 @pytest.mark.parametrize("words, said", [
-    ("--importance Weight --balance none", "--importance: it weighs the balance: take --balance area"),
-    ("--symmetry auto --center 3", "--symmetry: it excludes"),
+    ("--importance Weight --balance none", "--importance: it needs Balance: take --balance area"),
+    ("--symmetry auto --center 3", "--symmetry: it does not work with"),
     ("--max-sweeps 0", "--max-sweeps: 0 is not a number from 1 to 2147483647"),
     ("--domain ring --tolerance 0", "--tolerance: 0.0 is not"),
     ("--layer .own", "--layer: Blender keeps"),
@@ -192,7 +192,7 @@ def test_wrong_usage_names_flags_and_limits(addon, words, said):
 def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):
     tori.add_torus()
     done = batch("--output", "out.blend", "--report", "out.json", "--domain", "ring")
-    assert done.returncode == 3 and "this surface has 1 handle: a cylinder has none" in done.stderr
+    assert done.returncode == 3 and "this surface has 1 handle: a cylinder must have no handle" in done.stderr
     assert outputs(tmp_path) == ["out.json"]
     (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
     assert entry["error"]["name"] == "DomainError"

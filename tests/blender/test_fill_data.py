@@ -182,7 +182,7 @@ def test_all_with_a_lone_triangle_leaves_that_alone_and_fills_the_others(mode):
     for obj in (good, later):
         assert scenes.boundary_loops(obj.data) == []
     scenes.select(lone)
-    with pytest.raises(RuntimeError, match="back of a single face"):
+    with pytest.raises(RuntimeError, match="only the back of one face"):
         bpy.ops.mesh.koebe_fill_holes(which="all")
 
 

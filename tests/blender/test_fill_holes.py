@@ -152,7 +152,7 @@ def test_a_hole_without_extent_is_said_and_nothing_is_changed():
     for v in loop:
         obj.data.vertices[v].co = obj.data.vertices[loop[0]].co
     before = scenes.mesh_state(obj.data)
-    with pytest.raises(RuntimeError, match="no extent"):
+    with pytest.raises(RuntimeError, match="a hole has no size"):
         bpy.ops.mesh.koebe_fill_holes()
     assert scenes.mesh_state(obj.data) == before
 

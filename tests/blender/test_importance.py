@@ -71,7 +71,7 @@ def test_a_group_that_nobody_has_is_refused():
     obj = scenes.add_panel()
     scenes.select(obj)
     state = scenes.mesh_state(obj.data)
-    with pytest.raises(RuntimeError, match="no object has one"):
+    with pytest.raises(RuntimeError, match="no object has this group"):
         bpy.ops.uv.koebe_uniformize(importance="Nothing")
     weighed(obj, left_side(obj))
     with pytest.raises(RuntimeError, match="set Balance to Area"):

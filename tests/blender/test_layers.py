@@ -140,6 +140,6 @@ def test_pins_that_are_not_kept_are_spoken_of(mode):
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.object.mode_set(mode=mode)
     bpy.ops.uv.koebe_uniformize()
-    assert "pins are not kept" in report.islands[0].message
+    assert "this map cannot keep pins" in report.islands[0].message
     bpy.ops.uv.koebe_uniformize(layer="Other")
     assert report.islands[0].message == ""

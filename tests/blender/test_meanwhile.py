@@ -52,9 +52,9 @@ def fill_its_layers(obj):
 
 
 CHANGES = {
-    "turned": (turn_faces, "changed in the meantime"), "moved": (move_a_vertex, "changed in the meantime"),
-    "fewer faces": (remove_a_face, "changed in the meantime"),
-    "another mesh": (give_it_another_mesh, "changed in the meantime"), "layers": (fill_its_layers, "8 UV layers"),
+    "turned": (turn_faces, "changed during the run"), "moved": (move_a_vertex, "changed during the run"),
+    "fewer faces": (remove_a_face, "changed during the run"),
+    "another mesh": (give_it_another_mesh, "changed during the run"), "layers": (fill_its_layers, "8 UV layers"),
     "deleted": (lambda obj: bpy.data.objects.remove(obj), "deleted or renamed"),
     "renamed": (lambda obj: setattr(obj, "name", "Else"), "deleted or renamed"),
 }  # fmt: skip
@@ -132,7 +132,7 @@ def test_in_edit_mode_too(meanwhile):
         bpy.ops.mesh.flip_normals()
 
     meanwhile("jobs.map_job", happen)
-    with pytest.raises(RuntimeError, match="Changed: .*changed in the meantime"):
+    with pytest.raises(RuntimeError, match="Changed: .*changed during the run"):
         bpy.ops.uv.koebe_uniformize()
     assert bpy.context.mode == "EDIT_MESH" and len(changed.data.uv_layers) == len(other.data.uv_layers) == 0
 

@@ -406,17 +406,62 @@ def test_where_nothing_changes_one_map_is_written_and_that_is_said(capfd, moves)
         bpy.context.scene.frame_set(7)
     assert unwrap() == {"FINISHED"}
     assert "nothing moves" in capfd.readouterr().out
+    assert "nothing moves" in entries()[0].message and entries()[0].layer == "Koebe"
     assert [one.name for one in obj.data.attributes if one.name.startswith("Koebe_")] == ["Koebe_0001"]
     assert not obj.modifiers and len(entries()) == 1
     corner = scenes.read(obj.data.loops, "vertex_index", np.int32)
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), vectors(obj, "Koebe_0001")[corner, :2])
 
 
+def test_the_uv_editor_draws_the_present_frame(addon):
+    """Its outlines and circles. Here they are as the panel has holes: a rim and three holes in each frame."""
+    obj = add_waving()
+    assert unwrap(frame_start=-2, frame_end=4, frame_step=2) == {"FINISHED"}
+    player, outlines = addon("blender.sequence_player"), addon("ui.outline_overlay")
+    corner, seen = scenes.read(obj.data.loops, "vertex_index", np.int32), []
+    for frame in (-5, -2, -1, 0, 3, 4, 9):
+        bpy.context.scene.frame_set(frame)
+        attribute = player.attribute_shown(obj, "Koebe", frame)
+        ends, uv = outlines.outlines_of(obj, "Koebe", attribute)
+        assert np.array_equal(uv, played(obj)[ends]) and len(uv) > 40
+        (entry,) = addon("ui.circle_overlay").visible_islands(bpy.context)
+        assert np.array_equal(uv, vectors(obj, attribute)[corner, :2][ends])
+        assert entry.shape == f"frame {min(max(frame - frame % 2, -2), 4)}" and len(entry.loops) == 4
+        for loop in entry.loops:  # every circle goes through points of the outlines
+            off = np.abs(np.linalg.norm(uv - np.array(loop.uv_center[:]), axis=2) - loop.uv_radius)
+            assert off.min() < 1e-3 * loop.uv_radius
+        seen.append(attribute)
+    assert len(set(seen)) == 4
+    assert player.attribute_shown(obj, "Other", 0) is None
+    obj.modifiers["Koebe Sequence"].show_viewport = False
+    assert player.attribute_shown(obj, "Koebe", 0) is None
+
+
+def test_the_checker_is_of_the_layer_that_plays(capfd):
+    obj = add_waving()
+    assert unwrap(checker=False) == {"FINISHED"} and not obj.material_slots
+    obj.modifiers["Koebe Sequence"].show_viewport = obj.modifiers["Koebe Sequence"].show_render = False
+    assert unwrap() == {"FINISHED"}
+    assert obj.modifiers["Koebe Sequence"].show_viewport and obj.modifiers["Koebe Sequence"].show_render
+    assert "play the timeline" in capfd.readouterr().out and "play the timeline" in entries()[0].note
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    assert [node.uv_map for node in nodes if node.type == "UVMAP"] == ["Koebe"]
+    assert unwrap(target="LAYERS") == {"FINISHED"}
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    assert [node.uv_map for node in nodes if node.type == "UVMAP"] == ["Koebe 0001"]
+
+
+def test_one_frame_alone_is_said(capfd):
+    add_waving()
+    assert unwrap(frame_start=2, frame_end=2) == {"FINISHED"}
+    assert "nothing moves" in capfd.readouterr().out and "nothing moves" in entries()[0].message
+
+
 def test_a_map_that_the_modifier_hides_is_said(capfd):
     add_waving()
     unwrap()
     bpy.ops.uv.koebe_uniformize()
-    assert "its modifier 'Koebe Sequence' shows the UVs of its frames" in capfd.readouterr().out
+    assert "its modifier 'Koebe Sequence' hides this map" in capfd.readouterr().out
 
 
 # ---------------------------------------------------------------- around it
@@ -482,7 +527,7 @@ def test_hidden_objects_are_refused_with_the_reason(addon):
     obj = add_waving()
     obj.hide_set(True)
     job_of, choice = addon("jobs.sequence_job").SequenceJob, addon("maps.options").SequenceChoice
-    with pytest.raises(addon("blender.errors").TransferError, match="while it is hidden"):
+    with pytest.raises(addon("blender.errors").TransferError, match="it is hidden, so Blender does not animate it"):
         job_of([obj], addon("maps.options").Options(checker=False), choice(frames=range(1, 5)))
 
 

@@ -245,7 +245,7 @@ def test_a_source_without_a_circle_domain_is_refused():
     source, target = pair()
     uv = scenes.corner_uv(source.data, "Koebe").copy()
     set_uv(source, uv * [1.0, 0.8])
-    refused("no circle domain", target)
+    refused("not a disk with round holes", target)
     cut = uv.copy()
     cut[:40] += 0.2
     set_uv(source, cut)
@@ -286,7 +286,7 @@ def test_it_wants_two_surfaces_in_object_mode():
     twin = bpy.data.objects.new("Twin", source.data)
     bpy.context.collection.objects.link(twin)
     scenes.select(source, twin)
-    refused("select a surface beside the active one")
+    refused("select another surface too")
     scenes.select(source, target)
     bpy.ops.object.mode_set(mode="EDIT")
     assert not bpy.ops.uv.koebe_carry_texture.poll() and not bpy.ops.uv.koebe_compare_shapes.poll()

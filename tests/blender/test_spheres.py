@@ -45,7 +45,7 @@ def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
     assert entry.angle_error == pytest.approx(ball.angle_error_stored_deg["mean"], rel=1e-6)
     down = signed_areas(uv, scenes.triangles(obj.data)[1]) <= 0.0
     assert np.array_equal(np.flatnonzero(down), ball.flipped_faces)
-    assert 1.0 <= entry.density < 10.0 and "torn in the UVs: none fit there" in entry.note
+    assert 1.0 <= entry.density < 10.0 and "torn in the UVs, as no UVs fit there" in entry.note
     assert [loop.radius for loop in entry.loops] == pytest.approx(ball.caps[:, 3].tolist(), rel=1e-6)
     assert len(entry.loops) == len(scenes.boundary_loops(obj.data))
     whole = np.ones(len(uv), bool)

@@ -299,12 +299,12 @@ def test_the_rims_are_the_loops_that_the_selection_touches(rims):
 def test_rims_that_are_not_two_are_an_error():
     obj = add_tube(holes=HOLES)
     loops = scenes.boundary_loops(obj.data)
-    for count, words in ((1, "1 loop of it"), (3, "3 loops of it")):
+    for count, words in ((1, "1 loop:"), (3, "3 loops:")):
         pick(obj, [loop[0] for loop in loops[:count]])
-        with pytest.raises(RuntimeError, match=f"two loops with selected vertices, but {words}"):
+        with pytest.raises(RuntimeError, match=f"selected vertices are on {words}"):
             ring(rims="selected")
         bpy.ops.object.mode_set(mode="OBJECT")
-    with pytest.raises(RuntimeError, match="but 0 loops of it"):
+    with pytest.raises(RuntimeError, match="selected vertices are on 0 loops"):
         ring(rims="selected")
     assert len(obj.data.uv_layers) == 0
     pick(obj, [])

@@ -1,8 +1,10 @@
 """Unwrap Sequence by its button, and Esc while the frames are read and while they are mapped."""
 
+import subprocess
+
 import pytest
 from test_escape import HOLD
-from window import ROOT, xdotool
+from window import PICTURES, ROOT, xdotool
 
 MODEL = f"""
 import sys
@@ -37,6 +39,44 @@ def test_the_button_maps_the_frames_of_the_scene(window):
     window.move(*window.middle("VIEW_3D"))
     window.key("ctrl+z")
     window.wait(f"{layers} == []", 20.0)
+
+
+def pixels(window, name, area):
+    """The pixels of an area's main region in a picture."""
+    x, y, width, height = window.region(area, "WINDOW")
+    cut = ["-crop", f"{width}x{height}+{x}+{y}", "-depth", "8", "rgb:-"]
+    return subprocess.run(["convert", str(PICTURES / f"{name}.png"), *cut], check=True, capture_output=True).stdout
+
+
+def test_the_window_plays_the_frames(window):
+    """After the run, from frame to frame the checker moves on the model, and the outlines in the UV Editor."""
+    window.prepare(MODEL)
+    window.move(*window.middle("VIEW_3D"))
+    window.choose(checker_size=12)
+    window.press("uv.koebe_sequence", frame_start=1, frame_end=12, checker_size=12)
+    window.wait(f"not heart.computing and len({REPORT}) == 12", 120.0)
+    window.show_textures()
+    window.run("for area in bpy.context.window_manager.windows[0].screen.areas:\n"
+               "    if area.type == 'VIEW_3D': area.spaces.active.overlay.show_overlays = False")  # fmt: skip
+    window.run("bpy.context.scene.frame_set(1)")
+    window.move(*window.middle("IMAGE_EDITOR"))
+    window.key("Home")
+    window.picture("92_frame_1")
+    window.run("bpy.context.scene.frame_set(5)")
+    window.picture("93_frame_5")
+    for area in ("VIEW_3D", "IMAGE_EDITOR"):
+        assert pixels(window, "92_frame_1", area) != pixels(window, "93_frame_5", area), area
+    window.run("bpy.context.scene.frame_set(1)")
+    window.picture("94_frame_1_again")
+    assert pixels(window, "92_frame_1", "IMAGE_EDITOR") == pixels(window, "94_frame_1_again", "IMAGE_EDITOR")
+    window.move(*window.middle("VIEW_3D"))
+    window.key("space")  # plays
+    seen = set()
+    for _ in range(6):
+        window.picture("95_played")
+        seen.add(pixels(window, "95_played", "IMAGE_EDITOR"))
+    window.key("space")
+    assert len(seen) > 1
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

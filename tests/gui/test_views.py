@@ -42,7 +42,7 @@ def test_in_local_view_only_what_is_in_it(window, open_sample):
     window.move(*window.middle("VIEW_3D"))
     window.key("Tab")
     window.run("bpy.context.window_manager.koebe_uv.islands[0].object_name = 'other'")
-    assert "not in local view" in window.press("uv.koebe_select_loop", loop=1)
+    assert "not in the local view" in window.press("uv.koebe_select_loop", loop=1)
     assert window.ask("(bpy.context.mode, bpy.context.view_layer.objects.active.name)") == ["OBJECT", "suzanne_mask"]
     window.move(*window.middle("VIEW_3D"))
     window.key("KP_Divide")  # out of local view

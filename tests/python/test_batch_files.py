@@ -1,7 +1,5 @@
 """Files told apart by what they are, and written whole or not at all. Without Blender."""
 
-import importlib
-import importlib.util
 import json
 import os
 import pty
@@ -14,27 +12,19 @@ import time
 from pathlib import Path
 
 import pytest
+from addon_support import LOAD
 
-ADDON = Path(__file__).resolve().parents[2] / "addon"
-LOAD = f"""
-import importlib.util, sys
-spec = importlib.util.spec_from_file_location(
-    "addon_without_bpy", {str(ADDON / "__init__.py")!r}, submodule_search_locations=[{str(ADDON)!r}])
-sys.modules["addon_without_bpy"] = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(sys.modules["addon_without_bpy"])
-from addon_without_bpy.headless import files
-"""
+LOAD_FILES = f"{LOAD}files = addon_module('headless.files')\n"
 
 
 @pytest.fixture(scope="module")
-def files():
-    exec(LOAD)
-    return importlib.import_module("addon_without_bpy.headless.files")
+def files(addon):
+    return addon("headless.files")
 
 
 @pytest.fixture
-def stop(files):
-    return importlib.import_module("addon_without_bpy.headless.exit_and_signals").Stop
+def stop(addon):
+    return addon("headless.exit_and_signals").Stop
 
 
 @pytest.fixture
@@ -140,7 +130,7 @@ def test_devices_and_pipes_are_written_and_not_replaced(files, folder):
 
 
 def test_the_file_into_which_the_process_prints_is_continued(folder):
-    script = f"{LOAD}\nprint('first', flush=True)\nreport = files.Target(sys.argv[1])\n"
+    script = f"{LOAD_FILES}\nprint('first', flush=True)\nreport = files.Target(sys.argv[1])\n"
     script += "files.write_all({report: lambda path: files.save_json(path, {'a': 1})}, int)\nprint('last')"
     for name in ("/dev/fd/1", "log"):
         for mode in "wa":
@@ -222,7 +212,7 @@ def test_what_killed_runs_left_is_removed_when_it_is_a_day_old(files, folder):
 
 
 def test_killed_at_any_moment_both_are_whole_and_the_report_is_last(folder):
-    script = f"""{LOAD}
+    script = f"""{LOAD_FILES}
 import os
 targets = [files.Target(name) for name in ("a.blend", "a.json")]
 for number in range(100000):

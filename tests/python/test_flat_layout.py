@@ -5,7 +5,8 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from test_moebius import maps_module, ring_domain, surface_of
+from addon_support import maps_module
+from test_moebius import ring_domain, surface_of
 
 flat, svg = maps_module("flat_layout"), maps_module("flat_svg")
 SVG = "{http://www.w3.org/2000/svg}"

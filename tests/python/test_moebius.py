@@ -1,29 +1,12 @@
 """Möbius maps of circle domains in UV layers: laws of the maps, and what they leave of the UVs. Without Blender."""
 
-import importlib.util
-import sys
-from pathlib import Path
-
 import koebe
 import numpy as np
 import pytest
+from addon_support import maps_module
 
-MAPS = Path(__file__).resolve().parents[2] / "addon" / "maps"
 POINT, OTHER = 0.3 - 0.5j, -0.2 + 0.6j
 RIM = np.exp(2j * np.pi * np.arange(64) / 64)
-
-
-def maps_module(name):
-    """A module of the add-on's room `maps`, which never imports Blender."""
-    if "koebe_maps" not in sys.modules:
-        spec = importlib.util.spec_from_file_location(
-            "koebe_maps", MAPS / "__init__.py", submodule_search_locations=[str(MAPS)]
-        )
-        sys.modules["koebe_maps"] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(sys.modules["koebe_maps"])
-    return importlib.import_module(f"koebe_maps.{name}")
-
-
 moebius, domains, surfaces = (maps_module(name) for name in ("moebius", "circle_domain", "surface"))
 MAPS_TO_TRY = [
     moebius.to_middle(POINT), moebius.dragged(POINT, OTHER), moebius.rotation(0.7), moebius.inside_out(POINT, 0.2),
@@ -237,7 +220,7 @@ def test_errors_are_typed_and_say_what_is_wrong(mapped):
         domain.moved(0, 1.0, 0.0)
     with pytest.raises(domains.DomainError, match="there is no hole 7: the island has 6"):
         domain.moved(0, 0.0, 0.0, hole=7)
-    with pytest.raises(domains.DomainError, match="is to be the rim"):
+    with pytest.raises(domains.DomainError, match="becomes the rim"):
         domain.moved(3, 0.0, 0.0, hole=3)
     assert issubclass(domains.DomainError, maps_module("errors").KnownError)
 
@@ -245,6 +228,6 @@ def test_errors_are_typed_and_say_what_is_wrong(mapped):
 def test_uvs_that_are_no_circle_domain_are_refused():
     surface, uv, _ = ring_domain()
     squeezed = uv * np.array([1.0, 0.9], dtype=np.float32)
-    for wrong, text in ((squeezed, "no circle domain"), (0 * uv, "no UVs"), (np.nan * uv, "not finite")):
+    for wrong, text in ((squeezed, "not a disk with round holes"), (0 * uv, "no UVs"), (np.nan * uv, "not finite")):
         found, errors = domains.read_domains(koebe, surface, wrong)
         assert not found and text in str(errors[0])

@@ -1,11 +1,9 @@
 """The table of options is what the command, the library, the package and the add-on have: one row, one option."""
 
-import importlib
 import inspect
 import json
 import math
 import re
-import sys
 import typing
 from pathlib import Path
 
@@ -207,16 +205,6 @@ def test_defaults_may_be_left_to_the_table():
     }  # fmt: skip
     with pytest.raises(TypeError, match="most_lost"):
         koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)
-
-
-@pytest.fixture(scope="module")
-def addon():
-    """A function that imports modules of the add-on that need no bpy."""
-    name, file = "addon_of_the_table", ROOT / "addon" / "__init__.py"
-    spec = importlib.util.spec_from_file_location(name, file, submodule_search_locations=[str(file.parent)])
-    sys.modules[name] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(sys.modules[name])
-    return lambda module: importlib.import_module(f"{name}.{module}")
 
 
 def test_the_addon_hands_every_option_to_the_solver(addon):

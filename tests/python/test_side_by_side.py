@@ -3,27 +3,16 @@
 Without Blender.
 """
 
-import importlib.util
-import sys
 import threading
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-MAPS = Path(__file__).resolve().parents[2] / "addon" / "maps"
-
 
 @pytest.fixture(scope="module")
-def side():
-    spec = importlib.util.spec_from_file_location(
-        "koebe_maps", MAPS / "__init__.py", submodule_search_locations=[str(MAPS)]
-    )
-    package = importlib.util.module_from_spec(spec)
-    sys.modules["koebe_maps"] = package
-    spec.loader.exec_module(package)
-    return importlib.import_module("koebe_maps.side_by_side")
+def side(addon):
+    return addon("maps.side_by_side")
 
 
 class Work:
@@ -143,8 +132,8 @@ def test_an_exception_of_the_progress_ends_everything(side):
     assert time.monotonic() - begin < 4 and work.running == 0 and len(work.started) <= 4
 
 
-def test_surfaces_that_are_numbered_one_after_the_other_are_seen_to_be_several(side):
-    falls_apart = importlib.import_module("koebe_maps.islands")._falls_apart
+def test_surfaces_that_are_numbered_one_after_the_other_are_seen_to_be_several(addon):
+    falls_apart = addon("maps.islands")._falls_apart
     chance = np.random.default_rng(1)
     found = set()
     for _ in range(500):

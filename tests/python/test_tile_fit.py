@@ -5,8 +5,9 @@ import dataclasses
 import koebe
 import numpy as np
 import pytest
+from addon_support import maps_module
 from domain_surfaces import holed_ring, holed_torus
-from test_moebius import maps_module, surface_of
+from test_moebius import surface_of
 
 tile_fit, tile_pattern = maps_module("tile_fit"), maps_module("tile_pattern")
 flipped_corners = maps_module("stored").flipped_corners
