@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures of docs/proof.md: docs/images/proof_levels.svg, the copies of a circle domain that the map has reached
-after some steps, by the words of the page's Lemma 1; and proof_errors.svg, the errors of four orders of the steps against
-the number of factorizations. NumPy alone for the first, build/bench/koebe_rates for the second.
+after some steps, by the words of the page's Lemma 1; and proof_errors.svg, the errors of four orders of the steps
+against the number of factorizations. NumPy alone for the first, build/bench/koebe_rates for the second.
 
     scripts/proof_pictures.py [FOLDER]        default: docs/images
 """
@@ -38,9 +38,7 @@ def alternating(first: int, opened: tuple[int, ...], depth: int) -> list[tuple[i
 def opened(words: Words, loops: tuple[int, ...], depth: int) -> Words:
     """The words of the loops that a step opens, after it."""
     filled = {(), *(word for k, own in words.items() if k not in loops for word in own)}
-    return {
-        k: {u + w for u in alternating(k, loops, depth) for w in filled if len(u) + len(w) <= depth} for k in loops
-    }
+    return {k: {u + w for u in alternating(k, loops, depth) for w in filled if len(u) + len(w) <= depth} for k in loops}
 
 
 def after_step(words: Words, loops: tuple[int, ...], depth: int = DEPTH) -> Words:
@@ -92,7 +90,8 @@ def drawn(circle, at, fill, width):
     if radius * scale < LEAST:
         return ""
     x, y = at[0] + SIZE / 2 + scale * center.real, at[1] + SIZE / 2 - scale * center.imag
-    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius * scale:.1f}" fill="{fill}" stroke="{INK}" stroke-width="{width}"/>'
+    place = f'cx="{x:.1f}" cy="{y:.1f}" r="{radius * scale:.1f}"'
+    return f'<circle {place} fill="{fill}" stroke="{INK}" stroke-width="{width}"/>'
 
 
 def frame(at, words, last, caption):
