@@ -105,9 +105,11 @@ public:
         int holds_center = -1;  // the disk around the reflection's centre; -1: the centre is in the hole opened last
         if (reflects(metric_)) {
             if (metric_ == KoebeMeshOptions::Metric::reflected) holds_center = opened_newly(open, next);
-            const Reflection tau{holds_center < 0 ? Complex{} : point_inside(mesh, image.positions, holds_center)};
-            image.positions = tau(image.positions);
-            for (Circle& circle : image.circles) circle = tau(circle);
+            if (holds_center >= 0 || open.size() > 1) {  // else the one loop is opened again: no disk reaches infinity
+                const Reflection tau{holds_center < 0 ? Complex{} : point_inside(mesh, image.positions, holds_center)};
+                image.positions = tau(image.positions);
+                for (Circle& circle : image.circles) circle = tau(circle);
+            }
         }
         if (metric_ != KoebeMeshOptions::Metric::first) take_planar_metric(mesh, image.positions, holds_center);
         for (std::size_t s = 0; s < open.size(); ++s) {

@@ -390,6 +390,18 @@ TEST(KoebeMesh, the_reflection_in_print_is_in_a_hole_that_the_next_step_opens)
     }
 }
 
+TEST(KoebeMesh, a_loop_opened_twice_in_a_row_needs_no_reflection)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 1000);
+    UniformizeOptions options;
+    options.method = Method::ck;
+    options.max_sweeps = 1;
+    KoebeMeshOptions in_print;
+    in_print.metric = KoebeMeshOptions::Metric::reflected;
+    in_print.schedule = {{0}, {0}, {1}, {2}, {3}, {4}};
+    EXPECT_LT(error_of(domain, run(domain, Lift::polynomial, options, in_print)), 0.1);
+}
+
 TEST(KoebeMesh, the_yamabe_flow_maps_the_annuli_as_the_one_form_does)
 {
     // The first step starts from the surface, and the two maps differ by O(h^2).
