@@ -79,7 +79,7 @@ std::vector<Circle> in_order(const test::CircleDomain& domain, const UniformizeR
 
 Method method_of(const std::string& name)
 {
-    if (name == "gk") return Method::gk;
+    if (name == "gk" || name == "at-once") return Method::gk;
     if (name == "ck") return Method::ck;
     if (name == "against-outer") return Method::against_outer;
     throw std::invalid_argument("no method " + name);
@@ -90,7 +90,7 @@ UniformizeOptions options_of(const std::string& engine, const std::string& metho
     UniformizeOptions options;
     options.engine = engine == "mesh" ? Engine::mesh : Engine::condensed;
     options.method = method_of(method);
-    options.in_turn = true;
+    options.in_turn = method != "at-once";
     return options;
 }
 
@@ -156,7 +156,7 @@ int main(int argc, char** argv)
         else
             throw std::invalid_argument("usage: koebe_rates surface HOLES FACES OUT.obj | "
                                         "steps apart|middle|close FACES ENGINE METHOD | file MESH ENGINE METHOD; "
-                                        "ENGINE condensed|mesh, METHOD gk|ck|against-outer");
+                                        "ENGINE condensed|mesh, METHOD gk|ck|against-outer|at-once");
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return 2;

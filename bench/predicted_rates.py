@@ -52,6 +52,12 @@ def turned_out(circles):
     return seen_from(min(grid[inside], key=crowded))
 
 
+def proved(circles):
+    """The factor below which docs/proof.md brings every sweep: 1 / t^2, t as large as it can be."""
+    seen = turned_out(circles)
+    return max((r + s) / abs(c - d) for k, (c, r) in enumerate(seen) for d, s in seen[:k]) ** 2
+
+
 def interaction(circles):
     """M: what errors of the other loops leave of loop i, opened alone, as a real matrix. Blocks of 2 MODES: real and
     imaginary parts of the modes from 2 on; a takes the conjugate of the others'."""

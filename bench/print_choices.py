@@ -14,8 +14,9 @@ CHOICES = {
     "partners that change": {"partners": "changing"},
     "metric of the last image": {"metric": "planar"},
     "the same after the reflection τ": {"metric": "reflected"},
+    "the same, τ in the hole opened last": {"metric": "reflected-last"},
     "metric of the last image, annulus by the Yamabe flow": {"metric": "planar", "annulus": "yamabe"},
-    "τ, partners that change, 1-forms: nearest to the print": {"metric": "reflected", "partners": "changing"},
+    "as printed: τ, partners that change, 1-forms": {"metric": "reflected", "partners": "changing"},
 }
 HEAD = [
     "choice", *(f"circles, {sweeps} sweeps" for sweeps in SWEEPS), *(f"degrees, {sweeps} sweeps" for sweeps in SWEEPS),

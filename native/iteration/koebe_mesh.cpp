@@ -56,6 +56,18 @@ struct Reflection {
     }
 };
 
+bool reflects(KoebeMeshOptions::Metric metric)
+{
+    return metric == KoebeMeshOptions::Metric::reflected || metric == KoebeMeshOptions::Metric::reflected_last;
+}
+
+/// The first loop of the next step that is filled in this step; -1 if there is no such loop.
+int opened_newly(const OpenedLoops& now, const OpenedLoops& next)
+{
+    const auto found = std::ranges::find_if(next, [&](int k) { return std::ranges::find(now, k) == now.end(); });
+    return found == next.end() ? -1 : *found;
+}
+
 /// The picture that a step draws: positions of the vertices that it maps, and circles of the loops that it opens.
 struct StepImage {
     VectorXcd positions;
@@ -90,14 +102,16 @@ public:
         const FilledMesh mesh = assemble(open);
         StepImage image = open.size() == 1 ? riemann_image(mesh, open[0]) : annulus_image(mesh, open[0], open[1]);
         VectorXcd of_surface = image.positions.head(vertex_count_);
-        if (metric_ == KoebeMeshOptions::Metric::reflected) {
-            const Complex center = open.size() == 1 ? gather_loop(of_surface, loops_[next[0]]).mean() : Complex{};
-            const Reflection tau{center};
-            image.positions = tau(image.positions);
-            for (Circle& circle : image.circles) circle = tau(circle);
+        int holds_center = -1;  // the disk around the reflection's centre; -1: the centre is in the hole opened last
+        if (reflects(metric_)) {
+            if (metric_ == KoebeMeshOptions::Metric::reflected) holds_center = opened_newly(open, next);
+            if (holds_center >= 0 || open.size() > 1) {  // else the one loop is opened again: no disk reaches infinity
+                const Reflection tau{holds_center < 0 ? Complex{} : point_inside(mesh, image.positions, holds_center)};
+                image.positions = tau(image.positions);
+                for (Circle& circle : image.circles) circle = tau(circle);
+            }
         }
-        if (metric_ != KoebeMeshOptions::Metric::first)
-            take_planar_metric(mesh, image.positions, open.size() == 1 ? next[0] : -1);
+        if (metric_ != KoebeMeshOptions::Metric::first) take_planar_metric(mesh, image.positions, holds_center);
         for (std::size_t s = 0; s < open.size(); ++s) {
             const Circle& circle = image.circles[s];
             set_angles(open[s], gather_loop(image.positions, loops_[open[s]]).array() - circle.center);
@@ -172,8 +186,25 @@ private:
         return mesh;
     }
 
-    /// @param opened_next this disk, which holds the reflection's centre, is refilled before it is used; -1: none
-    void take_planar_metric(const FilledMesh& mesh, const VectorXcd& z, int opened_next)
+    /// The point of a disk's image that is farthest from its rim, among the vertices inside the disk.
+    Complex point_inside(const FilledMesh& mesh, const VectorXcd& z, int disk) const
+    {
+        const VectorXcd rim = gather_loop(z, loops_[disk]);
+        Complex deepest = rim.mean();  // of a disk without such a vertex
+        double depth = 0.0;
+        for (Index v = patches_[disk].rim_size(); v < patches_[disk].vertex_count(); ++v) {
+            const Complex point = z[mesh.offset[disk] + v];
+            const double distance = (rim.array() - point).abs().minCoeff();
+            if (distance <= depth) continue;
+            depth = distance;
+            deepest = point;
+        }
+        return deepest;
+    }
+
+    /// @param holds_center this disk, which holds the reflection's centre, keeps its metric: its image is unbounded;
+    /// the next step removes it. -1: no disk
+    void take_planar_metric(const FilledMesh& mesh, const VectorXcd& z, int holds_center)
     {
         const EdgeLengths lengths = planar_lengths(z, mesh.triangles);
         Eigen::Index row = triangles_.rows();
@@ -181,7 +212,7 @@ private:
         for (std::size_t k = 0; k < loops_.size(); ++k) {
             if (mesh.offset[k] < 0) continue;
             const Eigen::Index count = patches_[k].triangles().rows();
-            if (static_cast<int>(k) != opened_next) patches_[k].set_lengths(lengths.middleRows(row, count));
+            if (static_cast<int>(k) != holds_center) patches_[k].set_lengths(lengths.middleRows(row, count));
             row += count;
         }
     }
@@ -237,6 +268,8 @@ void require_possible(const KoebeMeshOptions& mesh_options, int loop_count, Meth
     if (!mesh_options.schedule.empty()) require_schedule(mesh_options.schedule, loop_count, method);
     if (mesh_options.partners == Partners::changing && (method != Method::gk || !mesh_options.schedule.empty()))
         throw InputError("changing partners need the generalized method and no schedule");
+    if (mesh_options.metric == KoebeMeshOptions::Metric::reflected_last && method == Method::ck)
+        throw InputError("the conventional method leaves no hole opened last to reflect in");
     if (mesh_options.annulus == AnnulusBackend::yamabe && mesh_options.metric == KoebeMeshOptions::Metric::first)
         throw InputError("the Yamabe flow needs a planar or reflected metric: the same on surface and disks");
 }

@@ -12,8 +12,8 @@
 
 namespace koebe {
 
-/// @throws InputError as require_schedule; changing partners with a schedule or a method other than gk; the Yamabe flow
-/// with the first metric
+/// @throws InputError as require_schedule; changing partners with a schedule or a method other than gk; the reflection
+/// in the hole opened last with ck; the Yamabe flow with the first metric
 void require_possible(const KoebeMeshOptions& mesh_options, int loop_count, Method method);
 
 struct KoebeMeshResult {

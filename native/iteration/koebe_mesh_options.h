@@ -12,9 +12,11 @@ namespace koebe {
 struct KoebeMeshOptions {
     /// The metric that a step takes for the surface and the disks that stay filled.
     enum class Metric {
-        first,      ///< of the surface, and of each disk when it was filled: conformal maps change neither
-        planar,     ///< of the last step's image in the plane, as in print: each step adds its O(h^2)
-        reflected,  ///< planar, after the reflection tau in a circle inside the hole opened last (GK) or next (CK)
+        first,           ///< of the surface, and of each disk when it was filled: conformal maps change neither
+        planar,          ///< of the last step's image in the plane, as in print: each step adds its O(h^2)
+        reflected,       ///< planar, after the reflection tau in a circle inside a hole that the next step opens, as in
+                         ///< print
+        reflected_last,  ///< the same inside the hole that was opened last, around 0; not with CK
     };
     Metric metric = Metric::first;
     Partners partners = Partners::fixed;

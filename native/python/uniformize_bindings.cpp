@@ -63,7 +63,8 @@ void bind_uniformize(py::module_& m)
     py::enum_<Metric>(m, "Metric")
         .value("first", Metric::first)
         .value("planar", Metric::planar)
-        .value("reflected", Metric::reflected);
+        .value("reflected", Metric::reflected)
+        .value("reflected-last", Metric::reflected_last);
     py::enum_<Partners>(m, "Partners").value("fixed", Partners::fixed).value("changing", Partners::changing);
 
     py::class_<CancelToken>(m, "CancelToken", "A flag that any thread may raise to stop a computation.")

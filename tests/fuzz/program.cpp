@@ -47,7 +47,7 @@ BaseChoice read_base(Reader& reader, std::size_t side)
 void read_mesh_options(std::size_t bits, UniformizeOptions& options)
 {
     using Metric = KoebeMeshOptions::Metric;
-    constexpr Metric metrics[] = {Metric::first, Metric::planar, Metric::reflected, Metric::reflected};
+    constexpr Metric metrics[] = {Metric::first, Metric::planar, Metric::reflected, Metric::reflected_last};
     options.mesh.metric = metrics[bits & 3];
     options.mesh.annulus = bits & 4 ? AnnulusBackend::yamabe : AnnulusBackend::harmonic;
     if (bits & 8) options.method = Method::gk;

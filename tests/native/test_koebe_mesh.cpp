@@ -362,6 +362,46 @@ TEST(KoebeMesh, the_metric_of_the_image_in_print_drifts)
         }
 }
 
+TEST(KoebeMesh, the_reflection_in_print_is_in_a_hole_that_the_next_step_opens)
+{
+    // Where it is decides the small triangles of the next metric, and so the O(h^2) of the circles after the step.
+    const CircleDomain domain = make_circle_domain(five_circles(), 1000);
+    UniformizeOptions options;
+    options.max_sweeps = 1;
+    const auto after_first_step = [&](KoebeMeshOptions::Metric metric, const Sweep& schedule) {
+        KoebeMeshOptions in_print;
+        in_print.metric = metric;
+        in_print.schedule = schedule;
+        return run(domain, Lift::polynomial, options, in_print).outcome.history[0].circles;
+    };
+    const Sweep sweep{{0, 1}, {2, 3}, {4, 0}}, same_hole{{0, 1}, {2, 4}, {3, 0}}, other_hole{{0, 1}, {3, 2}, {4, 0}},
+        still_open{{0, 1}, {1, 2}, {3, 4}};
+    for (const auto metric : {KoebeMeshOptions::Metric::reflected, KoebeMeshOptions::Metric::reflected_last}) {
+        const auto first = after_first_step(metric, sweep);
+        const auto difference = [&](const Sweep& to) {
+            return inversive_distance_error(after_first_step(metric, to), first);
+        };
+        EXPECT_EQ(difference(same_hole), 0.0);
+        EXPECT_EQ(difference(still_open), 0.0);  // hole 1 is open in both steps, so hole 2 is the next one
+        if (metric == KoebeMeshOptions::Metric::reflected)
+            EXPECT_GT(difference(other_hole), 1e-4);
+        else
+            EXPECT_EQ(difference(other_hole), 0.0);
+    }
+}
+
+TEST(KoebeMesh, a_loop_opened_twice_in_a_row_needs_no_reflection)
+{
+    const CircleDomain domain = make_circle_domain(five_circles(), 1000);
+    UniformizeOptions options;
+    options.method = Method::ck;
+    options.max_sweeps = 1;
+    KoebeMeshOptions in_print;
+    in_print.metric = KoebeMeshOptions::Metric::reflected;
+    in_print.schedule = {{0}, {0}, {1}, {2}, {3}, {4}};
+    EXPECT_LT(error_of(domain, run(domain, Lift::polynomial, options, in_print)), 0.1);
+}
+
 TEST(KoebeMesh, the_yamabe_flow_maps_the_annuli_as_the_one_form_does)
 {
     // The first step starts from the surface, and the two maps differ by O(h^2).

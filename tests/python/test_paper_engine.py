@@ -64,7 +64,7 @@ def test_partners_and_schedules():
     ]
 
 
-@pytest.mark.parametrize("metric", ["planar", "reflected"])
+@pytest.mark.parametrize("metric", ["planar", "reflected", "reflected-last"])
 @pytest.mark.parametrize("annulus", ["harmonic", "yamabe"])
 def test_what_is_in_print_has_its_price_and_is_a_map(metric, annulus):
     exact = inversive_distances(koebe.uniformize(VERTICES, FACES))
@@ -83,6 +83,7 @@ def test_what_is_in_print_has_its_price_and_is_a_map(metric, annulus):
         ({"partners": "changing", "method": "ck"}, "need method='gk'"),
         ({"partners": "changing", "schedule": [(0, 1), (2, 3)]}, "no schedule"),
         ({"annulus": "yamabe"}, "metric='planar'"),
+        ({"metric": "reflected-last", "method": "ck"}, "not for method='ck'"),
         ({"schedule": []}, "must have steps"),
         ({"schedule": [[]]}, "must have steps"),
         ({"schedule": [(0, -1)]}, "whole number"),
@@ -137,6 +138,7 @@ def test_the_command_has_the_same_options(mesh):
     [
         (("--metric", "planar"), "--engine mesh"),
         (("--engine", "mesh", "--annulus", "yamabe"), "--metric planar"),
+        (("--engine", "mesh", "--metric", "reflected-last", "--method", "ck"), "not for --method ck"),
         (("--engine", "mesh", "--schedule", "0-1,2"), "opens 1 loops, not 2"),
         (("--engine", "mesh", "--schedule", "0-1"), "never opens loop 2"),
         (("--engine", "mesh", "--schedule", "0-9,1-2"), "names loop 9"),

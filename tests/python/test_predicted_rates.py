@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bench"))
+sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "scripts")]
 
 import koebe  # noqa: E402
 import predicted_rates  # noqa: E402
+import proof_pictures  # noqa: E402
 import table_surfaces  # noqa: E402
 
 CIRCLES = [(0j, 1.0), (-0.4 + 0.2j, 0.3), (0.45 - 0.1j, 0.25), (0.1 + 0.6j, 0.2)]
@@ -41,6 +42,48 @@ def test_an_automorphism_of_the_disk_changes_no_factor():
     there = predicted_rates.predicted([moved(circle, 0.3 + 0.1j) for circle in CIRCLES])
     for run, values in predicted_rates.predicted(CIRCLES).items():
         assert abs(there[run][0]) == pytest.approx(abs(values[0]), rel=1e-3)
+
+
+def test_no_sweep_is_slower_than_the_proof_says():
+    bounds = []
+    for row in predicted_rates.DOMAINS.values():
+        circles = predicted_rates.draw(*row)
+        bounds.append(predicted_rates.proved(circles))
+        for values in predicted_rates.predicted(circles).values():
+            assert abs(values[0]) < bounds[-1] < 1.0
+    page = (ROOT / "docs" / "proof.md").read_text(encoding="utf-8")
+    assert f"1/t² is {min(bounds):.2f} to {max(bounds):.2f}" in page
+
+
+ORDERS = {
+    "CK": lambda n: [(k,) for k in range(n)],
+    "first": lambda n: [(0, k) for k in range(1, n)],
+    "GK": lambda n: [(k, k + 1) for k in range(0, n - 1, 2)] + [(0, n - 1)] * (n % 2),
+}
+
+
+@pytest.mark.parametrize("n", [3, 4, 5])
+def test_a_sweep_of_each_order_raises_the_level_of_the_proof(n):
+    """All words of so many letters, by Lemma 1's own words and not by its counts."""
+    for order in ORDERS.values():
+        words = proof_pictures.start(n)
+        for sweep in range(1, 4):
+            for step in order(n):
+                words = proof_pictures.after_step(words, step)
+            assert proof_pictures.level(words) >= sweep
+    words = proof_pictures.start(n)
+    for sweep in range(1, 4):
+        words = proof_pictures.after_sweep_at_once(words)
+        assert proof_pictures.level(words) == sweep
+    words = proof_pictures.start(n)
+    for steps in range(1, 2 * n):  # pairs that run on round the loops
+        words = proof_pictures.after_step(words, ((2 * steps - 2) % n, (2 * steps - 1) % n))
+        assert proof_pictures.level(words) >= 2 * steps // n
+
+
+def test_the_picture_of_the_levels_is_what_the_script_draws():
+    drawn = (ROOT / "docs" / "images" / "proof_levels.svg").read_text(encoding="utf-8")
+    assert drawn == proof_pictures.levels_picture()
 
 
 @pytest.mark.skipif(not table_surfaces.MESHER.exists(), reason="build/bench/planar_mesher is not built")

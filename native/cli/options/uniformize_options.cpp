@@ -34,6 +34,8 @@ void check_uniformize_options(const CLI::App& app, const UniformizeOptions& opti
         throw CLI::ValidationError("--partners", "changing needs --method gk");
     if (mesh.partners == Partners::changing && !mesh.schedule.empty())
         throw CLI::ValidationError("--partners", "changing excludes --schedule");
+    if (mesh.metric == KoebeMeshOptions::Metric::reflected_last && options.method == Method::ck)
+        throw CLI::ValidationError("--metric", "reflected-last is not for --method ck");
     if (mesh.annulus == AnnulusBackend::yamabe && mesh.metric == KoebeMeshOptions::Metric::first)
         throw CLI::ValidationError("--annulus", "yamabe needs --metric planar or reflected");
     if (cut && !mesh.schedule.empty())

@@ -27,6 +27,8 @@ def _check_mesh_engine(options: "_koebe.UniformizeOptions", given: Mapping[str, 
                 raise OptionError(f"{name} needs engine='mesh'")
     if mesh.partners == _koebe.Partners.changing and (options.method != _koebe.Method.gk or mesh.schedule):
         raise OptionError("changing partners need method='gk' and no schedule")
+    if mesh.metric == getattr(_koebe.Metric, "reflected-last") and options.method == _koebe.Method.ck:
+        raise OptionError("metric='reflected-last' is not for method='ck'")
     if mesh.annulus == _koebe.AnnulusBackend.yamabe and mesh.metric == _koebe.Metric.first:
         raise OptionError("annulus='yamabe' needs metric='planar' or 'reflected'")
 
