@@ -108,17 +108,22 @@ def found(model):
 
 
 def write(known):
-    """Tables and pictures into docs/. @param known the models that ours was made with"""
+    """Tables and pictures into docs/, of all models that every unwrap has been tried on.
+
+    @param known the models that ours was made with
+    """
     import compare_front
     import compare_tables
-    from compare_unwraps import UNWRAPS
+    from compare_unwraps import SETTINGS, UNWRAPS
 
     others = sorted({path.stem for path in MAPS.glob("*.npz") if ", " not in path.stem} - {*known})
-    rows_of = {model: rows for model in (*known, *others) if (rows := found(model))}
-    compare_tables.write(PAGE, {"models it was made with": {model: rows_of[model] for model in known},
-                                "other models": {model: rows_of[model] for model in others}})  # fmt: skip
+    needed = {*UNWRAPS, *SETTINGS} - {"OptCuts"}
+    groups = {heading: {model: rows for model in models if needed <= {*(rows := found(model))}}
+              for heading, models in (("models it was made with", known), ("other models", others))}  # fmt: skip
+    rows_of = {model: rows for group in groups.values() for model, rows in group.items()}
+    compare_tables.write(PAGE, groups)
     compare_front.draw(rows_of, IMAGES / "compare_front.png")
-    for model in PICTURED:
+    for model in {*PICTURED} & {*rows_of}:
         picture(model, UNWRAPS, IMAGES / f"compare_{model}.jpg")
 
 
