@@ -13,22 +13,22 @@ from matplotlib import pyplot  # noqa: E402
 WIDTH, HEIGHT = 8.0, 4.4  # inches of 100 pixels at the size it is read at; drawn twice as fine
 BLUE, ORANGE, RED, GREEN, GREY = "#1f5fa8", "#d97706", "#c02f2f", "#2b8a3e", "#6b7280"
 FRONT = ("--darts 0", "--darts 0.05", "ours, in parts", "--darts 0.5")  # joined by a line
-# Name in the picture, its colour, where it stands beside its point, and how it is aligned.
+# Name in the picture, its colour, and where it stands beside its point in the two panels.
 NAMED = {
-    "xatlas": ("xatlas", ORANGE, (8, 8), "left"),
-    "Smart UV": ("Smart UV", RED, (8, 8), "left"),
-    "OptCuts": ("OptCuts", GREEN, (8, 6), "left"),
-    "Unwrap, Angle Based": ("Angle Based", GREY, (8, -7), "left"),
-    "Unwrap, Conformal": ("Conformal", GREY, (8, 5), "left"),
-    "Unwrap, Minimum Stretch": ("Minimum Stretch", GREY, (8, 8), "left"),
-    "--darts 0": ("no darts", BLUE, (0, 11), "center"),
-    "ours, in parts": ("ours", BLUE, (0, 12), "center"),
-    "--darts 0.5": ("more darts", BLUE, (6, 9), "left"),
-    "--loops free": ("free loops", BLUE, (0, -12), "center"),
+    "xatlas": ("xatlas", ORANGE, (8, -8), (8, 8)),
+    "Smart UV": ("Smart UV", RED, (8, 9), (8, 8)),
+    "OptCuts": ("OptCuts", GREEN, (-6, 9), (8, 6)),
+    "Unwrap, Angle Based": ("Angle Based", GREY, (8, -7), (8, -6)),
+    "Unwrap, Conformal": ("Conformal", GREY, (8, 5), (8, -1)),
+    "Unwrap, Minimum Stretch": ("Minimum Stretch", GREY, (8, 3), (8, 10)),
+    "--darts 0": ("no darts", BLUE, (8, 5), (8, 6)),
+    "ours, in parts": ("ours", BLUE, (4, 12), (8, 7)),
+    "--darts 0.5": ("more darts", BLUE, (2, -21), (9, 2)),
+    "--loops free": ("free loops", BLUE, (-7, -10), (-7, -9)),
 }
 CLOUDS = {"ours, in parts": BLUE, "Smart UV": RED, "OptCuts": GREEN}  # drawn model by model
-PANELS = (("spread", "texel density, 95 % over 5 %", (0.8, 5.0), (0.8, 1, 1.5, 2, 3, 4, 5)),
-          ("angle", "mean angle error", (0.3, 60.0), (0.3, 1, 3, 10, 30)))  # fmt: skip
+PANELS = (("spread", "texel density, 95 % over 5 %", (0.85, 4.0), (1, 1.5, 2, 3, 4)),
+          ("angle", "mean angle error", (0.3, 100.0), (0.3, 1, 3, 10, 30, 100)))  # fmt: skip
 RIGHT = 2.6  # of cuts; maps with longer ones stand at the border, as do all that leave the picture
 
 
@@ -37,7 +37,7 @@ def draw(rows_of, path):
     # A cut over a cut: models that xatlas does not cut have none.
     rows_of = {model: rows for model, rows in rows_of.items() if done(rows, "xatlas") and rows["xatlas"]["seams"] > 0.0}
     figure, axes = pyplot.subplots(1, 2, figsize=(WIDTH, HEIGHT))
-    for axis, (key, title, (low, high), ticks) in zip(axes, PANELS):
+    for panel, (axis, (key, title, (low, high), ticks)) in enumerate(zip(axes, PANELS)):
 
         def points(unwrap, key=key):
             pairs = [(rows[unwrap], rows["xatlas"]) for rows in rows_of.values() if done(rows, unwrap)]
@@ -54,12 +54,13 @@ def draw(rows_of, path):
         middle = {unwrap: tuple(map(statistics.median, zip(*points(unwrap))))
                   for unwrap in (*NAMED, *FRONT) if points(unwrap)}  # fmt: skip
         axis.plot(*zip(*(middle[unwrap] for unwrap in FRONT)), "-o", color=BLUE, ms=5.5, lw=2.0, zorder=5)
-        for unwrap, (name, colour, shift, align) in NAMED.items():
+        for unwrap, (name, colour, *shifts) in NAMED.items():
             if unwrap in middle:
                 ours = colour == BLUE
                 axis.plot(*middle[unwrap], "o" if ours else "D", color=colour, ms=7 if ours else 7.5, mec="white",
                           mew=0.8, zorder=6, clip_on=False)  # fmt: skip
-                axis.annotate(name, middle[unwrap], xytext=shift, textcoords="offset points", ha=align, va="center",
+                axis.annotate(name, middle[unwrap], xytext=shifts[panel], textcoords="offset points", va="center",
+                              ha="left" if shifts[panel][0] > 0 else "right",
                               color=colour, fontsize=9.5, weight="bold" if name == "ours" else "normal", zorder=8,
                               path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])  # fmt: skip
         axis.set(xlim=(-0.1, RIGHT), ylim=(low, high), yscale="log", xlabel="length of cuts, xatlas = 1")
