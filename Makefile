@@ -195,7 +195,7 @@ bench: build programs $(DONE)/install-blender $(DONE)/install-bench ## time and 
 	$(ccache) cmake --build build --target koebe_bench
 	$(PYTHON) bench/run.py
 
-compare: programs build/venv-compare/.done ## Blender's unwraps, xatlas and ours: docs/comparison.md; goes on where it ended, AGAIN=1 anew
+compare: programs build/venv-compare/.done ## Blender's unwraps, xatlas and ours: docs/comparison.md; goes on where it ended, AGAIN=1 anew, MODELS=FOLDER more models, OPTCUTS=PROGRAM that too
 	build/venv-compare/bin/python bench/compare.py --write $(if $(AGAIN),--again)
 
 reproduce: programs ## the paper's tables, rates and figures: out/reproduce/

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The models of bench/compare.py, as triangles: Blender's own, this project's samples, scans where they are beside."""
+"""The models of bench/compare.py, as triangles: Blender's own, this project's samples, scans where they are beside.
 
+The variable MODELS of the environment names a folder of OBJ or OFF files, to compare on these as well.
+"""
+
+import os
 from pathlib import Path
 
-import bpy
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -11,12 +14,12 @@ SHARED = ROOT.parent / "shared" / "meshes"
 SAMPLES = ROOT / "blend_samples"
 
 BLENDERS_OWN = {
-    "Suzanne": lambda: (bpy.ops.mesh.primitive_monkey_add(), subdivide(2)),
-    "sphere": lambda: bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32),
-    "torus": lambda: bpy.ops.mesh.primitive_torus_add(major_segments=96, minor_segments=32),
-    "cube": lambda: (bpy.ops.mesh.primitive_cube_add(), subdivide(4)),
-    "cylinder": lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=64),
-    "cone": lambda: bpy.ops.mesh.primitive_cone_add(vertices=64),
+    "Suzanne": lambda mesh: (mesh.primitive_monkey_add(), subdivide(2)),
+    "sphere": lambda mesh: mesh.primitive_uv_sphere_add(segments=64, ring_count=32),
+    "torus": lambda mesh: mesh.primitive_torus_add(major_segments=96, minor_segments=32),
+    "cube": lambda mesh: (mesh.primitive_cube_add(), subdivide(4)),
+    "cylinder": lambda mesh: mesh.primitive_cylinder_add(vertices=64),
+    "cone": lambda mesh: mesh.primitive_cone_add(vertices=64),
 }
 SAMPLE_FILES = ("character", "hand", "mug", "closed_head", "face_five_holes", "perforated_panel", "bowl", "vase",
                 "suzanne_mask")  # fmt: skip
@@ -30,25 +33,39 @@ SCANS = (
 
 def subdivide(levels):
     """Catmull and Clark's subdivision of the active object, applied."""
+    import bpy
+
     modifier = bpy.context.object.modifiers.new("Subdivision", "SUBSURF")
     modifier.levels = levels
     bpy.ops.object.modifier_apply(modifier=modifier.name)
 
 
 def names():
-    """All that are here."""
+    """The models that the algorithm was made with, as far as they are here."""
     return [*BLENDERS_OWN, *SAMPLE_FILES, *(Path(scan).stem for scan in SCANS if (SHARED / scan).exists())]
+
+
+def unseen():
+    """The files of the folder MODELS: name -> path."""
+    folder = os.environ.get("MODELS")
+    found = sorted(Path(folder).iterdir()) if folder else []
+    return {path.stem: path for path in found if path.suffix in (".obj", ".off")}
 
 
 def arrays(name):
     """Vertices (V, 3) and triangles (F, 3)."""
+    path = {**unseen(), **{Path(scan).stem: SHARED / scan for scan in SCANS}}.get(name)
+    return read(path) if path else from_blender(name)
+
+
+def from_blender(name):
+    import bpy
+
     bpy.ops.wm.read_factory_settings(use_empty=True)
     if name in BLENDERS_OWN:
-        BLENDERS_OWN[name]()
-    elif name in SAMPLE_FILES:
-        bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{name}.blend"))
+        BLENDERS_OWN[name](bpy.ops.mesh)
     else:
-        return read(next(SHARED / scan for scan in SCANS if Path(scan).stem == name))
+        bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{name}.blend"))
     obj = next(one for one in bpy.data.objects if one.type == "MESH")
     mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     mesh.calc_loop_triangles()

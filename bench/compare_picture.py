@@ -10,22 +10,21 @@ from matplotlib import pyplot  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
 
 
-def draw(files, path):
-    """A picture of the maps in {title: .npz}; those that are not there stay empty."""
-    figure, axes = pyplot.subplots(1, len(files), figsize=(2.2 * len(files), 2.5), dpi=100)
-    for axis, (title, file) in zip(axes, files.items()):
+def draw(surface, files, path):
+    """A picture of the maps of one surface (vertices, triangles) in {title: .npz}."""
+    vertices, triangles = surface
+    figure, axes = pyplot.subplots(1, len(files), figsize=(2.2 * len(files), 2.5), dpi=100, squeeze=False)
+    for axis, (title, file) in zip(axes[0], files.items()):
         axis.set_title(title, fontsize=7)
         axis.set_axis_off()
         axis.set_aspect("equal")
-        if file.exists():
-            draw_one(axis, np.load(file))
+        draw_one(axis, vertices[triangles], np.load(file)["uv"].astype(float))
     figure.tight_layout(pad=0.3)
     figure.savefig(path)
     pyplot.close(figure)
 
 
-def draw_one(axis, data):
-    uv, points = data["uv"].astype(float), data["vertices"][data["triangles"]]
+def draw_one(axis, points, uv):
     with np.errstate(divide="ignore", invalid="ignore"):
         logs = np.log(np.abs(uv_measures.signed_areas(uv)) / uv_measures.triangle_areas(points))
     area = uv_measures.triangle_areas(points)

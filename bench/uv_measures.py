@@ -63,35 +63,30 @@ def labels(count, pairs):
             return label[label]
 
 
-def covered_twice(uv):
-    """The share of the covered area on which two triangles lie or more, from a raster."""
+def covered(uv):
+    """The covered area, and the share of it on which two triangles lie or more, from a raster: each row of pixels
+    crosses a triangle in one interval."""
     low, high = uv.reshape(-1, 2).min(axis=0), uv.reshape(-1, 2).max(axis=0)
     scale = (RASTER - 2) / max((high - low).max(), 1e-300)
     at = (uv - low) * scale + 0.37  # no pixel's centre on a grid that UVs like to lie on
-    counts = np.zeros(RASTER * RASTER, dtype=np.int64)
-    begin = np.floor(at.min(axis=1)).astype(int)
-    extent = (np.ceil(at.max(axis=1)).astype(int) - begin).max(axis=1) + 1
-    side = 1
-    while side < 2 * RASTER:
-        of_size = np.flatnonzero((extent <= side) & (extent > side // 2))
-        for some in np.array_split(of_size, max(1, len(of_size) * side * side // 4_000_000)):
-            counts += _painted(at[some], begin[some], side)
-        side *= 2
-    return float((counts > 1).sum() / max((counts > 0).sum(), 1))
-
-
-def _painted(at, begin, side):
-    """How often each pixel's centre lies in triangles `at` of at most `side` pixels, which begin at `begin`."""
-    grid = np.stack(np.meshgrid(np.arange(side), np.arange(side), indexing="ij"), axis=-1).reshape(-1, 2)
-    pixel = begin[:, None, :] + grid[None]
-    inside = np.zeros(pixel.shape[:2], dtype=int)
+    first = np.ceil(at[:, :, 1].min(axis=1)).astype(int)
+    rows = np.ceil(at[:, :, 1].max(axis=1)).astype(int) - first
+    face = np.repeat(np.arange(len(at)), rows)
+    row = first[face] + np.arange(len(face)) - np.repeat(np.cumsum(rows) - rows, rows)
+    begin, end = np.full(len(face), np.inf), np.full(len(face), -np.inf)
     for corner in range(3):
-        a, b = at[:, corner, None], at[:, (corner + 1) % 3, None]
-        edge, way = b - a, pixel - a
-        inside += np.sign(edge[..., 0] * way[..., 1] - edge[..., 1] * way[..., 0]).astype(int)
-    hit = pixel[np.abs(inside) == 3]
-    hit = hit[(hit >= 0).all(axis=1) & (hit < RASTER).all(axis=1)]
-    return np.bincount(hit[:, 0] * RASTER + hit[:, 1], minlength=RASTER * RASTER)
+        a, b = at[:, corner], at[:, (corner + 1) % 3]
+        a, b = (np.where((a[:, 1] < b[:, 1])[:, None], *ends)[face] for ends in ((a, b), (b, a)))
+        crosses = (a[:, 1] <= row) & (row < b[:, 1])
+        share = np.divide(row - a[:, 1], b[:, 1] - a[:, 1], out=np.zeros(len(face)), where=crosses)
+        x = a[:, 0] + share * (b[:, 0] - a[:, 0])
+        begin, end = np.where(crosses, np.minimum(begin, x), begin), np.where(crosses, np.maximum(end, x), end)
+    size = RASTER * RASTER
+    change = np.bincount(row * RASTER + np.ceil(begin).astype(int), minlength=size)
+    change -= np.bincount(row * RASTER + np.ceil(end).astype(int), minlength=size)
+    counts = np.cumsum(change)  # a row ends before the next begins
+    hit = int((counts > 0).sum())
+    return hit / scale**2, float((counts > 1).sum() / max(hit, 1))
 
 
 def widest_window(logs, weights, width):
@@ -102,8 +97,11 @@ def widest_window(logs, weights, width):
     return float((sums[end] - sums[:-1]).max() / sums[-1])
 
 
-def measure(vertices, triangles, uv):
-    """The figures of one map as a dictionary; lengths are in units of the square root of the surface's area."""
+def measure(vertices, triangles, uv, texture=1.0):
+    """The figures of one map as a dictionary; lengths are in units of the square root of the surface's area.
+
+    @param texture area of the texture, in units of the UVs: a map that uses its whole has a coverage of 1
+    """
     vertices = np.asarray(vertices, float)
     uv = np.asarray(uv, np.float32).astype(float)
     points = vertices[triangles]
@@ -122,6 +120,7 @@ def measure(vertices, triangles, uv):
     order = np.argsort(logs)
     share = np.cumsum(area[kept][order]) / area[kept].sum()
     low, high = logs[order][np.searchsorted(share, [0.05, 0.95])]
+    covered_area, overlap = covered(uv)
     return {
         "islands": len(np.unique(island)),
         "seams": float(lengths[~joined].sum() / np.sqrt(area.sum())),
@@ -130,5 +129,6 @@ def measure(vertices, triangles, uv):
         "angle": float(np.abs(corner_angles(uv[real]) - corner_angles(points[real])).mean()),
         "flips": int((real & ~lost & (signed * turn <= 0.0)).sum()),
         "lost": int(lost.sum()),
-        "overlap": covered_twice(uv),
+        "overlap": overlap,
+        "coverage": covered_area / texture,
     }

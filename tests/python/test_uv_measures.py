@@ -56,10 +56,17 @@ def test_halves_moved_apart_are_two_islands_and_the_seam_is_the_cut(sheet):
     assert facts["islands"] == 2 and facts["seams"] == pytest.approx(1.0) and facts["overlap"] < 1e-3
 
 
+def test_coverage_is_the_share_of_the_texture(sheet):
+    vertices, triangles, uv = sheet
+    assert measured(vertices, triangles, uv)["coverage"] == pytest.approx(1.0, abs=2e-3)
+    assert uv_measures.measure(vertices, triangles, uv / 2.0, texture=0.5)["coverage"] == pytest.approx(0.5, abs=1e-3)
+
+
 def test_halves_on_one_another_overlap(sheet):
     vertices, triangles, uv = sheet
     uv[uv.mean(axis=1)[:, 0] > 0.5] -= [0.5, 0.0]
-    assert measured(vertices, triangles, uv)["overlap"] == pytest.approx(1.0, abs=1e-2)
+    facts = measured(vertices, triangles, uv)
+    assert facts["overlap"] == pytest.approx(1.0, abs=1e-2) and facts["coverage"] == pytest.approx(0.5, abs=2e-3)
 
 
 def test_one_corner_drawn_across_flips_its_faces(sheet):
