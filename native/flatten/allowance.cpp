@@ -21,9 +21,10 @@ using Polygon = bg::model::polygon<Point, false>;  // counter-clockwise
 using Polygons = bg::model::multi_polygon<Polygon>;
 
 constexpr double chord = 0.02;              // from an arc at most
-constexpr int tries = 8;                    // with other corners
-constexpr double nearest = 0.99;            // of the width: rings that come nearer are refused,
-constexpr double farthest = 1.0 + 1e-6;     // or reach farther
+constexpr int tries = 8;                    // with other corners, from the second on without small ones:
+constexpr double simpler = 5e-4;            // of the width, by which the outline may be off then, times the try
+constexpr double nearest = 0.985;           // of the width: rings that come nearer are refused,
+constexpr double farthest = 1.005;          // or reach farther
 constexpr double shortest_edge = 1e-9;      // of the width
 constexpr std::size_t fewest_corners = 16;  // of a circle
 
@@ -127,7 +128,9 @@ std::vector<PlanarPoints> allowance_rings(const std::vector<VertexLoop>& loops, 
         const bg::strategy::buffer::join_round join(corners + 3 * k);
         Polygons grown;
         try {
-            bg::buffer(polygon, grown, distance, side, join, end, circle);
+            Polygon outline = polygon;
+            if (k > 0) bg::simplify(polygon, outline, simpler * static_cast<double>(k) * width);
+            bg::buffer(outline, grown, distance, side, join, end, circle);
         } catch (const bg::exception&) {
             continue;
         }

@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "cut/edge_runs.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
@@ -15,6 +16,7 @@
 #include "planar/boundary_crossings.h"
 #include "quality/angle_error.h"
 #include "quality/shared_warnings.h"
+#include "relax/even_map.h"
 
 #include <Eigen/Geometry>
 
@@ -22,7 +24,9 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -31,6 +35,15 @@ namespace {
 
 constexpr double least_piece = 0.1, most_piece = 1e6;  // mm across
 constexpr double most_lost = 0.01;                     // of the area, in smaller pieces
+
+constexpr double fewest_cuts = 50.0;    // a price at which nothing is cut but what has to be
+constexpr double few_bends = 0.02;      // share of vertices
+constexpr Index some_bends = 16;        // vertices
+constexpr double straight = 1e-4;       // radians
+constexpr int most_rounds = 12;         // of further relaxation,
+constexpr double worth_a_round = 0.97;  // of the stretch
+constexpr double negligible = 1e-9;     // stretch
+constexpr double true_to_size = 1e-3;   // stretch in the mean
 
 std::string in_millimetres(double length)
 {
@@ -230,19 +243,100 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<Le
     return warnings;
 }
 
-FlattenResult compute(const Vertices& vertices, const Triangles& triangles, const FlattenOptions& options,
-                      const Page& page, const std::function<double()>& length_of_unit, ExecutionContext& context)
+/// Whether all but few inner vertices lie flat, as on cones, rolled sheets and boxes.
+bool is_bent_at_few_vertices(const Vertices& vertices, const Triangles& triangles)
 {
-    require_memory_for_faces(triangles.rows());
-    fix_product_blocks();
+    VectorXd angle = VectorXd::Zero(vertices.rows());
+    std::vector<char> inner(static_cast<std::size_t>(vertices.rows()), 1);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto place = [&](int c) -> Eigen::RowVector3d { return vertices.row(triangles(f, (k + c) % 3)); };
+            const Eigen::RowVector3d a = place(1) - place(0), b = place(2) - place(0);
+            angle[triangles(f, k)] += std::atan2(a.cross(b).norm(), a.dot(b));
+        }
+    for_each_edge(triangles, static_cast<Index>(vertices.rows()), [&](std::span<const Index> halfedges) {
+        if (halfedges.size() != 1) return;
+        inner[origin(triangles, halfedges[0])] = inner[target(triangles, halfedges[0])] = 0;
+    });
+    Index bends = 0;
+    for (Eigen::Index v = 0; v < angle.size(); ++v)
+        bends += inner[v] && angle[v] > 0.0 && !(std::abs(angle[v] - 2.0 * std::numbers::pi) < straight);
+    return bends <= some_bends + few_bends * static_cast<double>(vertices.rows());
+}
+
+void add_stretch(const FlatPart& part, StretchSum& sum)
+{
+    const VectorXd areas = face_areas(part.vertices, part.surface.triangles);
+    for (Eigen::Index f = 0; f < areas.size(); ++f) {
+        const FlatTriangle flat = laid_flat(part.vertices, part.surface.triangles.row(f));
+        Eigen::Matrix<double, 3, 2> corners;
+        for (int k = 0; k < 3; ++k) corners.row(k) = part.points.row(part.surface.triangles(f, k));
+        if (flat.has_angles()) sum.add(areas[f], stretch_of(flat, corners));
+    }
+}
+
+double mean_stretch(const FlatPart& part)
+{
+    StretchSum sum;
+    add_stretch(part, sum);
+    return 0.01 * sum.result().mean;
+}
+
+double mean_stretch(const std::vector<FlatPart>& parts)
+{
+    StretchSum sum;
+    for (const FlatPart& part : parts) add_stretch(part, sum);
+    return 0.01 * sum.result().mean;
+}
+
+/// The parts relaxed further, as long as that brings something. Where loops were in each other's way, they may be apart
+/// by now.
+void relax_further(std::vector<FlatPart>& parts, int threads, ExecutionContext& context)
+{
+    side_by_side(parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
+        FlatPart& part = parts[k];
+        std::vector<RoundLoop> none;
+        double before = mean_stretch(part);
+        for (int round = 0; round < most_rounds && before > negligible; ++round) {
+            make_even({part.vertices, part.surface.triangles, part.surface.loops, part.points, none}, 1.0, packed_side,
+                      own);
+            const double now = mean_stretch(part);
+            if (!(now < worth_a_round * before)) return;
+            before = now;
+        }
+    });
+}
+
+FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, const FlattenOptions& options,
+                      ExecutionContext& context)
+{
     PartsOptions cutting;
-    cutting.price = options.price;
     cutting.darts = options.darts;
     cutting.polygon = options.polygon;
     cutting.threads = options.threads;
     cutting.even = 1.0;
     cutting.loops = LoopForm::free;
+    const bool is_mesh = vertices.rows() > 0 && triangles.rows() > 0 && vertices.allFinite() &&
+                         triangles.minCoeff() >= 0 && triangles.maxCoeff() < vertices.rows();
+    if (!options.price && is_mesh && is_bent_at_few_vertices(vertices, triangles)) {
+        PartsOptions uncut = cutting;
+        uncut.price = fewest_cuts;
+        FlatMesh mesh = flat_mesh(vertices, triangles, uncut, context);
+        relax_further(mesh.parts, options.threads, context);
+        if (mean_stretch(mesh.parts) < true_to_size) return mesh;
+    }
+    if (options.price) cutting.price = *options.price;
     FlatMesh mesh = flat_mesh(vertices, triangles, cutting, context);
+    relax_further(mesh.parts, options.threads, context);
+    return mesh;
+}
+
+FlattenResult compute(const Vertices& vertices, const Triangles& triangles, const FlattenOptions& options,
+                      const Page& page, const std::function<double()>& length_of_unit, ExecutionContext& context)
+{
+    require_memory_for_faces(triangles.rows());
+    fix_product_blocks();
+    FlatMesh mesh = cut_and_flat(vertices, triangles, options, context);
     const double unit = millimetres(options.units) * length_of_unit();
     std::vector<FlatPart>& parts = mesh.parts;
     const std::vector<Index> crumbs = leave_out_crumbs(parts, unit);
@@ -295,7 +389,8 @@ FlattenResult flatten(const Vertices& vertices, const Triangles& triangles, cons
 {
     const std::optional<Page> page = page_named(options.page);
     if (!page) throw InputError("page " + page_help(options.page));
-    if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
+    if (options.price && (!(*options.price > 0.0) || !std::isfinite(*options.price)))
+        throw InputError("the price must be positive");
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
     if (!(options.allowance >= 0.0 && options.allowance <= 100.0))
         throw InputError("the allowance must be from 0 to 100 mm");

@@ -9,6 +9,7 @@
 #include "flatten/pattern.h"
 #include "quality/report.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,12 @@ struct FlattenOptions {
     LengthUnit units = LengthUnit::mm;  ///< of the mesh
     std::string page = "A4";            ///< as page_named has it
     double allowance = 0.0;             ///< mm round each piece
-    double price = 0.0037;              ///< of a part, as in PartsOptions,
-    double darts = 0.2;                 ///< and of darts
-    std::vector<Index> polygon = {};    ///< (F) faces of one number are not cut apart; empty: each is one by itself
-    int threads = 0;                    ///< at most; 0: as many as the machine has
+    /// Of a part, as in PartsOptions. None: a surface that is bent at few vertices is cut as little as can be if it
+    /// lies true to size then; else as parts are.
+    std::optional<double> price = {};
+    double darts = 0.2;               ///< as in PartsOptions
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    int threads = 0;                  ///< at most; 0: as many as the machine has
 
     template <typename Visit>
     static void each_option(Visit&& visit)

@@ -69,7 +69,10 @@ public:
     {
         for (FlatPart& flat : flats) {
             std::vector<RoundLoop> round;
-            if (options.loops == LoopForm::round) round = round_loops(flat);
+            if (options.loops == LoopForm::round)
+                round = round_loops(flat);
+            else
+                std::ranges::fill(flat.held, 0);
             parts_.push_back({std::move(flat), std::move(round)});
         }
     }

@@ -42,7 +42,7 @@ public:
         for (const PatternLine& line : sheet_.lines)
             if (shows(line.points)) svg += path(line);
         for (const PatternLabel& label : sheet_.labels)
-            if (PlanarPoints at(1, 2); at << label.at, shows(at)) svg += text_of(label);
+            if (shows(PlanarPoints(label.at))) svg += text_of(label);
         return svg + "</svg>\n";
     }
 
