@@ -7,6 +7,7 @@
 #include "execution/execution.h"
 #include "flatten/page.h"
 #include "flatten/pattern.h"
+#include "flatten/stretch.h"
 #include "quality/report.h"
 
 #include <optional>
@@ -22,7 +23,7 @@ struct FlattenOptions {
     /// Of a part, as in PartsOptions. None: a surface that is bent at few vertices is cut as little as can be if it
     /// lies true to size then; else as parts are.
     std::optional<double> price = {};
-    double darts = 0.2;               ///< as in PartsOptions
+    double darts = 0.05;              ///< as in PartsOptions
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
     int threads = 0;                  ///< at most; 0: as many as the machine has
 
@@ -36,13 +37,6 @@ struct FlattenOptions {
         visit("darts", &FlattenOptions::darts);
         visit("polygon", &FlattenOptions::polygon);
     }
-};
-
-/// By how much lengths in a face differ from those on the surface, in per cent, in the direction where they differ
-/// most.
-struct Stretch {
-    double mean = 0.0;  ///< over the area
-    double max = 0.0;   ///< of all faces that are thick enough to have angles
 };
 
 struct PatternPiece {

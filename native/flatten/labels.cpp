@@ -37,9 +37,9 @@ struct SidePoint {
     Eigen::RowVector2d at, along, inwards;
 };
 
-class Side {
+class MarkedSide {
 public:
-    Side(const SeamSide& side, const FlatPart& part, const PlanarPoints& at) : side_(side), at_(at)
+    MarkedSide(const SeamSide& side, const FlatPart& part, const PlanarPoints& at) : side_(side), at_(at)
     {
         sums_.push_back(0.0);
         for (std::size_t i = 1; i < side.path.size(); ++i) {
@@ -83,7 +83,7 @@ std::vector<double> notches(double length, bool closed)
     return shares;
 }
 
-double distance(const Eigen::RowVector2d& p, const Eigen::RowVector2d& a, const Eigen::RowVector2d& b)
+double distance_to_edge(const Eigen::RowVector2d& p, const Eigen::RowVector2d& a, const Eigen::RowVector2d& b)
 {
     const Eigen::RowVector2d along = b - a;
     const double square = along.squaredNorm();
@@ -98,7 +98,7 @@ void mark_seams(const std::vector<Seam>& seams, const std::vector<FlatPart>& par
     std::vector<double> roots;
     for (std::size_t k = 0; k < parts.size(); ++k) roots.push_back(root_of_image(parts[k], placed.points[k]));
     for (std::size_t s = 0; s < seams.size(); ++s) {
-        std::vector<Side> sides;
+        std::vector<MarkedSide> sides;
         double least = std::numeric_limits<double>::infinity();
         for (const SeamSide& side : seams[s].sides) {
             sides.emplace_back(side, parts[side.part], placed.points[side.part]);
@@ -135,7 +135,8 @@ void number_pieces(const std::vector<FlatPart>& parts, PlacedPieces& placed)
             double least = std::numeric_limits<double>::infinity();
             for (const VertexLoop& loop : parts[k].surface.loops)
                 for (std::size_t i = 0; i < loop.size() && least > room; ++i)
-                    least = std::min(least, distance(middle, at.row(loop[i]), at.row(loop[(i + 1) % loop.size()])));
+                    least =
+                        std::min(least, distance_to_edge(middle, at.row(loop[i]), at.row(loop[(i + 1) % loop.size()])));
             if (!(least > room)) continue;
             room = least;
             best = middle;

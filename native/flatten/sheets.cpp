@@ -22,10 +22,10 @@ double extent(const PlanarPoints& points)
 }
 
 /// The side of a square in which the pieces have about room.
-double square_for(const std::vector<FlatPiece>& pieces, double margin)
+double square_for(const std::vector<PieceShape>& pieces, double margin)
 {
     double area = 0.0, longest = 0.0;
-    for (const FlatPiece& piece : pieces) {
+    for (const PieceShape& piece : pieces) {
         const Eigen::RowVector2d size = piece.points.colwise().maxCoeff() - piece.points.colwise().minCoeff();
         area += 0.6 * (size[0] + margin) * (size[1] + margin);
         longest = std::max(longest, size.norm());
@@ -33,16 +33,16 @@ double square_for(const std::vector<FlatPiece>& pieces, double margin)
     return std::max(std::sqrt(area), 0.7 * longest + margin);
 }
 
-std::vector<Outline> outlines_of(const std::vector<FlatPiece>& pieces)
+std::vector<Outline> outlines_of(const std::vector<PieceShape>& pieces)
 {
     std::vector<Outline> outlines;
-    for (const FlatPiece& piece : pieces) outlines.push_back({piece.points, piece.loops});
+    for (const PieceShape& piece : pieces) outlines.push_back({piece.points, piece.loops});
     return outlines;
 }
 
 class Placing {
 public:
-    Placing(const std::vector<FlatPiece>& pieces, double allowance, const Page& page)
+    Placing(const std::vector<PieceShape>& pieces, double allowance, const Page& page)
         : pieces_(pieces), allowance_(allowance)
     {
         placed_.pattern.page = page;
@@ -148,7 +148,7 @@ private:
 
     void put(std::size_t k, const IslandPlace& island, int sheet)
     {
-        const FlatPiece& piece = pieces_[k];
+        const PieceShape& piece = pieces_[k];
         const PlanarPoints& at = placed_.points[k] = place_island(piece.points, island, 1.0);
         placed_.sheet[k] = sheet;
         std::vector<PatternLine>& lines = placed_.pattern.sheets[static_cast<std::size_t>(sheet)].lines;
@@ -159,7 +159,7 @@ private:
         for (const VertexLoop& loop : piece.loops) lines.push_back({kind, number, true, at(loop, Eigen::all)});
     }
 
-    const std::vector<FlatPiece>& pieces_;
+    const std::vector<PieceShape>& pieces_;
     double allowance_;
     PlacedPieces placed_;
 };
@@ -172,7 +172,7 @@ int Pattern::pages() const
                            [](int sum, const PatternSheet& sheet) { return sum + sheet.pages(); });
 }
 
-PlacedPieces place_pieces(const std::vector<FlatPiece>& pieces, double allowance, const Page& page)
+PlacedPieces place_pieces(const std::vector<PieceShape>& pieces, double allowance, const Page& page)
 {
     return Placing(pieces, allowance, page).place();
 }

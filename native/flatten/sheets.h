@@ -11,7 +11,7 @@
 namespace koebe {
 
 /// A piece before it has its place.
-struct FlatPiece {
+struct PieceShape {
     PlanarPoints points;  ///< (V, 2) mm
     std::vector<VertexLoop> loops;
     std::vector<PlanarPoints> allowance;  ///< rings; empty: none
@@ -24,6 +24,6 @@ struct PlacedPieces {
 };
 
 /// @param allowance mm @throws InputError more pages than anybody prints
-PlacedPieces place_pieces(const std::vector<FlatPiece>& pieces, double allowance, const Page& page);
+PlacedPieces place_pieces(const std::vector<PieceShape>& pieces, double allowance, const Page& page);
 
 }  // namespace koebe

@@ -29,6 +29,9 @@ struct Dart {
 std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces, double even, double price,
                                   const std::vector<char>& refused);
 
+/// The shortest ways to the boundary from inner vertices, as long as they share no vertex.
+std::vector<Dart> shortest_darts(const FlatPart& flat, const std::vector<Index>& tips);
+
 /// Opens darts, no two of which share a vertex. Vertices keep their numbers, second sides get new ones, and both sides
 /// are drawn a little apart.
 /// @return false, nothing changed, where that cannot be

@@ -357,7 +357,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     return mesh;
 }
 
-PartsLayout laid_out(FlatMesh mesh, const std::vector<PlanarPoints>& places)
+PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places)
 {
     PartsLayout layout = std::move(mesh.layout);
     const Triangles triangles = layout.triangles;
@@ -399,7 +399,8 @@ PlanarPoints uv_of_input(const PartsLayout& layout, const Triangles& input)
     return uv;
 }
 
-ComputedDistortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces)
+ComputedDistortion distortion_of_parts(const PartsLayout& layout, const PlanarPoints& uv,
+                                       const std::vector<Index>& faces)
 {
     const Eigen::Index count = static_cast<Eigen::Index>(faces.size());
     Vertices vertices(3 * count, 3);
@@ -421,7 +422,7 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
     FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
     context.begin_stage("pack", 0.9, 1.0);
     const std::vector<PlanarPoints> places = pack_parts(mesh.parts, options.threads, context);
-    return laid_out(std::move(mesh), places);
+    return layout_at(std::move(mesh), places);
 }
 
 }  // namespace koebe

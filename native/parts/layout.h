@@ -40,13 +40,14 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
                    ExecutionContext& context);
 
 /// @param places (V, 2) of each part's vertices, the UVs of the layout
-PartsLayout laid_out(FlatMesh mesh, const std::vector<PlanarPoints>& places);
+PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places);
 
 /// (3F, 2) of the input's corners, in their order.
 PlanarPoints uv_of_input(const PartsLayout& layout, const Triangles& input);
 
 /// Of some faces, each corner a vertex of its own. @param uv (3F, 2) in [0, 1]^2
-ComputedDistortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces);
+ComputedDistortion distortion_of_parts(const PartsLayout& layout, const PlanarPoints& uv,
+                                       const std::vector<Index>& faces);
 
 /// (V) for each vertex the first of those with the same coordinates.
 std::vector<Index> first_in_place(const Vertices& vertices);

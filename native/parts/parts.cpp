@@ -129,12 +129,12 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     for (std::size_t f = 0; f < layout.part.size(); ++f)
         (layout.part[f] >= 0 ? mapped : left_out).push_back(static_cast<Index>(f));
     result.uv = uv_of_input(layout, triangles);
-    result.distortion = {distortion_of(layout, uv, mapped),
+    result.distortion = {distortion_of_parts(layout, uv, mapped),
                          judge_corners(vertices, triangles, result.uv, layout.reoriented, left_out)};
     result.turned = layout.reoriented;
     result.parts = std::move(layout.parts);
     for (PartReport& part : result.parts)
-        part.angle_error_deg = distortion_of(layout, uv, part.faces).angle_error_deg.mean;
+        part.angle_error_deg = distortion_of_parts(layout, uv, part.faces).angle_error_deg.mean;
     report_density(layout, uv, mapped, result);
     for (const Index f : mapped) result.coverage += uv_area(uv, f);
     result.cut_length = seam_length(layout, mapped);

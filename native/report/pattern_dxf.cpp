@@ -73,7 +73,7 @@ private:
     std::string text_;
 };
 
-PlanarPoints moved(PlanarPoints points, double shift)
+PlanarPoints shifted(PlanarPoints points, double shift)
 {
     points.col(0).array() += shift;
     return points;
@@ -145,7 +145,8 @@ std::string pattern_dxf(const Pattern& pattern)
                     dxf.add_polyline(page_layer, box(shift + column * w, row * h, w, h), true);
         }
         for (const PatternLine& line : sheet.lines)
-            dxf.add_polyline(layers[static_cast<std::size_t>(line.kind)].name, moved(line.points, shift), line.closed);
+            dxf.add_polyline(layers[static_cast<std::size_t>(line.kind)].name, shifted(line.points, shift),
+                             line.closed);
         for (const PatternLabel& label : sheet.labels) dxf.add_label(label, shift);
         shift += sheet.width + between_sheets;
     }

@@ -7,7 +7,7 @@
 namespace koebe {
 namespace {
 
-constexpr double bar_length = 50.0, page_text = 3.0, cross = 5.0, joint = 3.0;  // mm
+constexpr double bar_length = 50.0, page_text = 3.0, cross_arm = 5.0, joint = 3.0;  // mm
 
 std::string number(double value)
 {
@@ -112,8 +112,8 @@ private:
         if (sheet_.pages() == 1) return svg;
         for (const double px : {m, right})
             for (const double py : {m, low})
-                svg += strokes("M" + number(px - cross) + " " + number(py) + "h" + number(2.0 * cross) + "M" +
-                               number(px) + " " + number(py - cross) + "v" + number(2.0 * cross));
+                svg += strokes("M" + number(px - cross_arm) + " " + number(py) + "h" + number(2.0 * cross_arm) + "M" +
+                               number(px) + " " + number(py - cross_arm) + "v" + number(2.0 * cross_arm));
         const double middle_x = 0.5 * (m + right), middle_y = 0.5 * (m + low);
         if (column_ > 0) svg += joint_at(m, middle_y, 1.0, 0.0, column_ - 1, row_);
         if (column_ + 1 < sheet_.columns) svg += joint_at(right, middle_y, -1.0, 0.0, column_ + 1, row_);

@@ -44,6 +44,7 @@ void write_further_pages(const FlattenRequest& request, std::vector<AtomicFile>&
         const std::filesystem::path path = page_file(request.output, k + 1);
         if (io::same_file(path, request.input) || (!request.json.empty() && io::same_file(path, request.json)))
             throw FileError("page " + std::to_string(k + 1) + " would replace '" + path.string() + "'");
+        require_writable(path);
         files.emplace_back(path).write(pages[k]);
     }
 }
