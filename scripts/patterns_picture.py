@@ -13,11 +13,12 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "docs" / "images" / "patterns.svg"
 WIDTH, HEIGHT = 300, 400  # of a half of the picture, in its units
+READABLE = 9  # mm, of text in the picture, where it is larger than on paper
 COLOURS = ("#e9b44c", "#6fa8dc", "#93c47d", "#d98cb3", "#b4a7d6", "#f6b26b")
 
 
-def hat(around=72):
-    """A crown and a brim, as quadrilaterals would be cut: vertices in mm, triangles."""
+def hat(around=60):
+    """A crown and a brim: vertices in mm, triangles."""
     t = np.linspace(0.06, 1, 22)
     crown = [(95 * np.sin(t * np.pi / 2) ** 0.7, 120 * np.cos(t * np.pi / 2) ** 0.7) for t in t]
     brim = [(95 + 14 * k, -5 * k - 0.8 * k * k) for k in range(1, 7)]
@@ -49,9 +50,10 @@ def drawn(vertices, triangles, part):
 
 
 def pattern(page):
-    """What is on the page, as it is, in half its size or so."""
+    """What is on the page, scaled to half of the picture."""
     size = [float(number) for number in re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', page).groups()]
     body = page[page.index("</style>") + len("</style>") : page.rindex("</svg>")]
+    body = re.sub(r"-?\d+\.\d+", lambda found: f"{float(found[0]):.1f}", body)
     for name, style in (
         ("cut", 'fill="none" stroke="#000" stroke-width=".8"'),
         ("seam", 'fill="none" stroke="#777" stroke-width=".6" stroke-dasharray="3 2"'),
@@ -59,6 +61,7 @@ def pattern(page):
     ):
         body = body.replace(f'class="{name}"', style)
     body = body.replace("<text ", '<text text-anchor="middle" ')
+    body = re.sub(r'font-size="([\d.]+)"', lambda found: f'font-size="{max(float(found[1]), READABLE)}"', body)
     scale = min((WIDTH - 10) / size[0], (HEIGHT - 40) / size[1])
     shift = WIDTH + (WIDTH - scale * size[0]) / 2, 30 + (HEIGHT - 40 - scale * size[1]) / 2
     return [f'<g transform="translate({shift[0]:.2f} {shift[1]:.2f}) scale({scale:.4f})">{body}</g>']
@@ -66,16 +69,17 @@ def pattern(page):
 
 def main():
     vertices, triangles = hat()
-    result = koebe.flatten(vertices, triangles, page="none", allowance=10)
+    result = koebe.flatten(vertices, triangles, page="none", allowance=10, darts=0.05)
     told = result.stretch_percent
-    words = (f"a hat, 20 cm across: {len(result.pieces)} pieces", f"stretch {told['mean']:.1f} % in the mean, 10 mm allowance")
+    words = (f"a hat: {len(result.pieces)} pieces, {result.darts} darts",
+             f"{told['mean']:.1f} % stretch in the mean, 10 mm allowance")  # fmt: skip
     svg = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {2 * WIDTH} {HEIGHT}" font-family="sans-serif">',
            f'<rect width="{2 * WIDTH}" height="{HEIGHT}" fill="#fff"/>']  # fmt: skip
     svg += drawn(vertices, triangles, result.part) + pattern(result.svg[0])
     for k, text in enumerate(words):
-        svg.append(f'<text x="{WIDTH * (k + 0.5)}" y="18" text-anchor="middle" font-size="14">{text}</text>')
+        svg.append(f'<text x="{WIDTH * (k + 0.5)}" y="18" text-anchor="middle" font-size="13">{text}</text>')
     OUT.write_text("\n".join([*svg, "</svg>"]) + "\n", encoding="utf-8")
-    print(result, result.seams, [piece["size_mm"] for piece in result.pieces])
+    print(result)
 
 
 if __name__ == "__main__":
