@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/patterns.md: docs/images/patterns.svg, a hat and its pattern with seam allowances. NumPy and koebe.
+"""The picture of docs/patterns.md: docs/images/patterns.svg, a hat and its pattern. NumPy and koebe.
 
-    PYTHONPATH=build/python python3 scripts/patterns_picture.py
+PYTHONPATH=build/python python3 scripts/patterns_picture.py
 """
 
 import re

@@ -28,8 +28,8 @@ def svg_page(text):
             steps = path.get("d")
             points = [[float(word) for word in step.split()] for step in steps.strip("MZ").split("L")]
             lines.append(Line(path.get("class"), int(path.get("data-piece")), steps.endswith("Z"), np.array(points)))
-    labels = [(int(label.get("data-piece")), label.text) for label in root.iter(SVG + "text") if label.get("data-piece")]
-    return size, lines, labels
+    texts = [text for text in root.iter(SVG + "text") if text.get("data-piece")]
+    return size, lines, [(int(text.get("data-piece")), text.text) for text in texts]
 
 
 def dxf_entities(text):
@@ -54,8 +54,9 @@ def dxf_entities(text):
     return [(layer, closed, np.array(points)) for layer, closed, points in polylines], texts, unit
 
 
-def lengths(points, closed=True):
-    return np.linalg.norm((np.roll(points, -1, axis=0) if closed else points[1:]) - points[: None if closed else -1], axis=1)
+def lengths(points):
+    """Of the edges of a closed line."""
+    return np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
 
 
 def enclosed(points):
@@ -69,7 +70,8 @@ def crossings(first, second):
     c, d = second[None], np.roll(second, -1, axis=0)[None]
 
     def side(p, q, r):
-        return np.sign((q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0]))
+        along, to = q - p, r - p
+        return np.sign(along[..., 0] * to[..., 1] - along[..., 1] * to[..., 0])
 
     return int(((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)).sum())
 

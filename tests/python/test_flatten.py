@@ -43,8 +43,8 @@ def cone(radius=50.0, height=90.0, around=48, rings=20):
 
 
 def oloid(radius=40.0, n=61):
-    """Half an oloid, between its two arcs: each point t of one circle is joined with the point of the other circle where
-    the tangent plane touches it (Dirnboeck and Stachel 1997). The strip's flat triangles are split twice."""
+    """Half an oloid, between its two arcs: each point t of one circle is joined with the point of the other circle
+    where the tangent plane touches it (Dirnboeck and Stachel 1997). The strip's flat triangles are split twice."""
     share = np.linspace(-1, 1, n + 2)[1:-1]  # of the arc of the second circle, there and back
     t = 2 * np.pi / 3 * np.sign(share) * np.sqrt(np.abs(share))
     first = np.stack([np.sin(t), -0.5 - np.cos(t), 0 * t], 1)

@@ -75,5 +75,5 @@ def flatten(vertices: Any, triangles: Any = None, **given: "Unpack[FlattenOption
     another. Write the drawing with, for example, Path('pattern.svg').write_text(result.svg[0], 'utf-8').
     Raises InputError (OptionError for an option), SolverError, Cancelled, or MemoryError.
     """
-    surface = vertices, triangles
-    return domain_map(FlattenResult, _koebe.flatten, "flatten", _koebe.FlattenOptions(), given, surface, degenerate=True)
+    surface, options = (vertices, triangles), _koebe.FlattenOptions()
+    return domain_map(FlattenResult, _koebe.flatten, "flatten", options, given, surface, degenerate=True)
