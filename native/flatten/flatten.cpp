@@ -271,7 +271,7 @@ FlattenResult flatten(const Vertices& vertices, const Triangles& triangles, cons
                       ExecutionContext& context)
 {
     const std::optional<Page> page = page_named(options.page);
-    if (!page) throw InputError("page " + page_help(options.page));
+    if (!page) throw InputError("the page of the pattern " + page_help(options.page));
     if (options.price && (!(*options.price > 0.0) || !std::isfinite(*options.price)))
         throw InputError("the price must be positive");
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
