@@ -11,6 +11,7 @@
 #include "core/warning.h"
 #include "cut/open_surface.h"
 #include "execution/execution.h"
+#include "flatten/flatten.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
 #include "mesh/topology.h"

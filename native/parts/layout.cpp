@@ -35,17 +35,22 @@ constexpr double vain = 0.9;            // of the overflow: cuts that leave more
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
 
-/// Scales a mesh to area 1. First into the unit cube, as areas of huge or tiny meshes are beyond the range of a double.
-Vertices of_area_one(const Vertices& vertices, const Triangles& triangles)
+/// First into the unit cube, as areas of huge or tiny meshes are beyond the range of a double.
+struct Sized {
+    Vertices vertices;      ///< of area 1
+    double length_of_unit;  ///< in the unit of the mesh
+};
+
+Sized of_area_one(const Vertices& vertices, const Triangles& triangles)
 {
     const Eigen::RowVector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
     const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
     const double extent = (0.5 * high - 0.5 * low).maxCoeff();
     if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
-    Vertices scaled = (vertices.rowwise() - middle) / extent;
+    const Vertices scaled = (vertices.rowwise() - middle) / extent;
     const double area = face_areas(scaled, triangles).sum();
     if (!(area > 0.0)) throw InputError("the surface has no area");
-    return scaled / std::sqrt(area);
+    return {scaled / std::sqrt(area), extent * std::sqrt(area)};
 }
 
 /// The mesh itself as one piece, if it can be mapped directly.
@@ -142,15 +147,8 @@ std::vector<char> chosen_slits(const SurfacePiece& piece, const std::vector<std:
 /// the input stands for all vertices of a place.
 class SeamPlaces {
 public:
-    SeamPlaces(const OpenedSurface& opened, const Vertices& vertices)
-        : place_(static_cast<std::size_t>(vertices.rows()))
+    SeamPlaces(const OpenedSurface& opened, const Vertices& vertices) : place_(first_in_place(vertices))
     {
-        std::vector<Index> order(place_.size());
-        std::iota(order.begin(), order.end(), 0);
-        const auto key = [&](Index v) { return std::array{vertices(v, 0), vertices(v, 1), vertices(v, 2)}; };
-        std::ranges::sort(order, {}, key);
-        for (std::size_t i = 0; i < order.size(); ++i)
-            place_[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place_[order[i - 1]] : order[i];
         Triangles places(0, 3);
         Eigen::Index count = 0;
         for (const SurfacePiece& piece : opened.pieces) count += piece.triangles.rows();
@@ -292,9 +290,9 @@ bool is_turn_of(const Triangles& a, const Triangles& b, Index f)
 }
 
 /// Puts left-out faces where the face lies that they double.
-void place_left_out(const OpenedSurface& opened, PartsLayout& layout)
+void place_left_out(const std::vector<LeftOutFace>& left_out, PartsLayout& layout)
 {
-    for (const LeftOutFace& face : opened.left_out) {
+    for (const LeftOutFace& face : left_out) {
         if (face.like < 0) continue;
         for (int k = 0; k < 3; ++k) {
             int corner = 0;
@@ -308,43 +306,65 @@ void place_left_out(const OpenedSurface& opened, PartsLayout& layout)
 
 }  // namespace
 
-PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
-                         ExecutionContext& context)
+std::vector<Index> first_in_place(const Vertices& vertices)
+{
+    std::vector<Index> order(static_cast<std::size_t>(vertices.rows())), place(order.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](Index v) { return std::array{vertices(v, 0), vertices(v, 1), vertices(v, 2)}; };
+    std::ranges::stable_sort(order, {}, key);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
+    return place;
+}
+
+double root_of_area(const Vertices& vertices, const Triangles& triangles)
+{
+    return of_area_one(vertices, triangles).length_of_unit;
+}
+
+FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+                   ExecutionContext& context)
 {
     context.begin_stage("topology", 0.0, 0.05);
     const OpenOptions opening{.polygon = options.polygon, .slit_beside_handles = false};
-    const OpenedSurface opened =
+    OpenedSurface opened =
         options.cut ? open_surface(vertices, triangles, opening, context) : strict_surface(vertices, triangles);
-    PartsLayout layout;
-    layout.vertices = of_area_one(vertices, triangles);
+    FlatMesh mesh;
+    PartsLayout& layout = mesh.layout;
+    layout.vertices = of_area_one(vertices, triangles).vertices;
     layout.triangles = triangles;
-    layout.uv = PlanarPoints::Zero(triangles.size(), 2);
-    layout.part.assign(static_cast<std::size_t>(triangles.rows()), -1);
     layout.handles_cut = opened.handles;
-    std::vector<FlatPart> flats;
     for (FlatPiece& piece : flat_pieces(opened, layout.vertices, options, context)) {
         layout.maps += piece.maps / static_cast<double>(triangles.rows());
         for (FlatPart& part : piece.parts) {
             layout.slit_length += part.slit;
-            flats.push_back(std::move(part));
+            mesh.parts.push_back(std::move(part));
         }
     }
     context.begin_stage("even", 0.8, 0.9);
     const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
     const EvenOptions evening{options.even, round ? LoopForm::round : LoopForm::free, options.darts, options.threads};
-    const EvenParts even = make_parts_even(flats, evening, context);
+    const EvenParts even = make_parts_even(mesh.parts, evening, context);
     layout.even = even.even;
     for (const std::size_t k : even.left)
-        layout.not_even.insert(layout.not_even.end(), flats[k].faces.begin(), flats[k].faces.end());
+        layout.not_even.insert(layout.not_even.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
     std::ranges::sort(layout.not_even);
-    for (const FlatPart& flat : flats) {
+    for (const FlatPart& flat : mesh.parts) {
         layout.darts += static_cast<Index>(flat.tips.size());
         layout.dart_length += flat.dart_length;
     }
-    context.begin_stage("pack", 0.9, 1.0);
-    const std::vector<PlanarPoints> placed = pack_parts(flats, options.threads, context);
-    for (std::size_t k = 0; k < flats.size(); ++k) {
-        FlatPart& flat = flats[k];
+    mesh.left_out = std::move(opened.left_out);
+    return mesh;
+}
+
+PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places)
+{
+    PartsLayout layout = std::move(mesh.layout);
+    const Triangles triangles = layout.triangles;
+    layout.uv = PlanarPoints::Zero(triangles.size(), 2);
+    layout.part.assign(static_cast<std::size_t>(triangles.rows()), -1);
+    for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
+        FlatPart& flat = mesh.parts[k];
         layout.overlaps += !flat.one_to_one;
         for (std::size_t i = 0; i < flat.faces.size(); ++i) {
             const Index f = flat.faces[i];
@@ -353,17 +373,56 @@ PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, c
             if (!flat.one_to_one) layout.crossing.push_back(f);
             for (int c = 0; c < 3; ++c) {
                 layout.triangles(f, c) = flat.original[row[c]];
-                layout.uv.row(3 * static_cast<Eigen::Index>(f) + c) = placed[k].row(row[c]);
+                layout.uv.row(3 * static_cast<Eigen::Index>(f) + c) = places[k].row(row[c]);
             }
             if (!is_turn_of(layout.triangles, triangles, f)) layout.reoriented.push_back(f);
         }
         layout.parts.push_back(
-            {flat.kind, std::move(flat.faces), std::move(flat.loops), off_round(flat, placed[k]), 0.0});
+            {flat.kind, std::move(flat.faces), std::move(flat.loops), off_round(flat, places[k]), 0.0});
     }
     std::ranges::sort(layout.reoriented);
     std::ranges::sort(layout.crossing);
-    place_left_out(opened, layout);
+    place_left_out(mesh.left_out, layout);
     return layout;
+}
+
+PlanarPoints uv_of_input(const PartsLayout& layout, const Triangles& input)
+{
+    PlanarPoints uv(layout.uv.rows(), 2);
+    for (Eigen::Index f = 0; f < input.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            int mapped = k;  // a face may have been turned
+            for (int c = 2; c >= 0; --c)
+                if (layout.triangles(f, c) == input(f, k)) mapped = c;
+            uv.row(3 * f + k) = layout.uv.row(3 * f + mapped);
+        }
+    return uv;
+}
+
+ComputedDistortion distortion_of_parts(const PartsLayout& layout, const PlanarPoints& uv,
+                                       const std::vector<Index>& faces)
+{
+    const Eigen::Index count = static_cast<Eigen::Index>(faces.size());
+    Vertices vertices(3 * count, 3);
+    PlanarPoints points(3 * count, 2);
+    Triangles triangles(count, 3);
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Index c = 3 * i + k;
+            triangles(i, k) = static_cast<Index>(c);
+            vertices.row(c) = layout.vertices.row(layout.triangles(faces[i], k));
+            points.row(c) = 2.0 * uv.row(3 * static_cast<Eigen::Index>(faces[i]) + k).array() - 1.0;
+        }
+    return measure_distortion(vertices, triangles, points);
+}
+
+PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+                         ExecutionContext& context)
+{
+    FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
+    context.begin_stage("pack", 0.9, 1.0);
+    const std::vector<PlanarPoints> places = pack_parts(mesh.parts, options.threads, context);
+    return layout_at(std::move(mesh), places);
 }
 
 }  // namespace koebe

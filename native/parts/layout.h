@@ -1,7 +1,9 @@
-// The parts of a mesh, flat and packed into the unit square.
+// The parts of a mesh, flat, and packed into the unit square.
 #pragma once
 
+#include "cut/open_surface.h"
 #include "execution/execution.h"
+#include "parts/flat_part.h"
 #include "parts/parts.h"
 
 #include <vector>
@@ -12,7 +14,7 @@ namespace koebe {
 struct PartsLayout {
     Vertices vertices;        ///< the input's vertices, scaled so that all areas sum to 1
     Triangles triangles;      ///< (F, 3) faces of the input, turned to one orientation in each piece
-    PlanarPoints uv;          ///< (3F, 2) in [0, 1]^2
+    PlanarPoints uv;          ///< (3F, 2) in [0, 1]^2, or where the parts were laid
     std::vector<Index> part;  ///< (F); -1: a face in no part: it is degenerate, or doubles another face
     std::vector<PartReport> parts;
     std::vector<Index> reoriented;  ///< faces that were turned
@@ -26,7 +28,34 @@ struct PartsLayout {
     double maps = 0.0;            ///< number of faces mapped, over the faces of the mesh
 };
 
+/// The parts as they lie by themselves, in the unit of the layout's vertices.
+struct FlatMesh {
+    PartsLayout layout;  ///< what is known before the parts have their places
+    std::vector<FlatPart> parts;
+    std::vector<LeftOutFace> left_out;
+};
+
 /// @throws as parts_of
+FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+                   ExecutionContext& context);
+
+/// @param places (V, 2) of each part's vertices, the UVs of the layout
+PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places);
+
+/// (3F, 2) of the input's corners, in their order.
+PlanarPoints uv_of_input(const PartsLayout& layout, const Triangles& input);
+
+/// Of some faces, each corner a vertex of its own. @param uv (3F, 2) in [0, 1]^2
+ComputedDistortion distortion_of_parts(const PartsLayout& layout, const PlanarPoints& uv,
+                                       const std::vector<Index>& faces);
+
+/// (V) for each vertex the first of those with the same coordinates.
+std::vector<Index> first_in_place(const Vertices& vertices);
+
+/// The length of a layout's unit in the unit of the mesh.
+double root_of_area(const Vertices& vertices, const Triangles& triangles);
+
+/// Packed. @throws as parts_of
 PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                          ExecutionContext& context);
 

@@ -34,6 +34,7 @@ constexpr int most_attempts = 400;
 constexpr std::int64_t tests_a_point = 1200;  // tests on the board, after which no further attempt is made
 constexpr std::int64_t fewest_tests = 1'000'000, most_tests = 40'000'000;
 constexpr std::int64_t tests_an_attempt = 4000;  // to empty the board
+constexpr std::size_t most_open = 16;            // sheets on which room is looked for
 constexpr double similar = 0.8;                  // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
@@ -163,6 +164,16 @@ Turns drawn(const Island& island, double scale, std::int64_t reach)
     return turns;
 }
 
+/// @param unit grid units of the square's side @param scale of the island, in sides of the square
+IslandPlace place_at(const Island& island, const Turns& turns, const Spot& spot, double unit, double scale)
+{
+    const GridPoint& origin = turns[spot.turn].shape.origin;
+    const Complex corner(island.corner[0], island.corner[1]);
+    const Complex cells(static_cast<double>(spot.x * grid_cell - origin[0]),
+                        static_cast<double>(spot.y * grid_cell - origin[1]));
+    return {quarters[spot.turn] * island.turn, cells / unit - scale * (quarters[spot.turn] * corner)};
+}
+
 int side_for(std::size_t count)
 {
     int side = least_side;
@@ -287,14 +298,8 @@ private:
             from = is_many_ ? spots[k].y : std::max(0, spots[k].y - drawn_[k][0].shape.height / 2);
         }
         places_.clear();
-        for (std::size_t k = 0; k < islands_.size(); ++k) {
-            const auto& [turn, x, y] = spots[k];
-            const GridPoint& origin = drawn_[k][turn].shape.origin;
-            const Complex corner(islands_[k].corner[0], islands_[k].corner[1]);
-            const Complex cells(static_cast<double>(x * grid_cell - origin[0]),
-                                static_cast<double>(y * grid_cell - origin[1]));
-            places_.push_back({quarters[turn] * islands_[k].turn, cells / unit_ - scale * (quarters[turn] * corner)});
-        }
+        for (std::size_t k = 0; k < islands_.size(); ++k)
+            places_.push_back(place_at(islands_[k], drawn_[k], spots[k], unit_, scale));
         best_scale_ = scale;
         return true;
     }
@@ -344,6 +349,102 @@ private:
     std::uint64_t random_ = 1;
 };
 
+/// A board for each sheet, of which the cells beyond the sheet are taken.
+class SheetPacker {
+public:
+    SheetPacker(const std::vector<Outline>& outlines, double margin, const SheetSize& sheet)
+        : side_(side_for(outlines.size())),
+          unit_(static_cast<double>(side_) * grid_cell / std::max(sheet.width, sheet.height)),
+          columns_(cells_of(sheet.width)),
+          rows_(cells_of(sheet.height))
+    {
+        const auto reach = static_cast<std::int64_t>(std::ceil(0.5 * margin * unit_)) + 1;
+        for (const Outline& outline : outlines) {
+            islands_.push_back(upright(outline));
+            const bool is_larger = islands_.back().extent + margin > 1.01 * std::max(sheet.width, sheet.height);
+            drawn_.push_back(is_larger ? Turns{} : drawn(islands_.back(), unit_, reach));
+        }
+    }
+
+    SheetPacking pack(double margin)
+    {
+        std::vector<std::size_t> order(islands_.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return islands_[k].area; });
+        SheetPacking packing{std::vector<IslandPlace>(islands_.size()), std::vector<int>(islands_.size(), -1), 0};
+        for (const std::size_t k : order) {
+            const Complex corner(islands_[k].corner[0], islands_[k].corner[1]);
+            packing.places[k] = {islands_[k].turn, 0.5 * margin * Complex(1.0, 1.0) - corner};
+            Spot spot;
+            if (!has_room_on_empty(drawn_[k])) continue;
+            std::size_t open = 0;
+            while (open < boards_.size() && !find(boards_[open], drawn_[k], spot)) ++open;
+            if (open == boards_.size()) {
+                if (open == most_open) boards_.erase(boards_.begin());
+                boards_.push_back(empty());
+                open = boards_.size() - 1;
+                ++packing.sheets;
+                if (!find(boards_[open], drawn_[k], spot)) throw SolverError("an island has no room on its sheet");
+            }
+            boards_[open].take(drawn_[k][spot.turn].shape, spot.x, spot.y);
+            packing.sheet[k] = packing.sheets - static_cast<int>(boards_.size() - open);
+            const double length = static_cast<double>(grid_cell) * side_ / unit_;
+            packing.places[k] = place_at(islands_[k], drawn_[k], spot, unit_ * length, 1.0 / length);
+            packing.places[k].offset *= length;
+        }
+        return packing;
+    }
+
+private:
+    int cells_of(double length) const
+    {
+        return static_cast<int>(std::floor(length * unit_ / static_cast<double>(grid_cell) * (1.0 + 1e-12)));
+    }
+
+    CellBoard empty() const
+    {
+        CellBoard board(side_);
+        CellShape beyond;
+        for (int row = 0; row < side_; ++row)
+            if (const int from = row < rows_ ? columns_ : 0; from < side_) beyond.runs.push_back({row, from, side_});
+        board.take(beyond, 0, 0);
+        return board;
+    }
+
+    bool has_room_on_empty(const Turns& turns) const
+    {
+        return std::ranges::any_of(turns, [&](const Drawn& turn) {
+            return !turn.shape.runs.empty() && turn.shape.width <= columns_ && turn.shape.height <= rows_;
+        });
+    }
+
+    /// The lowest place, then the leftmost.
+    bool find(const CellBoard& board, const Turns& turns, Spot& spot) const
+    {
+        std::array<int, 2> best = {INT_MAX, INT_MAX};
+        for (int t = 0; t < 4; ++t) {
+            const CellShape& shape = turns[t].shape;
+            for (int y = 0; y + shape.height <= rows_ && y + shape.height <= best[0]; ++y) {
+                const int x = board.first_room(shape, turns[t].order, y);
+                if (x < 0) continue;
+                if (const std::array score = {y + shape.height, x + shape.width}; score < best) {
+                    best = score;
+                    spot = {t, x, y};
+                }
+                break;
+            }
+        }
+        return best[0] < INT_MAX;
+    }
+
+    const int side_;
+    const double unit_;  // grid units in a unit of the points
+    const int columns_, rows_;
+    std::vector<Island> islands_;
+    std::vector<Turns> drawn_;
+    std::vector<CellBoard> boards_;  // of the last sheets
+};
+
 }  // namespace
 
 Packing pack_islands(const std::vector<Outline>& outlines, double margin)
@@ -352,6 +453,13 @@ Packing pack_islands(const std::vector<Outline>& outlines, double margin)
     for (const Outline& outline : outlines)
         if (!outline.points.allFinite()) throw SolverError("an island to pack has a point that is NaN or infinite");
     return Packer(outlines, margin).pack();
+}
+
+SheetPacking pack_on_sheets(const std::vector<Outline>& outlines, double margin, const SheetSize& sheet)
+{
+    for (const Outline& outline : outlines)
+        if (!outline.points.allFinite()) throw SolverError("an island to pack is not finite");
+    return SheetPacker(outlines, margin, sheet).pack(margin);
 }
 
 PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale)

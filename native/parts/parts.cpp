@@ -23,23 +23,6 @@ namespace {
 
 constexpr const char* lower_price = "A lower price makes more parts, and more even ones";
 
-/// Some faces, with a vertex for each corner.
-ComputedDistortion distortion_of(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces)
-{
-    const Eigen::Index count = static_cast<Eigen::Index>(faces.size());
-    Vertices vertices(3 * count, 3);
-    PlanarPoints points(3 * count, 2);
-    Triangles triangles(count, 3);
-    for (Eigen::Index i = 0; i < count; ++i)
-        for (int k = 0; k < 3; ++k) {
-            const Eigen::Index c = 3 * i + k;
-            triangles(i, k) = static_cast<Index>(c);
-            vertices.row(c) = layout.vertices.row(layout.triangles(faces[i], k));
-            points.row(c) = 2.0 * uv.row(3 * static_cast<Eigen::Index>(faces[i]) + k).array() - 1.0;
-        }
-    return measure_distortion(vertices, triangles, points);
-}
-
 double uv_area(const PlanarPoints& uv, Eigen::Index f)
 {
     const Eigen::RowVector2d a = uv.row(3 * f + 1) - uv.row(3 * f), b = uv.row(3 * f + 2) - uv.row(3 * f);
@@ -128,14 +111,6 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     return warnings;
 }
 
-/// The corner of the mapped face for a corner of the input's, which may have been turned.
-int mapped_corner(const PartsLayout& layout, const Triangles& input, Eigen::Index f, int k)
-{
-    for (int c = 0; c < 3; ++c)
-        if (layout.triangles(f, c) == input(f, k)) return c;
-    return k;
-}
-
 PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                     ExecutionContext& context)
 {
@@ -154,16 +129,13 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     std::vector<Index> mapped, left_out;
     for (std::size_t f = 0; f < layout.part.size(); ++f)
         (layout.part[f] >= 0 ? mapped : left_out).push_back(static_cast<Index>(f));
-    result.uv.resize(uv.rows(), 2);
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k)
-            result.uv.row(3 * f + k) = layout.uv.row(3 * f + mapped_corner(layout, triangles, f, k));
-    result.distortion = {distortion_of(layout, uv, mapped),
+    result.uv = uv_of_input(layout, triangles);
+    result.distortion = {distortion_of_parts(layout, uv, mapped),
                          judge_corners(vertices, triangles, result.uv, layout.reoriented, left_out)};
     result.turned = layout.reoriented;
     result.parts = std::move(layout.parts);
     for (PartReport& part : result.parts)
-        part.angle_error_deg = distortion_of(layout, uv, part.faces).angle_error_deg.mean;
+        part.angle_error_deg = distortion_of_parts(layout, uv, part.faces).angle_error_deg.mean;
     report_density(layout, uv, mapped, result);
     for (const Index f : mapped) result.coverage += uv_area(uv, f);
     result.cut_length = seam_length(layout, mapped);

@@ -5,8 +5,13 @@
 #include "option_binding.h"
 #include "report_object.h"
 
+#include "flatten/flatten.h"
+#include "flatten/page.h"
 #include "parts/parts.h"
+#include "report/flatten_json.h"
 #include "report/parts_json.h"
+#include "report/pattern_dxf.h"
+#include "report/pattern_svg.h"
 #include "report/schottky_json.h"
 #include "report/sphere_json.h"
 #include "report/tile_json.h"
@@ -55,6 +60,20 @@ void bind_domains(py::module_& m)
         .def("report", &report_of<PartsResult>);
     bind_options<PartsOptions>(m, "PartsOptions");
     bind_map<PartsOptions, PartsResult>(m, "parts", parts_of);
+
+    py::enum_<LengthUnit>(m, "LengthUnit")
+        .value("mm", LengthUnit::mm)
+        .value("cm", LengthUnit::cm)
+        .value("m", LengthUnit::m)
+        .value("in", LengthUnit::in);
+    bind_options<FlattenOptions>(m, "FlattenOptions");
+    bind_result<FlattenResult>(m, "FlattenResult")
+        .def_property_readonly("part", [](const FlattenResult& r) { return array_of(r.part); })
+        .def("svg", [](const FlattenResult& r) { return pattern_svg(r.pattern); })
+        .def("dxf", [](const FlattenResult& r) { return pattern_dxf(r.pattern); })
+        .def("report", &report_of<FlattenResult>);
+    bind_map<FlattenOptions, FlattenResult>(m, "flatten", flatten);
+    m.def("page_problem", [](const std::string& name) { return page_named(name) ? std::string() : page_help(name); });
 
     py::enum_<RingHoles>(m, "RingHoles")
         .value("circles", RingHoles::circles)

@@ -35,6 +35,8 @@ struct MapKind {
     std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
     /// Writes the mesh of --sphere, if requested; returns such warnings.
     std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_sphere;
+    /// Writes more files than the request names, if there are any.
+    std::function<void(std::vector<AtomicFile>&, const Result&)> write_more;
     std::function<std::string(const MeshInput&, const Result&)> draw;
     std::function<nlohmann::ordered_json(const Result&)> report;
     std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
@@ -68,6 +70,7 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
     add_losses("", kind.write_mesh(files.emplace_back(request.output), input, result), result.warnings);
     if (!request.sphere.empty())
         add_losses("--sphere: ", kind.write_sphere(files.emplace_back(request.sphere), input, result), result.warnings);
+    if (kind.write_more) kind.write_more(files, result);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(kind.draw(input, result));
     result.seconds.write = since(begin_write);
     result.seconds.total = since(begin);

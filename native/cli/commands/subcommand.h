@@ -22,6 +22,7 @@ struct Subcommand {
     X(transfer)                                                                                                        \
     X(ricci)                                                                                                           \
     X(parts)                                                                                                           \
+    X(flatten)                                                                                                         \
     X(torus)                                                                                                           \
     X(ring)                                                                                                            \
     X(sphere)                                                                                                          \

@@ -15,7 +15,7 @@ void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& s
 void add_report_options(CLI::App& app, MapRequest& request, const std::string& picture)
 {
     app.add_option("--json", request.json, "write the report there")->type_name("FILE");
-    app.add_option("--svg", request.svg, picture)->type_name("FILE");
+    if (!picture.empty()) app.add_option("--svg", request.svg, picture)->type_name("FILE");
     app.add_flag("--quiet", request.quiet, "no progress and no result line");
 }
 

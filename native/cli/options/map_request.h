@@ -25,7 +25,7 @@ struct MapRequest {
 /// Adds IN and OUT. @param surface description of IN @param coordinates description of OUT's
 void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface = "surface with holes",
                         const std::string& coordinates = "texture coordinates in [0, 1]^2");
-/// Adds --json, --svg, --quiet. @param picture description of --svg
+/// Adds --json, --svg, --quiet. @param picture description of --svg; empty: there is none
 void add_report_options(CLI::App& app, MapRequest& request,
                         const std::string& picture = "write a picture of the circle domain there");
 /// The files of a request, with their names in the usage.

@@ -1,6 +1,7 @@
 #include "cli/options/option_table.h"
 
 #include "cli/options/validators.h"
+#include "flatten/page.h"
 
 #include <algorithm>
 #include <charconv>
@@ -103,6 +104,13 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value)
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, bool& value)
 {
     return finished(app.add_flag(row.flag(), value, std::string(row.does)), row);
+}
+
+CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::string& value)
+{
+    CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));
+    const auto check = [](const std::string& name) { return page_named(name) ? std::string() : page_help(name); };
+    return finished(option->check(CLI::Validator(check, "", "page"))->capture_default_str(), row);
 }
 
 CLI::Option* add_choice(CLI::App& app, const OptionRow& row, int chosen, const std::function<void(int)>& set)

@@ -38,6 +38,8 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double>& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, bool& value);
+/// Adds the name of a page (flatten/page.h).
+CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::string& value);
 /// Adds a choice among words; set() gets the number of the chosen word.
 CLI::Option* add_choice(CLI::App& app, const OptionRow& row, int chosen, const std::function<void(int)>& set);
 CLI::Option* add_outer_loop(CLI::App& app, const OptionRow& row, UniformizeOptions& options);
@@ -58,7 +60,8 @@ void add_options(CLI::App& app, std::string_view map, Options& options)
             add_choice(app, *row, static_cast<int>(field), [&field](int k) { field = static_cast<Field>(k); });
         else if constexpr (std::is_same_v<Field, Sweep>)
             add_steps(app, *row, field);
-        else if constexpr (std::is_arithmetic_v<Field> || std::is_same_v<Field, std::optional<double>>)
+        else if constexpr (std::is_arithmetic_v<Field> || std::is_same_v<Field, std::optional<double>> ||
+                           std::is_same_v<Field, std::string>)
             add_value(app, *row, field);
     });
 }
@@ -88,9 +91,10 @@ nlohmann::ordered_json option_report(std::string_view map, const Options& option
             report[name] = words_of(field);
         } else if constexpr (std::is_same_v<Field, std::optional<double>>) {
             report[name] = field ? nlohmann::ordered_json(*field) : nullptr;
-        } else if constexpr (std::is_arithmetic_v<Field>) {
+        } else if constexpr (std::is_arithmetic_v<Field> || std::is_same_v<Field, std::string>) {
             report[name] = field;
-            if (row->kind == "vertex" && field == Field(-1)) report[name] = nullptr;
+            if constexpr (std::is_arithmetic_v<Field>)
+                if (row->kind == "vertex" && field == Field(-1)) report[name] = nullptr;
         }
     });
     return report;

@@ -17,6 +17,7 @@ from ._batch import batch
 from ._cut_result import CutResult
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
+from ._flatten import FlattenResult, flatten
 from ._koebe import CancelToken, __version__
 from ._layout import fit_circle, mirror_image, pack_disks
 from ._load import load
@@ -49,6 +50,7 @@ __all__ = [
     "CutResult",
     "DomainAlignment",
     "Family",
+    "FlattenResult",
     "InputError",
     "KoebeError",
     "LeftOutFace",
@@ -81,6 +83,7 @@ __all__ = [
     "family",
     "fill_holes",
     "fit_circle",
+    "flatten",
     "harmonic_map",
     "load",
     "match_loops",

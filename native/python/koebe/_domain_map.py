@@ -77,17 +77,19 @@ def domain_map(
     options: Any,
     given: Mapping[str, Any],
     surface: tuple[Any, Any],
+    degenerate: bool = False,
 ) -> Made:
     """The result of a native function.
 
     of       the map's name in the table of options
     options  native ones, which are set here
     given    all keywords of the caller
+    degenerate   faces may name a vertex twice
     Raises OptionError and InputError, and the function's errors.
     """
     options, said = filled(of, options, given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(*surface)
+    source = surface_of(*surface, degenerate=degenerate)
     options.polygon = polygons_of(given["polygon"], source)
     native = function(source.vertices, source.triangles, options, progress, cancel)
     return made({**native.report(), "options": said}, native, source)

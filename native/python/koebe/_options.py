@@ -88,6 +88,8 @@ def _checked(row: Row, value: Any) -> Any:
         return flag(value, row.name)
     if row.kind == "choice":
         return choice_of(value, row.name, {word: word for word in row.words})
+    if row.kind == "page":
+        return page(value, row.name)
     if row.kind == "steps":
         return sweep(value, row.name)
     if row.kind == "vertex":
@@ -137,6 +139,14 @@ def flag(value: Any, option: str) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{option} must be True or False, not {value!r}")
     return bool(value)
+
+
+def page(value: Any, option: str) -> str:
+    """The name of a page."""
+    _require(value, option, str, "a text")
+    if problem := _koebe.page_problem(value):
+        raise OptionError(f"{option} {problem}")
+    return str(value)
 
 
 def whole(value: Any, option: str, least: int, most: int = _MOST) -> int:

@@ -98,3 +98,14 @@ class PartsOptions(MapOptions, RunOptions, total=False):
     round_cuts: bool
     polygon: Any
     slits: Any
+
+
+class FlattenOptions(RunOptions, total=False):
+    """Options of `flatten`."""
+
+    units: str
+    page: str
+    allowance: float
+    price: float | None
+    darts: float
+    polygon: Any

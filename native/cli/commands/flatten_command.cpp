@@ -1,0 +1,106 @@
+// koebe flatten IN OUT.svg|OUT.dxf
+#include "cli/commands/corner_map.h"
+
+#include "core/counted.h"
+#include "flatten/flatten.h"
+#include "io/extension.h"
+#include "io/file_error.h"
+#include "io/file_identity.h"
+#include "report/flatten_json.h"
+#include "report/pattern_dxf.h"
+#include "report/pattern_svg.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace koebe::cli {
+namespace {
+
+using FlattenRequest = CornerMapRequest<FlattenOptions>;
+
+bool is_dxf(const std::string& out) { return io::lower_extension(out) == ".dxf"; }
+
+void check_pattern_files(const FlattenRequest& request)
+{
+    if (!is_dxf(request.output) && io::lower_extension(request.output) != ".svg")
+        throw CLI::ValidationError("OUT", "patterns are written as SVG and DXF: OUT ends in .svg or .dxf");
+    require_different_files(map_files(request), {request.input}, !request.quiet);
+}
+
+/// OUT-2.svg of OUT.svg for the second page.
+std::filesystem::path page_file(const std::string& out, std::size_t page)
+{
+    std::filesystem::path path(out);
+    const std::string name = path.stem().string() + "-" + std::to_string(page) + path.extension().string();
+    return path.replace_filename(name);
+}
+
+void write_further_pages(const FlattenRequest& request, std::vector<AtomicFile>& files, const FlattenResult& result)
+{
+    const std::vector<std::string> pages = pattern_svg(result.pattern);
+    for (std::size_t k = 1; k < pages.size(); ++k) {
+        const std::filesystem::path path = page_file(request.output, k + 1);
+        if (io::same_file(path, request.input) || (!request.json.empty() && io::same_file(path, request.json)))
+            throw FileError("page " + std::to_string(k + 1) + " would replace '" + path.string() + "'");
+        require_writable(path);
+        files.emplace_back(path).write(pages[k]);
+    }
+}
+
+std::string first_words(const FlattenResult& result)
+{
+    const Page& page = result.pattern.page;
+    return counted(result.pieces.size(), "piece") + " on " +
+           counted(static_cast<std::size_t>(result.pattern.pages()), page.any() ? "page" : "sheet") + ", cuts " +
+           rounded("%.0f", result.cut_length) + " mm, stretch " + rounded("%.2g", result.stretch.mean) +
+           " % in the mean and " + rounded("%.2g", result.stretch.max) + " % at most";
+}
+
+int run_flatten(const FlattenRequest& request)
+{
+    auto kind = corner_map_kind<FlattenResult, FlattenOptions>(request, request.chosen, flatten);
+    kind.many_pieces = true;
+    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
+        FlattenResult result = compute(input, context);
+        for (PatternPiece& piece : result.pieces) piece.faces = filed_faces(input.triangulation, piece.faces);
+        return result;
+    };
+    kind.write_mesh = [&](AtomicFile& file, const MeshInput&, const FlattenResult& result) {
+        file.write(is_dxf(request.output) ? pattern_dxf(result.pattern) : pattern_svg(result.pattern).front());
+        return std::vector<Warning>();
+    };
+    if (!is_dxf(request.output))
+        kind.write_more = [&](std::vector<AtomicFile>& files, const FlattenResult& result) {
+            write_further_pages(request, files, result);
+        };
+    kind.first_words = first_words;
+    return run_map_of(request, kind);
+}
+
+}  // namespace
+
+Subcommand add_flatten(CLI::App& app)
+{
+    auto request = std::make_shared<FlattenRequest>();
+    CLI::App* options = app.add_subcommand("flatten", "cut any surface into a flat pattern in real size");
+    options->add_option("IN", request->input, "any mesh: OBJ, OFF, PLY or STL")->required();
+    options
+        ->add_option("OUT", request->output,
+                     "SVG or DXF to write. SVG: a file for each page, OUT.svg, OUT-2.svg and so on")
+        ->required();
+    add_options(*options, "flatten", request->chosen);
+    add_report_options(*options, *request, "");
+    options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
+    options->callback([request] {
+        check_pattern_files(*request);
+        request->entries["options"] = option_report("flatten", request->chosen);
+    });
+    return {options, [request] {
+                if (request->ends_with_input) end_with_input();
+                return run_flatten(*request);
+            }};
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,44 @@
+// How much a flat piece is stretched.
+#pragma once
+
+#include "core/types.h"
+#include "parts/flat_part.h"
+#include "quality/angle_error.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace koebe {
+
+/// By how much lengths in a face differ from those on the surface, in per cent, in the direction where they differ
+/// most.
+struct Stretch {
+    double mean = 0.0;  ///< over the area
+    double max = 0.0;   ///< of all faces that are thick enough to have angles
+};
+
+class StretchSum {
+public:
+    void add(double area, double stretch)
+    {
+        area_ += area;
+        sum_ += area * stretch;
+        most_ = std::max(most_, stretch);
+    }
+    Stretch result() const { return {area_ > 0.0 ? 100.0 * sum_ / area_ : 0.0, 100.0 * most_}; }
+
+private:
+    double area_ = 0.0, sum_ = 0.0, most_ = 0.0;
+};
+
+/// @param face three vertices
+FlatTriangle laid_flat(const Vertices& vertices, const Eigen::RowVector3i& face);
+
+/// How much the lengths of a face differ from those on the surface at most. @param corners three rows, in the same unit
+double stretch_of(const FlatTriangle& flat, const Eigen::Matrix<double, 3, 2>& corners);
+
+/// Of all faces over their area, 0.01 for a per cent.
+double mean_stretch(const FlatPart& part);
+double mean_stretch(const std::vector<FlatPart>& parts);
+
+}  // namespace koebe

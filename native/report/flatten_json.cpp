@@ -1,0 +1,43 @@
+#include "report/flatten_json.h"
+
+#include "report/json.h"
+
+namespace koebe {
+namespace {
+
+nlohmann::ordered_json stretch_json(const Stretch& stretch) { return {{"mean", stretch.mean}, {"max", stretch.max}}; }
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const FlattenResult& result)
+{
+    using Json = nlohmann::ordered_json;
+    Json pieces = Json::array(), seams = Json::array(), sheets = Json::array();
+    for (const PatternPiece& piece : result.pieces)
+        pieces.push_back({{"kind", to_string(piece.kind)},
+                          {"faces", piece.faces},
+                          {"size_mm", {piece.width, piece.height}},
+                          {"outline_mm", piece.outline},
+                          {"darts", piece.darts},
+                          {"sheet", piece.sheet},
+                          {"stretch_percent", stretch_json(piece.stretch)}});
+    for (const PatternSeam& seam : result.seams)
+        seams.push_back({{"pieces", seam.pieces},
+                         {"length_mm", seam.length},
+                         {"lengths_mm", seam.lengths},
+                         {"closed", seam.closed}});
+    for (const PatternSheet& sheet : result.pattern.sheets)
+        sheets.push_back({{"size_mm", {sheet.width, sheet.height}}, {"columns", sheet.columns}, {"rows", sheet.rows}});
+    Json report = report_json(result, {{"pieces", std::move(pieces)},
+                                       {"seams", std::move(seams)},
+                                       {"stretch_percent", stretch_json(result.stretch)},
+                                       {"cut_length_mm", result.cut_length},
+                                       {"darts", result.darts},
+                                       {"pages", result.pattern.pages()},
+                                       {"page_mm", {result.pattern.page.width, result.pattern.page.height}},
+                                       {"sheets", std::move(sheets)}});
+    report["seconds"] = result.seconds.total;
+    return report;
+}
+
+}  // namespace koebe
