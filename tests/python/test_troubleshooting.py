@@ -20,6 +20,7 @@ NOT_FROM_BLENDER = (
     "polygons cross", "a polygon", "there is no boundary loop", "dense ", "sparse factorization",
     "the order must name", "center and balance exclude", "a circle domain has one circle", "the first circle must be",
     "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "partners change",
+    "the conventional method",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
     "landmark", "the price must be positive", "an importance", "importance is of the balance", "disks to pack need",
 )  # fmt: skip
