@@ -19,7 +19,8 @@ NOT_FROM_BLENDER = (
     "must be shrunk at least once", "is no inner vertex", "no path joins", "points of a polygon coincide",
     "polygons cross", "a polygon", "there is no boundary loop", "dense ", "sparse factorization",
     "the order must name", "center and balance exclude", "a circle domain has one circle", "the first circle must be",
-    "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "changing partners",
+     "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "changing partners",
+     "the conventional method",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
     "landmark", "the price must be positive", "an importance", "importance needs", "disks to pack need",
 )  # fmt: skip
