@@ -153,4 +153,4 @@ def write(page, groups):
     text += [table(model, rows) for rows_of in groups.values() for model, rows in rows_of.items()]
     before, rest = page.read_text(encoding="utf-8").split(BEGIN)
     page.write_text(f"{before}{BEGIN}\n\n" + "\n".join(text) + f"\n{END}{rest.split(END)[1]}", encoding="utf-8")
-    print("\n".join(text[:-sum(map(len, groups.values()))]))
+    print("\n".join(text[: -sum(map(len, groups.values()))]))
