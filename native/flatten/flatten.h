@@ -7,7 +7,6 @@
 #include "execution/execution.h"
 #include "flatten/page.h"
 #include "flatten/pattern.h"
-#include "flatten/stretch.h"
 #include "quality/report.h"
 
 #include <optional>
@@ -37,6 +36,13 @@ struct FlattenOptions {
         visit("darts", &FlattenOptions::darts);
         visit("polygon", &FlattenOptions::polygon);
     }
+};
+
+/// By how much lengths in a face differ from those on the surface, in per cent, in the direction where they differ
+/// most.
+struct Stretch {
+    double mean = 0.0;  ///< over the area
+    double max = 0.0;   ///< of all faces that are thick enough to have angles
 };
 
 struct PatternPiece {

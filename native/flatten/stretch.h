@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/types.h"
+#include "flatten/flatten.h"
 #include "parts/flat_part.h"
 #include "quality/angle_error.h"
 
@@ -9,13 +10,6 @@
 #include <vector>
 
 namespace koebe {
-
-/// By how much lengths in a face differ from those on the surface, in per cent, in the direction where they differ
-/// most.
-struct Stretch {
-    double mean = 0.0;  ///< over the area
-    double max = 0.0;   ///< of all faces that are thick enough to have angles
-};
 
 class StretchSum {
 public:
