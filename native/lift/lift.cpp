@@ -131,8 +131,10 @@ void finish_solid(const Sheet& sheet, const VectorXd& heights, double thickness,
     result.triangles = std::move(solid.triangles);
     result.patch = std::move(solid.patch);
     result.original.assign(result.vertices.rows(), -1);
-    const Surface closed = analyze_surface(result.triangles, static_cast<Index>(result.vertices.rows()));
-    if (!closed.loops.empty() || !closed.reoriented.empty()) throw SolverError("the solid is not closed");
+    const std::vector<Index> twin = pair_halfedges(result.triangles, static_cast<Index>(result.vertices.rows()));
+    for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
+        if (twin[h] == no_twin || origin(result.triangles, h) != target(result.triangles, twin[h]))
+            throw SolverError("the solid is not closed", ElementKind::faces, {face_of(h)});
 }
 
 LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const std::string& name,

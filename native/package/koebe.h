@@ -13,6 +13,8 @@
 #include "execution/execution.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "lift/lift.h"
+#include "lift/patterns.h"
 #include "mesh/topology.h"
 #include "opened/cut_uniformize.h"
 #include "parts/parts.h"

@@ -61,11 +61,9 @@ Triangles divided_polygon(const std::vector<Complex>& polygon, const std::vector
     if (handles.size() != polygon.size() + interior.size()) return {};
     const Index n = static_cast<Index>(polygon.size());
     std::set<Edge> sides;
-    std::vector<std::array<Index, 2>> all = segments;
-    for (Index i = 0; i < n; ++i) {
-        all.push_back({i, (i + 1) % n});
-        sides.insert(edge_of(i, (i + 1) % n));
-    }
+    for (Index i = 0; i < n; ++i) sides.insert(edge_of(i, (i + 1) % n));
+    std::set<Edge> all = sides;  // each once: CGAL refuses a constraint that it has
+    for (const auto& [a, b] : segments) all.insert(edge_of(a, b));
     try {
         for (const auto& [a, b] : all) cdt.insert_constraint(handles[a], handles[b]);
     } catch (const Cdt::Intersection_of_constraints_exception&) {

@@ -19,6 +19,7 @@ from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
 from ._layout import fit_circle, mirror_image, pack_disks
+from ._lift import LiftResult, lift
 from ._load import load
 from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
 from ._parts import PartsResult, parts
@@ -52,6 +53,7 @@ __all__ = [
     "InputError",
     "KoebeError",
     "LeftOutFace",
+    "LiftResult",
     "MapReport",
     "OpenedSurface",
     "OptionError",
@@ -82,6 +84,7 @@ __all__ = [
     "fill_holes",
     "fit_circle",
     "harmonic_map",
+    "lift",
     "load",
     "match_loops",
     "mirror_image",

@@ -98,3 +98,17 @@ class PartsOptions(MapOptions, RunOptions, total=False):
     round_cuts: bool
     polygon: Any
     slits: Any
+
+
+class LiftOptions(RunOptions, total=False):
+    """Options of `lift`."""
+
+    shape: str
+    even: float | None
+    size: float | None
+    bridge: float | None
+    repeats: int
+    seed: int
+    perforate: bool
+    height: float | None
+    thickness: float | None
