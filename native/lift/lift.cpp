@@ -6,7 +6,7 @@
 #include "execution/stopwatch.h"
 #include "lift/flat_domain.h"
 #include "lift/patterns.h"
-#include "lift/relief.h"
+#include "lift/raised.h"
 #include "lift/solid.h"
 
 #include <algorithm>
@@ -17,7 +17,6 @@ namespace koebe {
 namespace {
 
 constexpr double cells_across = 12.0;  // of the root of the area, if no size is given
-constexpr double ramp_share = 0.25;    // of the way to an outline's middle
 
 struct Sheet {
     Vertices vertices, normals;
@@ -99,34 +98,50 @@ PatternOptions pattern_options(const FlatSheet& sheet, const LiftOptions& option
     return chosen;
 }
 
-void finish_sheet(Sheet sheet, const VectorXd& heights, LiftResult& result)
+/// The sheet with its outlines at a height, or as it is.
+RaisedSheet raised_sheet(const Sheet& sheet, const std::optional<double>& height)
 {
-    if (heights.size() > 0) {
-        const Vertices raised = sheet.vertices + (sheet.normals.array().colwise() * heights.array()).matrix();
-        std::vector<Index> turned = overturned_faces(sheet.vertices, raised, sheet.triangles);
-        if (!turned.empty())
-            throw InputError("the height is more than the surface's bends allow: faces would turn over",
-                             ElementKind::faces, std::move(turned));
-        for (std::size_t v = 0; v < sheet.original.size(); ++v)
-            if (heights[static_cast<Eigen::Index>(v)] != 0.0) sheet.original[v] = -1;
-        sheet.vertices = raised;
-    }
-    result.vertices = std::move(sheet.vertices);
-    result.triangles = std::move(sheet.triangles);
-    result.uv.resize(static_cast<Eigen::Index>(sheet.uv.size()), 2);
-    for (std::size_t c = 0; c < sheet.uv.size(); ++c)
-        result.uv.row(static_cast<Eigen::Index>(c)) << sheet.uv[c].real(), sheet.uv[c].imag();
-    result.original = std::move(sheet.original);
-    result.patch = std::move(sheet.patch);
+    std::vector<Index> up = sheet.patch;
+    if (!height) std::ranges::fill(up, 0);
+    return raise(sheet.triangles, sheet.uv, up, static_cast<Index>(sheet.vertices.rows()), height.value_or(0.0));
 }
 
-void finish_solid(const Sheet& sheet, const VectorXd& heights, double thickness, LiftResult& result)
+/// Faces that are no walls: they keep their direction when they move.
+Triangles without_walls(const RaisedSheet& raised)
 {
-    const VectorXd half = VectorXd::Constant(sheet.vertices.rows(), 0.5 * thickness);
-    const VectorXd out = heights.size() > 0 ? (half + heights).eval() : half;
-    if (out.minCoeff() <= -0.5 * thickness)
+    const auto walls = std::ranges::count(raised.patch, 2);
+    return raised.triangles.topRows(raised.triangles.rows() - static_cast<Eigen::Index>(walls));
+}
+
+void finish_sheet(const Sheet& sheet, const LiftOptions& options, LiftResult& result)
+{
+    RaisedSheet raised = raised_sheet(sheet, options.height);
+    result.vertices = sheet.vertices(raised.source, Eigen::all);
+    result.original.assign(raised.source.size(), -1);
+    for (std::size_t v = 0; v < raised.source.size(); ++v)
+        if (raised.height[static_cast<Eigen::Index>(v)] == 0.0) result.original[v] = sheet.original[raised.source[v]];
+    if (options.height)
+        result.vertices = moved_along(result.vertices, sheet.normals(raised.source, Eigen::all), raised.height,
+                                      without_walls(raised));
+    result.triangles = std::move(raised.triangles);
+    result.uv.resize(static_cast<Eigen::Index>(raised.uv.size()), 2);
+    for (std::size_t c = 0; c < raised.uv.size(); ++c)
+        result.uv.row(static_cast<Eigen::Index>(c)) << raised.uv[c].real(), raised.uv[c].imag();
+    result.patch = std::move(raised.patch);
+}
+
+void finish_solid(const Sheet& sheet, const LiftOptions& options, LiftResult& result)
+{
+    const double half = 0.5 * *options.thickness;
+    if (options.height.value_or(0.0) <= -2.0 * half)
         throw InputError("the pattern is sunk through the solid: the height must be above minus the thickness");
-    Solid solid = thicken(sheet.vertices, sheet.triangles, sheet.normals, out, half);
+    const RaisedSheet raised = raised_sheet(sheet, options.height);
+    const Vertices outside =
+        moved_along(sheet.vertices(raised.source, Eigen::all), sheet.normals(raised.source, Eigen::all),
+                    (raised.height.array() + half).matrix(), without_walls(raised));
+    const Vertices inside = moved_along(sheet.vertices, sheet.normals,
+                                        VectorXd::Constant(sheet.vertices.rows(), -half), sheet.triangles);
+    Solid solid = closed_solid(outside, raised.triangles, inside, sheet.triangles);
     result.vertices = std::move(solid.vertices);
     result.triangles = std::move(solid.triangles);
     result.patch = std::move(solid.patch);
@@ -158,11 +173,10 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     Pattern pattern = built_in_pattern(domain.sheet, name, chosen);
     context.checkpoint();
     result.bend = pattern.bend;
-    if (options.height) pattern.outlines = with_inner_outlines(domain.sheet, pattern.outlines, ramp_share);
     const Overlay overlay = draw_outlines(domain.sheet, std::move(pattern.outlines));
     context.checkpoint();
     result.left_out = overlay.left_out;
-    result.outlines = static_cast<Index>(overlay.outlines.size()) / (options.height ? 2 : 1);
+    result.outlines = static_cast<Index>(overlay.outlines.size());
     if (result.outlines == 0)
         throw InputError("no outline of the pattern fits the surface: give another size (left out at a hole, a rim or "
                          "a cut: " + std::to_string(result.left_out.at_border) + ")");
@@ -171,21 +185,11 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     if (options.perforate)
         for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = overlay.region[f] < 0;
     const Sheet sheet = kept_faces(overlay, keep, static_cast<Index>(vertices.rows()));
-    VectorXd heights;
-    if (options.height) {
-        const VectorXd all = *options.height * relief_heights(overlay);
-        heights.resize(sheet.vertices.rows());
-        Eigen::Index at = 0;
-        std::vector<char> used(all.size(), 0);
-        for (Eigen::Index c = 0; c < overlay.triangles.size(); ++c) used[overlay.triangles.data()[c]] = 1;
-        for (Eigen::Index v = 0; v < all.size(); ++v)
-            if (used[v]) heights[at++] = all[v];
-    }
     require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
     if (options.thickness)
-        finish_solid(sheet, heights, *options.thickness, result);
+        finish_solid(sheet, options, result);
     else
-        finish_sheet(sheet, heights, result);
+        finish_sheet(sheet, options, result);
     add_warnings(domain.map, result);
     result.peak_memory_mb = peak_memory_mb();
     result.seconds.total = clock.elapsed();

@@ -48,9 +48,9 @@ struct LiftOptions {
 struct LiftResult {
     Vertices vertices;
     Triangles triangles;
-    PlanarPoints uv;              ///< (3F, 2) of corners; a solid has none
+    PlanarPoints uv;              ///< (3F, 2) of corners; walls have no area, and a solid has none
     std::vector<Index> original;  ///< (V) vertex of the surface at the same place, to the last bit; -1: there is none
-    std::vector<Index> patch;     ///< (F) of a solid: 0 outside, 1 inside, 2 walls; of a sheet 1 in an outline, else 0
+    std::vector<Index> patch;     ///< (F) of a solid: 0 outside, 1 inside, 2 walls; of a sheet 0, and 1 raised, 2 walls
     LiftShape shape = LiftShape::disk;
     std::string pattern;
     double size = 0.0, bridge = 0.0;  ///< as used

@@ -12,7 +12,6 @@ struct Outline {
     std::vector<Complex> points;  ///< in the chart of `face`
     Index face = -1;              ///< of a sheet: holds the first point
     Index group = -1;             ///< outlines of one group are lifted together or not at all
-    bool inner = false;           ///< lies inside the other outline of its group
 };
 
 }  // namespace koebe

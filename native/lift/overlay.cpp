@@ -228,7 +228,7 @@ private:
         }
     }
 
-    /// Numbers the faces inside an outline, and checks that they are a disk, or a ring about an inner outline.
+    /// Numbers the faces inside an outline, and checks that they are a disk.
     void flood(Index o, const std::vector<Index>& begin, const std::vector<Index>& twin,
                const std::unordered_map<std::uint64_t, Index>& outline_at, Overlay& result)
     {
@@ -264,10 +264,7 @@ private:
         for (const Index h : begin)  // the other side must be outside
             if (twin[h] == no_twin || result.region[face_of(twin[h])] == o) at_border = true;
         const Index euler = static_cast<Index>(vertices.size()) - edges / 2 + static_cast<Index>(faces.size());
-        const bool has_inner = std::ranges::any_of(outlines_, [&](const Outline& other) {
-            return other.group == outlines_[o].group && other.inner && !outlines_[o].inner;
-        });
-        if (at_border || euler != (has_inner ? 0 : 1)) blame(o, Fault::border);
+        if (at_border || euler != 1) blame(o, Fault::border);
     }
 
     const FlatSheet& sheet_;

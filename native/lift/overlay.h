@@ -32,8 +32,8 @@ struct Overlay {
 
 /// Cuts faces along the outlines by constrained Delaunay triangulations in their charts with exact predicates. Vertices
 /// of the outlines have barycentric coordinates on the surface. Outlines that cannot be drawn are left out, with their
-/// group, and counted. In the result no two outlines meet, each bounds a disk, or a ring about an inner outline, and
-/// every new face is upright in 32-bit UVs.
+/// group, and counted. In the result no two outlines meet, each bounds a disk, and every
+/// new face is upright in 32-bit UVs.
 Overlay draw_outlines(const FlatSheet& sheet, std::vector<Outline> outlines);
 
 }  // namespace koebe

@@ -13,14 +13,15 @@ struct Solid {
     std::vector<Index> patch;  ///< (F) 0: the outer side, 1: the inner side, 2: walls along the loops
 };
 
-/// Moves the surface by `out` along its normals for the outer side and by `in` against them for the inner side, and
-/// joins both by walls along all loops. Every edge of the solid has two faces, in opposite directions.
-/// @param normals (V, 3) unit @param out (V) @param in (V)
-/// @throws InputError a face would turn over, as the surface bends more tightly there (elements: faces)
-Solid thicken(const Vertices& vertices, const Triangles& triangles, const Vertices& normals, const VectorXd& out,
-              const VectorXd& in);
+/// Joins two sheets with the same loops to a solid. Every edge of the solid has two faces, in opposite directions.
+/// @param outside its first vertices are the inner side's, and its loops run through these alone
+Solid closed_solid(const Vertices& outside, const Triangles& outer_faces, const Vertices& inside,
+                   const Triangles& inner_faces);
 
-/// Faces that point away from their former normal, or have no area any more, when vertices move.
-std::vector<Index> overturned_faces(const Vertices& before, const Vertices& after, const Triangles& triangles);
+/// The vertices moved along the normals, and the faces of `triangles` checked.
+/// @param normals (V, 3) unit @param by (V)
+/// @throws InputError a face would turn over, as the surface bends more tightly there (elements: faces)
+Vertices moved_along(const Vertices& vertices, const Vertices& normals, const VectorXd& by,
+                     const Triangles& triangles);
 
 }  // namespace koebe

@@ -20,9 +20,9 @@ class LiftResult:
 
     vertices     (V, 3) float64; of a perforated sheet the surface's own come first, in their order
     triangles    (F, 3) int32
-    uv           (F, 3, 2) float64 of corners in [0, 1]^2, the map's; of a solid (0, 3, 2)
+    uv           (F, 3, 2) float64 of corners in [0, 1]^2, the map's; walls have no area in it; of a solid (0, 3, 2)
     original     (V,) int32: the vertex of the surface that lies there, to the last bit; -1: there is none
-    patch        (F,) int32: of a sheet 1 in an outline, else 0; of a solid 0 outside, 1 inside, 2 walls
+    patch        (F,) int32: of a sheet 0, and 1 raised, 2 walls; of a solid 0 outside, 1 inside, 2 walls
     shape, pattern, size, bridge    as asked for or chosen; lengths in the unit of the vertices
     bend         above 1: a lattice is stretched by this much, so that it fits a torus
     outlines     on the surface
