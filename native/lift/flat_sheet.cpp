@@ -92,10 +92,7 @@ void measure(FlatSheet& sheet)
 
 }  // namespace
 
-double FlatSheet::twice_area(Index f) const
-{
-    return cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0));
-}
+double FlatSheet::twice_area(Index f) const { return cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0)); }
 
 double FlatSheet::scale_at(Index f, const Eigen::RowVector3d& weights) const
 {

@@ -17,14 +17,14 @@ struct FlatSheet {
     double grid = 0.0;        ///< UVs are whole multiples of it; 0: they are not
     std::vector<Complex> periods = {};
 
-    std::vector<Index> twin;        ///< (3F)
-    std::vector<char> border;       ///< (3F) whether the walk ends at this half-edge
-    std::vector<Complex> step;      ///< (3F) what to add to a place in the face's chart for the chart of its twin
-    std::vector<Index> sheet;       ///< (F) faces that can be reached from each other have one number
-    std::vector<double> scale;      ///< (V) length on the surface over length in UVs
-    Vertices normals;               ///< (V, 3) unit, weighted by angles
-    double area = 0.0;              ///< of the surface
-    double mean_scale = 1.0;        ///< root of the surface's area over the UVs'
+    std::vector<Index> twin;    ///< (3F)
+    std::vector<char> border;   ///< (3F) whether the walk ends at this half-edge
+    std::vector<Complex> step;  ///< (3F) what to add to a place in the face's chart for the chart of its twin
+    std::vector<Index> sheet;   ///< (F) faces that can be reached from each other have one number
+    std::vector<double> scale;  ///< (V) length on the surface over length in UVs
+    Vertices normals;           ///< (V, 3) unit, weighted by angles
+    double area = 0.0;          ///< of the surface
+    double mean_scale = 1.0;    ///< root of the surface's area over the UVs'
 
     Complex corner(Index face, int k) const { return uv[3 * face + k]; }
     double twice_area(Index face) const;

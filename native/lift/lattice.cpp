@@ -81,8 +81,8 @@ Fit fit_torus(const Lattice& lattice, const std::vector<Complex>& periods, doubl
                 const Complex z = periods[p] / turn;
                 const double whole = cross(lattice.a, lattice.b);
                 fit.cells[p] = {std::lround(cross(z, lattice.b) / whole), std::lround(cross(lattice.a, z) / whole)};
-                sums[p] = static_cast<double>(fit.cells[p][0]) * lattice.a +
-                          static_cast<double>(fit.cells[p][1]) * lattice.b;
+                sums[p] =
+                    static_cast<double>(fit.cells[p][0]) * lattice.a + static_cast<double>(fit.cells[p][1]) * lattice.b;
             }
             if (!(cross(sums[0], sums[1]) * cross(periods[0], periods[1]) > 0.0)) continue;
             fit.map = taking(sums[0], sums[1], periods[0], periods[1]);
@@ -118,9 +118,9 @@ long cells_round(const Lattice& lattice, double period, double size, int repeats
     if (repeats == 0) return std::max(1L, std::lround(period / (size * static_cast<double>(columns))));
     if (repeats % columns == 0) return repeats / columns;
     const long below = repeats / columns * columns;
-    throw InputError("the pattern does not meet itself after " + std::to_string(repeats) + " repeats: " +
-                     (below > 0 ? std::to_string(below) + " or " : std::string()) + std::to_string(below + columns) +
-                     " fit");
+    throw InputError("the pattern does not meet itself after " + std::to_string(repeats) +
+                     " repeats: " + (below > 0 ? std::to_string(below) + " or " : std::string()) +
+                     std::to_string(below + columns) + " fit");
 }
 
 }  // namespace
@@ -129,11 +129,14 @@ Lattice lattice_of(const std::string& pattern, double bridge)
 {
     const double side = std::sqrt(0.75);
     if (pattern == "hexagons")
-        return {1.0, {0.5, side}, {rounded_corners(regular_polygon(6, 0.5 * (1.0 - bridge), std::numbers::pi / 6, 0.0))}};
+        return {
+            1.0, {0.5, side}, {rounded_corners(regular_polygon(6, 0.5 * (1.0 - bridge), std::numbers::pi / 6, 0.0))}};
     if (pattern == "triangles") {
         const double inner = side / 3.0;  // of a triangle of side 1
         const double left = inner - 0.5 * bridge;
-        return {1.0, {0.5, side}, {rounded_corners(regular_polygon(3, left, std::numbers::pi / 2, {0.5, inner})),
+        return {1.0,
+                {0.5, side},
+                {rounded_corners(regular_polygon(3, left, std::numbers::pi / 2, {0.5, inner})),
                  rounded_corners(regular_polygon(3, left, -std::numbers::pi / 2, {1.0, 2.0 * inner}))}};
     }
     if (pattern == "diamonds") {

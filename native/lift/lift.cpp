@@ -139,8 +139,8 @@ void finish_solid(const Sheet& sheet, const LiftOptions& options, LiftResult& re
     const Vertices outside =
         moved_along(sheet.vertices(raised.source, Eigen::all), sheet.normals(raised.source, Eigen::all),
                     (raised.height.array() + half).matrix(), without_walls(raised));
-    const Vertices inside = moved_along(sheet.vertices, sheet.normals,
-                                        VectorXd::Constant(sheet.vertices.rows(), -half), sheet.triangles);
+    const Vertices inside =
+        moved_along(sheet.vertices, sheet.normals, VectorXd::Constant(sheet.vertices.rows(), -half), sheet.triangles);
     Solid solid = closed_solid(outside, raised.triangles, inside, sheet.triangles);
     result.vertices = std::move(solid.vertices);
     result.triangles = std::move(solid.triangles);
@@ -156,8 +156,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
                      const LiftOptions& options, ExecutionContext& context)
 {
     const Stopwatch clock;
-    if (options.perforate == options.height.has_value())
-        throw InputError("either perforate, or give a height");
+    if (options.perforate == options.height.has_value()) throw InputError("either perforate, or give a height");
     FlatDomain domain = flat_domain(vertices, triangles, options, context);
     context.checkpoint();
     LiftResult result;
@@ -179,7 +178,8 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     result.outlines = static_cast<Index>(overlay.outlines.size());
     if (result.outlines == 0)
         throw InputError("no outline of the pattern fits the surface: give another size (left out at a hole, a rim or "
-                         "a cut: " + std::to_string(result.left_out.at_border) + ")");
+                         "a cut: " +
+                         std::to_string(result.left_out.at_border) + ")");
 
     std::vector<char> keep(overlay.region.size(), 1);
     if (options.perforate)

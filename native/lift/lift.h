@@ -69,8 +69,8 @@ struct LiftResult {
 /// Maps the surface to the domain, draws the pattern's outlines there, and brings them onto the surface: as holes, as a
 /// relief, and if asked for as a closed solid. Vertices of the surface stay where they are, but for a relief's and a
 /// solid's. Outlines that meet a hole, a rim or each other are left out, and a warning tells how many.
-/// @throws InputError, TopologyError, SolverError, Cancelled: as the map, and where the result would not be as promised:
-/// one hole for each outline, no flipped face, a closed solid
+/// @throws InputError, TopologyError, SolverError, Cancelled: as the map, and where the result would not be as
+/// promised: one hole for each outline, no flipped face, a closed solid
 KOEBE_API LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,
                           const LiftOptions& options, ExecutionContext& context);
 

@@ -221,9 +221,8 @@ private:
     WalkEnd leave(const std::vector<Chart>& charts, Complex target)
     {
         const OutlineNode node = nodes_[current()];
-        const Chart& chart = *std::ranges::max_element(charts, {}, [&](const Chart& c) {
-            return into(node, c.face, target + c.offset);
-        });
+        const Chart& chart = *std::ranges::max_element(
+            charts, {}, [&](const Chart& c) { return into(node, c.face, target + c.offset); });
         chart_ = chart;
         const Complex a = node_place(sheet_, node, chart.face), way = target + chart.offset - a;
         const int k = exit(node, chart.face, a, target + chart.offset);

@@ -84,8 +84,7 @@ private:
                 touch(steps[i].face, o).chords.push_back({before, steps[i].node});
             }
         }
-        for (auto& [halfedge, list] : on_edge_)
-            std::ranges::sort(list, {}, [&](Index n) { return nodes_[n].share; });
+        for (auto& [halfedge, list] : on_edge_) std::ranges::sort(list, {}, [&](Index n) { return nodes_[n].share; });
     }
 
     FacePart& touch(Index face, Index outline)
@@ -150,7 +149,8 @@ private:
                 divide(f, part->second, corners, result);
             }
         }
-        result.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+        result.triangles =
+            Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     }
 
     void divide(Index f, const FacePart& part, std::vector<Index>& corners, Overlay& result)
@@ -200,8 +200,7 @@ private:
 
     void find_regions(Overlay& result)
     {
-        const std::vector<Index> twin =
-            pair_halfedges(result.triangles, static_cast<Index>(result.vertices.rows()));
+        const std::vector<Index> twin = pair_halfedges(result.triangles, static_cast<Index>(result.vertices.rows()));
         std::unordered_map<std::uint64_t, Index> outline_at;
         for (Index o = 0; o < static_cast<Index>(result.loops.size()); ++o)
             for (std::size_t i = 0; i < result.loops[o].size(); ++i)
@@ -249,7 +248,8 @@ private:
             front.pop_back();
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
                 vertices.insert(origin(result.triangles, h));
-                const bool chord = outline_at.contains(key_of(origin(result.triangles, h), target(result.triangles, h)));
+                const bool chord =
+                    outline_at.contains(key_of(origin(result.triangles, h), target(result.triangles, h)));
                 edges += chord ? 2 : 1;
                 if (chord) continue;
                 if (twin[h] == no_twin) {

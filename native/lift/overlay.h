@@ -10,9 +10,9 @@ namespace koebe {
 
 /// Why outlines were left out.
 struct LeftOut {
-    Index at_border = 0;  ///< they meet or enclose a hole or a rim, or meet a cut that is no period
-    Index too_fine = 0;   ///< 32-bit UVs cannot hold them, or they meet themselves
-    Index crossing = 0;   ///< they meet another outline
+    Index at_border = 0;            ///< they meet or enclose a hole or a rim, or meet a cut that is no period
+    Index too_fine = 0;             ///< 32-bit UVs cannot hold them, or they meet themselves
+    Index crossing = 0;             ///< they meet another outline
     std::vector<Index> faces = {};  ///< where they begin: of the surface, ascending
 
     Index all() const { return at_border + too_fine + crossing; }
@@ -22,10 +22,10 @@ struct LeftOut {
 struct Overlay {
     Vertices vertices, normals;
     Triangles triangles;
-    std::vector<Complex> uv;        ///< (3F)
-    std::vector<Index> face;        ///< (F) the sheet's face of each
-    std::vector<Index> region;      ///< (F) innermost outline that holds the face, or -1
-    std::vector<Outline> outlines;  ///< those that were drawn
+    std::vector<Complex> uv;                ///< (3F)
+    std::vector<Index> face;                ///< (F) the sheet's face of each
+    std::vector<Index> region;              ///< (F) innermost outline that holds the face, or -1
+    std::vector<Outline> outlines;          ///< those that were drawn
     std::vector<std::vector<Index>> loops;  ///< the vertices of each outline, in order
     LeftOut left_out;
 };

@@ -84,8 +84,7 @@ Pattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const P
 
 const std::vector<std::string>& pattern_names()
 {
-    static const std::vector<std::string> names{"circles",  "hexagons", "triangles",
-                                                "diamonds", "stripes",  "voronoi"};
+    static const std::vector<std::string> names{"circles", "hexagons", "triangles", "diamonds", "stripes", "voronoi"};
     return names;
 }
 

@@ -18,8 +18,8 @@ struct PatternOptions {
     std::uint64_t seed = 1;
 };
 
-/// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds and stripes lie
-/// in lattices that are even in the domain, and go on over the cut of a ring or a torus.
+/// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds and stripes
+/// lie in lattices that are even in the domain, and go on over the cut of a ring or a torus.
 KOEBE_API const std::vector<std::string>& pattern_names();
 
 struct Pattern {

@@ -21,7 +21,6 @@ Solid closed_solid(const Vertices& outside, const Triangles& outer_faces, const 
 /// The vertices moved along the normals, and the faces of `triangles` checked.
 /// @param normals (V, 3) unit @param by (V)
 /// @throws InputError a face would turn over, as the surface bends more tightly there (elements: faces)
-Vertices moved_along(const Vertices& vertices, const Vertices& normals, const VectorXd& by,
-                     const Triangles& triangles);
+Vertices moved_along(const Vertices& vertices, const Vertices& normals, const VectorXd& by, const Triangles& triangles);
 
 }  // namespace koebe

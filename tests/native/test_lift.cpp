@@ -146,10 +146,15 @@ TEST(Lattice, CoversATorusOnce)
         EXPECT_NEAR(area / (0.0025 * (std::conj(one.a) * one.b).imag()), 1.0, 0.2) << name;
         EXPECT_LT(laid.bend, 1.1) << name;
         for (const Complex z : laid.places)  // no two places differ by a sum of periods
-            EXPECT_EQ(std::ranges::count_if(laid.places, [&](Complex w) {
-                          const double v = (w - z).imag() / 0.7, u = ((w - z).real() - 0.2 * v) / 0.9;
-                          return std::abs(u - std::round(u)) < 1e-9 && std::abs(v - std::round(v)) < 1e-9;
-                      }), 1) << name;
+            EXPECT_EQ(std::ranges::count_if(laid.places,
+                                            [&](Complex w) {
+                                                const double v = (w - z).imag() / 0.7,
+                                                             u = ((w - z).real() - 0.2 * v) / 0.9;
+                                                return std::abs(u - std::round(u)) < 1e-9 &&
+                                                       std::abs(v - std::round(v)) < 1e-9;
+                                            }),
+                      1)
+                << name;
     }
 }
 
@@ -160,9 +165,9 @@ TEST(Overlay, LiftedCirclesAreRound)
         for (const Index faces : {3000, 12000}) {
             const FlatSheet sheet = exact_sheet(test::make_circle_domain(test::five_circles(), faces), kind);
             double worst = 0.0, size = 0.04 * sheet.mean_scale;
-            const std::vector<Outline> outlines = site_outlines(
-                sheet, std::vector<SurfacePoint>{{face_at(sheet, {0.05, -0.75}), {0.3, 0.3, 0.4}}},
-                SiteShape::circles, size, 0.1 * size);
+            const std::vector<Outline> outlines =
+                site_outlines(sheet, std::vector<SurfacePoint>{{face_at(sheet, {0.05, -0.75}), {0.3, 0.3, 0.4}}},
+                              SiteShape::circles, size, 0.1 * size);
             const Overlay overlay = draw_outlines(sheet, outlines);
             ASSERT_EQ(overlay.loops.size(), 1U) << test::to_string(kind);
             for (const auto& loop : overlay.loops) worst = std::max(worst, axis_ratio(overlay.vertices, loop) - 1.0);
@@ -176,8 +181,8 @@ TEST(Overlay, LiftedCirclesAreRound)
 TEST(Overlay, KeepsTheSurfaceAndCountsHoles)
 {
     const FlatSheet sheet = exact_sheet(test::make_circle_domain(test::five_circles(), 4000), test::Lift::enneper);
-    const Pattern pattern =
-        built_in_pattern(sheet, "voronoi", {.size = 0.15 * std::sqrt(sheet.area), .bridge = 0.03 * std::sqrt(sheet.area)});
+    const Pattern pattern = built_in_pattern(
+        sheet, "voronoi", {.size = 0.15 * std::sqrt(sheet.area), .bridge = 0.03 * std::sqrt(sheet.area)});
     const Overlay overlay = draw_outlines(sheet, pattern.outlines);
     ASSERT_GT(overlay.outlines.size(), 10U);
     EXPECT_TRUE((overlay.vertices.topRows(sheet.vertices.rows()).array() == sheet.vertices.array()).all());
@@ -188,7 +193,8 @@ TEST(Overlay, KeepsTheSurfaceAndCountsHoles)
     for (Eigen::Index f = 0; f < overlay.triangles.rows(); ++f)
         if (overlay.region[f] < 0)
             for (int k = 0; k < 3; ++k) corners.push_back(overlay.triangles(f, k));
-    const Triangles rest = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    const Triangles rest =
+        Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     const Surface pierced = analyze_surface(rest, static_cast<Index>(overlay.vertices.rows()));
     EXPECT_EQ(pierced.loops.size(), 5U + overlay.outlines.size());
     EXPECT_EQ(pierced.euler_characteristic, -3 - static_cast<int>(overlay.outlines.size()));
@@ -256,7 +262,8 @@ TEST(Lift, GoesOnOverTheCutOfARing)
     EXPECT_EQ(result.euler_after, -result.outlines);
     for (std::size_t v = 0; v < result.original.size(); ++v)
         if (const Index own = result.original[v]; own >= 0)
-            EXPECT_TRUE((result.vertices.row(static_cast<Eigen::Index>(v)).array() == mesh.first.row(own).array()).all());
+            EXPECT_TRUE(
+                (result.vertices.row(static_cast<Eigen::Index>(v)).array() == mesh.first.row(own).array()).all());
 }
 
 TEST(Lift, ARaisedPatternLeavesTheTopology)

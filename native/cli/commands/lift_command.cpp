@@ -99,9 +99,7 @@ Subcommand add_lift(CLI::App& app)
     auto request = std::make_shared<LiftRequest>();
     CLI::App* options = app.add_subcommand("lift", "a flat pattern on a surface: as holes, as a relief, as a solid");
     options->add_option("SURFACE", request->surface, "surface: OBJ, OFF, PLY or STL")->required();
-    options->add_option("PATTERN", request->pattern, pattern_help())
-        ->required()
-        ->check(CLI::IsMember(pattern_names()));
+    options->add_option("PATTERN", request->pattern, pattern_help())->required()->check(CLI::IsMember(pattern_names()));
     options
         ->add_option("OUT", request->output,
                      "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL")

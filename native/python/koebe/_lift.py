@@ -64,9 +64,7 @@ class LiftResult:
 
 
 @takes("lift", LiftOptions, progress=None, cancel=None)
-def lift(
-    vertices: Any, triangles: Any = None, pattern: str = "circles", **given: "Unpack[LiftOptions]"
-) -> LiftResult:
+def lift(vertices: Any, triangles: Any = None, pattern: str = "circles", **given: "Unpack[LiftOptions]") -> LiftResult:
     """Bring a flat pattern onto a surface, through a map of the surface: as holes, as a relief, as a closed solid.
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
