@@ -22,7 +22,7 @@ sys.dont_write_bytecode = True
 import studio  # noqa: E402
 
 COMMAND = os.environ.get("KOEBE_COMMAND", str(Path(__file__).resolve().parent.parent / "build" / "koebe"))
-SIZE = (1200, 600)
+SIZE = (1000, 500)
 SHARP = 0.6  # radians between two faces at an edge that is not smooth
 
 
@@ -38,7 +38,7 @@ def tube(rows, around, place):
 
 def finger_ring(height, angle):
     """A ring for a finger in millimetres, a little rounded outwards."""
-    z = 7.0 * (height - 0.5)
+    z = 6.4 * (height - 0.5)
     radius = 9.5 + 0.5 * np.cos(np.pi * (height - 0.5))
     return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
 
@@ -114,7 +114,7 @@ def main():
     lamp = bpy.data.objects.new("glow", glow)
     lamp.location = (1.2, 0.1, 1.0)
     scene.collection.objects.link(lamp)
-    studio.surround(scene, (0.9, 0.93, 1.0, 1.0), 0.3)
+    studio.surround(scene, (0.9, 0.93, 1.0, 1.0), 0.42)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.data.lens = 62.0
     camera.location = (0.05, -8.6, 3.2)
@@ -126,7 +126,7 @@ def main():
     render.resolution_x, render.resolution_y = SIZE
     render.use_stamp_filename = False
     scene.view_settings.view_transform = "Standard"
-    scene.cycles.device, scene.cycles.samples, scene.cycles.adaptive_threshold = "CPU", int(*samples or [96]), 0.03
+    scene.cycles.device, scene.cycles.samples, scene.cycles.adaptive_threshold = "CPU", int(*samples or [72]), 0.03
     scene.cycles.max_bounces = 3
     scene.cycles.use_denoising = studio._can_denoise()
     studio.render_jpeg(scene, out)

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double cells_across = 12.0;  // of the root of the area, if no size is given
 
-struct Sheet {
+struct KeptSheet {
     Vertices vertices, normals;
     Triangles triangles;
     std::vector<Complex> uv;
@@ -26,11 +26,11 @@ struct Sheet {
 };
 
 /// The faces to keep, and their vertices in their order.
-Sheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Index original_count)
+KeptSheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Index original_count)
 {
     const Index count = static_cast<Index>(overlay.vertices.rows());
     std::vector<Index> number(count, -1);
-    Sheet sheet;
+    KeptSheet sheet;
     std::vector<Index> corners;
     for (Index f = 0; f < static_cast<Index>(overlay.triangles.rows()); ++f) {
         if (!keep[f]) continue;
@@ -56,7 +56,7 @@ Sheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Index or
 }
 
 /// Checks loops and Euler characteristic of the sheet against what the outlines must have made of them.
-void require_foretold(const Surface& before, const Sheet& sheet, Index holes, LiftResult& result)
+void require_foretold(const Surface& before, const KeptSheet& sheet, Index holes, LiftResult& result)
 {
     const Surface after = analyze_surface(sheet.triangles, static_cast<Index>(sheet.vertices.rows()));
     result.loops_before = static_cast<int>(before.loops.size());
@@ -99,11 +99,11 @@ PatternOptions pattern_options(const FlatSheet& sheet, const LiftOptions& option
 }
 
 /// The sheet with its outlines at a height, or as it is.
-RaisedSheet raised_sheet(const Sheet& sheet, const std::optional<double>& height)
+RaisedSheet raised_sheet(const KeptSheet& sheet, const std::optional<double>& height)
 {
     std::vector<Index> up = sheet.patch;
     if (!height) std::ranges::fill(up, 0);
-    return raise(sheet.triangles, sheet.uv, up, static_cast<Index>(sheet.vertices.rows()), height.value_or(0.0));
+    return raise_faces(sheet.triangles, sheet.uv, up, static_cast<Index>(sheet.vertices.rows()), height.value_or(0.0));
 }
 
 /// Faces that are no walls: they keep their direction when they move.
@@ -113,7 +113,7 @@ Triangles without_walls(const RaisedSheet& raised)
     return raised.triangles.topRows(raised.triangles.rows() - static_cast<Eigen::Index>(walls));
 }
 
-void finish_sheet(const Sheet& sheet, const LiftOptions& options, LiftResult& result)
+void finish_sheet(const KeptSheet& sheet, const LiftOptions& options, LiftResult& result)
 {
     RaisedSheet raised = raised_sheet(sheet, options.height);
     result.vertices = sheet.vertices(raised.source, Eigen::all);
@@ -130,7 +130,7 @@ void finish_sheet(const Sheet& sheet, const LiftOptions& options, LiftResult& re
     result.patch = std::move(raised.patch);
 }
 
-void finish_solid(const Sheet& sheet, const LiftOptions& options, LiftResult& result)
+void finish_solid(const KeptSheet& sheet, const LiftOptions& options, LiftResult& result)
 {
     const double half = 0.5 * *options.thickness;
     if (options.height.value_or(0.0) <= -2.0 * half)
@@ -184,7 +184,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     std::vector<char> keep(overlay.region.size(), 1);
     if (options.perforate)
         for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = overlay.region[f] < 0;
-    const Sheet sheet = kept_faces(overlay, keep, static_cast<Index>(vertices.rows()));
+    const KeptSheet sheet = kept_faces(overlay, keep, static_cast<Index>(vertices.rows()));
     require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
     if (options.thickness)
         finish_solid(sheet, options, result);

@@ -52,7 +52,7 @@ private:
 
     WalkEnd go_to(Complex target)
     {
-        const std::size_t most = 1000 + static_cast<std::size_t>(sheet_.triangles.rows());
+        const std::size_t most = 1000 + std::min<std::size_t>(sheet_.triangles.rows(), 20000);  // faces in one segment
         for (std::size_t count = 0; count < most; ++count) {
             const std::vector<Chart> charts = charts_around(nodes_[current()]);
             if (charts.empty()) return WalkEnd::border;

@@ -19,8 +19,8 @@ std::vector<Index> feet_of_walls(const Triangles& triangles, const std::vector<I
 
 }  // namespace
 
-RaisedSheet raise(const Triangles& triangles, const std::vector<Complex>& uv, const std::vector<Index>& up,
-                  Index vertex_count, double height)
+RaisedSheet raise_faces(const Triangles& triangles, const std::vector<Complex>& uv, const std::vector<Index>& up,
+                        Index vertex_count, double height)
 {
     const std::vector<Index> feet = feet_of_walls(triangles, up, vertex_count);
     RaisedSheet raised;

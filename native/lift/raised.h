@@ -18,7 +18,7 @@ struct RaisedSheet {
 /// Doubles the vertices between raised faces and the ground, one at the height and one on the ground, and joins them by
 /// walls. Edges keep two faces each.
 /// @param uv (3F) of corners @param up (F) whether a face is raised
-RaisedSheet raise(const Triangles& triangles, const std::vector<Complex>& uv, const std::vector<Index>& up,
-                  Index vertex_count, double height);
+RaisedSheet raise_faces(const Triangles& triangles, const std::vector<Complex>& uv, const std::vector<Index>& up,
+                        Index vertex_count, double height);
 
 }  // namespace koebe

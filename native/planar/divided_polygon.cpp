@@ -10,9 +10,9 @@ namespace koebe {
 namespace {
 
 using Cdt = detail::PlanarRegion::Cdt;
-using Edge = std::pair<Index, Index>;
+using EndPair = std::pair<Index, Index>;
 
-Edge edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+EndPair ends_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Inserts the points. @return their vertices; fewer if two coincide
 std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, const std::vector<Complex>& polygon,
@@ -31,7 +31,7 @@ std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, const std::vector<Complex>& pol
 }
 
 /// Marks the faces that the polygon's sides divide from the infinite face by 1, the others by 0.
-void mark_inside(Cdt& cdt, const std::set<Edge>& sides)
+void mark_inside(Cdt& cdt, const std::set<EndPair>& sides)
 {
     for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = 1;
     std::vector<Cdt::Face_handle> front{cdt.infinite_face()};
@@ -41,7 +41,7 @@ void mark_inside(Cdt& cdt, const std::set<Edge>& sides)
         front.pop_back();
         for (int i = 0; i < 3; ++i) {
             const Cdt::Vertex_handle a = face->vertex(Cdt::cw(i)), b = face->vertex(Cdt::ccw(i));
-            if (!cdt.is_infinite(a) && !cdt.is_infinite(b) && sides.contains(edge_of(a->info(), b->info()))) continue;
+            if (!cdt.is_infinite(a) && !cdt.is_infinite(b) && sides.contains(ends_of(a->info(), b->info()))) continue;
             const Cdt::Face_handle next = face->neighbor(i);
             if (next->info() == 0) continue;
             next->info() = 0;
@@ -60,10 +60,10 @@ Triangles divided_polygon(const std::vector<Complex>& polygon, const std::vector
     const std::vector<Cdt::Vertex_handle> handles = insert(cdt, polygon, interior);
     if (handles.size() != polygon.size() + interior.size()) return {};
     const Index n = static_cast<Index>(polygon.size());
-    std::set<Edge> sides;
-    for (Index i = 0; i < n; ++i) sides.insert(edge_of(i, (i + 1) % n));
-    std::set<Edge> all = sides;  // each once: CGAL refuses a constraint that it has
-    for (const auto& [a, b] : segments) all.insert(edge_of(a, b));
+    std::set<EndPair> sides;
+    for (Index i = 0; i < n; ++i) sides.insert(ends_of(i, (i + 1) % n));
+    std::set<EndPair> all = sides;  // each once: CGAL refuses a constraint that it has
+    for (const auto& [a, b] : segments) all.insert(ends_of(a, b));
     try {
         for (const auto& [a, b] : all) cdt.insert_constraint(handles[a], handles[b]);
     } catch (const Cdt::Intersection_of_constraints_exception&) {
