@@ -51,9 +51,10 @@ void write_stl(AtomicFile& file, const Vertices& vertices, const Triangles& tria
     std::string bytes = "Koebe UV";
     bytes.resize(80, ' ');
     put(bytes, static_cast<std::uint32_t>(triangles.rows()));
+    const Vertices stored = vertices.cast<float>().cast<double>();
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Eigen::RowVector3d a = vertices.row(triangles(f, 0)), b = vertices.row(triangles(f, 1)),
-                                 c = vertices.row(triangles(f, 2));
+        const Eigen::RowVector3d a = stored.row(triangles(f, 0)), b = stored.row(triangles(f, 1)),
+                                 c = stored.row(triangles(f, 2));
         put(bytes, (b - a).cross(c - a).stableNormalized());
         for (const auto& corner : {a, b, c}) put(bytes, corner);
         bytes.append(2, '\0');
