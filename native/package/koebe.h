@@ -14,6 +14,8 @@
 #include "flatten/flatten.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "lift/lift.h"
+#include "lift/patterns.h"
 #include "mesh/topology.h"
 #include "opened/cut_uniformize.h"
 #include "parts/parts.h"

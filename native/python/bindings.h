@@ -11,6 +11,9 @@ void bind_uniformize(pybind11::module_& m);
 void bind_surface(pybind11::module_& m);
 /// Maps to domains other than the disk, and to parts.
 void bind_domains(pybind11::module_& m);
+
+/// Patterns on surfaces.
+void bind_lift(pybind11::module_& m);
 /// Single steps: loops, holes, triangles, harmonic, disk and annulus maps, distortion.
 void bind_steps(pybind11::module_& m);
 /// Conformal modules and alignments of circle domains; packed disks; mirror images.

@@ -23,8 +23,9 @@ MAPS = {  # function, TypedDict, struct
     "schottky": (koebe.schottky_map, _signatures.SchottkyOptions, _koebe.SchottkyOptions),
     "parts": (koebe.parts, _signatures.PartsOptions, _koebe.PartsOptions),
     "flatten": (koebe.flatten, _signatures.FlattenOptions, _koebe.FlattenOptions),
+    "lift": (koebe.lift, _signatures.LiftOptions, _koebe.LiftOptions),
 }
-COMMANDS = {"uniformize", "sequence", "ring", "torus", "sphere", "schottky", "parts", "flatten", "ricci"}
+COMMANDS = {"uniformize", "sequence", "ring", "torus", "sphere", "schottky", "parts", "flatten", "lift", "ricci"}
 TYPES = {
     "number": "float", "integer": "int", "flag": "bool", "choice": "str", "vertex": "int | None",
     "loop": "str | int", "steps": "collections.abc.Sequence[collections.abc.Sequence[int]] | None",
@@ -158,8 +159,11 @@ def test_the_command_takes_what_is_in_the_range_and_nothing_else(of, tmp_path):
         if row["kind"] not in ("number", "integer"):
             continue
         flag, (right, wrong) = f"--{name.replace('_', '-')}", at_the_bounds(row)
-        out = {"sequence": "--output=out", "flatten": "out.svg"}.get(of, "out.obj")
-        files = ["in.obj", out]
+        files = {
+            "sequence": ["in.obj", "--output=out"],
+            "flatten": ["in.obj", "out.svg"],
+            "lift": ["in.obj", "circles", "out.obj"],
+        }.get(of, ["in.obj", "out.obj"])
         for value in (*wrong, "nan", ""):
             done = run(of, *files, f"{flag}={value}", cwd=tmp_path)
             assert done.returncode == 2 and flag in done.stderr, (name, value)

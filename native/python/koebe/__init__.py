@@ -20,6 +20,7 @@ from ._fields import disk_to_uv, uv_to_disk
 from ._flatten import FlattenResult, flatten
 from ._koebe import CancelToken, __version__
 from ._layout import fit_circle, mirror_image, pack_disks
+from ._lift import LiftResult, lift
 from ._load import load
 from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
 from ._parts import PartsResult, parts
@@ -54,6 +55,7 @@ __all__ = [
     "InputError",
     "KoebeError",
     "LeftOutFace",
+    "LiftResult",
     "MapReport",
     "OpenedSurface",
     "OptionError",
@@ -85,6 +87,7 @@ __all__ = [
     "fit_circle",
     "flatten",
     "harmonic_map",
+    "lift",
     "load",
     "match_loops",
     "mirror_image",

@@ -109,3 +109,17 @@ class FlattenOptions(RunOptions, total=False):
     price: float | None
     darts: float
     polygon: Any
+
+
+class LiftOptions(RunOptions, total=False):
+    """Options of `lift`."""
+
+    shape: str
+    even: float | None
+    size: float | None
+    bridge: float | None
+    repeats: int
+    seed: int
+    perforate: bool
+    height: float | None
+    thickness: float | None

@@ -1,0 +1,19 @@
+// Points spread evenly over a surface.
+#pragma once
+
+#include "lift/flat_sheet.h"
+#include "transfer/surface_point.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace koebe {
+
+/// Lloyd's iteration [Lloyd 1982] on a dense random sample of the surface, with distances in space; points whose
+/// normals differ are farther apart, so that the two sides of a thin wall do not mix. The same seed gives the same
+/// points.
+/// @param spacing of neighbours on the surface, in the unit of the vertices
+/// @throws InputError more than a million points
+std::vector<SurfacePoint> even_sites(const FlatSheet& sheet, double spacing, std::uint64_t seed);
+
+}  // namespace koebe

@@ -1,0 +1,161 @@
+#include "lift/flat_sheet.h"
+
+#include "core/length.h"
+#include "planar/planar_predicates.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+Eigen::RowVector3d area_vector(const FlatSheet& sheet, Index f)
+{
+    const Eigen::RowVector3d a = sheet.vertices.row(sheet.triangles(f, 0));
+    const Eigen::RowVector3d b = sheet.vertices.row(sheet.triangles(f, 1)) - a;
+    const Eigen::RowVector3d c = sheet.vertices.row(sheet.triangles(f, 2)) - a;
+    return b.cross(c);
+}
+
+void find_steps(FlatSheet& sheet)
+{
+    const Index count = static_cast<Index>(sheet.triangles.size());
+    sheet.border.assign(count, 1);
+    sheet.step.assign(count, 0.0);
+    std::vector<char> upright(sheet.triangles.rows());
+    for (Index f = 0; f < static_cast<Index>(upright.size()); ++f) upright[f] = sheet.twice_area(f) > 0.0;
+    for (Index h = 0; h < count; ++h) {
+        const Index t = sheet.twin[h];
+        if (t == no_twin || !upright[face_of(h)] || !upright[face_of(t)]) continue;
+        const Complex first = sheet.uv[next_halfedge(t)] - sheet.uv[h];
+        const Complex second = sheet.uv[t] - sheet.uv[next_halfedge(h)];
+        if (first != second) continue;
+        sheet.border[h] = 0;
+        sheet.step[h] = first;
+    }
+}
+
+void number_sheets(FlatSheet& sheet)
+{
+    sheet.sheet.assign(sheet.triangles.rows(), -1);
+    Index number = 0;
+    std::vector<Index> front;
+    for (Index f = 0; f < static_cast<Index>(sheet.sheet.size()); ++f) {
+        if (sheet.sheet[f] >= 0) continue;
+        front.assign(1, f);
+        sheet.sheet[f] = number;
+        while (!front.empty()) {
+            const Index g = front.back();
+            front.pop_back();
+            for (Index h = 3 * g; h < 3 * g + 3; ++h) {
+                if (sheet.border[h] || sheet.sheet[face_of(sheet.twin[h])] >= 0) continue;
+                sheet.sheet[face_of(sheet.twin[h])] = number;
+                front.push_back(face_of(sheet.twin[h]));
+            }
+        }
+        ++number;
+    }
+}
+
+void measure(FlatSheet& sheet)
+{
+    const Eigen::Index count = sheet.vertices.rows();
+    std::vector<double> on_surface(count, 0.0), in_uv(count, 0.0);
+    sheet.normals = Vertices::Zero(count, 3);
+    double flat = 0.0;
+    for (Index f = 0; f < static_cast<Index>(sheet.triangles.rows()); ++f) {
+        const Eigen::RowVector3d normal = area_vector(sheet, f);
+        const double area = length_of(normal), uv_area = std::max(0.0, sheet.twice_area(f));
+        sheet.area += 0.5 * area;
+        flat += 0.5 * uv_area;
+        for (int k = 0; k < 3; ++k) {
+            const Index v = sheet.triangles(f, k);
+            on_surface[v] += area;
+            in_uv[v] += uv_area;
+            if (!(area > 0.0)) continue;
+            const Eigen::RowVector3d a = sheet.vertices.row(sheet.triangles(f, (k + 1) % 3)) - sheet.vertices.row(v);
+            const Eigen::RowVector3d b = sheet.vertices.row(sheet.triangles(f, (k + 2) % 3)) - sheet.vertices.row(v);
+            sheet.normals.row(v) += std::atan2(area, a.dot(b)) / area * normal;
+        }
+    }
+    sheet.mean_scale = flat > 0.0 ? std::sqrt(sheet.area / flat) : 1.0;
+    sheet.scale.resize(count);
+    for (Eigen::Index v = 0; v < count; ++v) {
+        sheet.scale[v] = in_uv[v] > 0.0 ? std::sqrt(on_surface[v] / in_uv[v]) : sheet.mean_scale;
+        const double length = length_of(sheet.normals.row(v));
+        if (length > 0.0) sheet.normals.row(v) /= length;
+    }
+}
+
+}  // namespace
+
+double FlatSheet::twice_area(Index f) const { return cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0)); }
+
+double FlatSheet::scale_at(Index f, const Eigen::RowVector3d& weights) const
+{
+    double result = 0.0;
+    for (int k = 0; k < 3; ++k) result += weights[k] * scale[triangles(f, k)];
+    return result;
+}
+
+Eigen::RowVector3d FlatSheet::position_at(Index f, const Eigen::RowVector3d& weights) const
+{
+    Eigen::RowVector3d result = Eigen::RowVector3d::Zero();
+    for (int k = 0; k < 3; ++k) result += weights[k] * vertices.row(triangles(f, k));
+    return result;
+}
+
+Complex FlatSheet::uv_at(Index f, const Eigen::RowVector3d& weights) const
+{
+    return weights[0] * corner(f, 0) + weights[1] * corner(f, 1) + weights[2] * corner(f, 2);
+}
+
+Eigen::RowVector3d FlatSheet::weights_of(Index f, Complex place) const
+{
+    const double whole = twice_area(f);
+    Eigen::RowVector3d weights;
+    for (int k = 0; k < 3; ++k)
+        weights[k] = cross(corner(f, (k + 1) % 3) - place, corner(f, (k + 2) % 3) - place) / whole;
+    return weights;
+}
+
+LiftedFrame lifted_frame(const FlatSheet& sheet, Index f, Complex place)
+{
+    const Complex b = sheet.corner(f, 1) - sheet.corner(f, 0), c = sheet.corner(f, 2) - sheet.corner(f, 0);
+    const Eigen::RowVector3d a = sheet.vertices.row(sheet.triangles(f, 0));
+    const Eigen::RowVector3d edge = sheet.vertices.row(sheet.triangles(f, 1)) - a;
+    const Eigen::RowVector3d other = sheet.vertices.row(sheet.triangles(f, 2)) - a;
+    const double whole = cross(b, c);
+    const Eigen::RowVector3d weights = sheet.weights_of(f, place);
+    LiftedFrame frame;
+    frame.position = sheet.position_at(f, weights);
+    frame.along_u = (c.imag() * edge - b.imag() * other) / whole;
+    frame.along_v = (b.real() * other - c.real() * edge) / whole;
+    frame.normal = Eigen::RowVector3d::Zero();
+    for (int k = 0; k < 3; ++k) frame.normal += weights[k] * sheet.normals.row(sheet.triangles(f, k));
+    frame.normal.normalize();
+    frame.scale = sheet.scale_at(f, weights);
+    return frame;
+}
+
+FlatSheet flat_sheet(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& corner_uvs, double grid,
+                     std::vector<Complex> periods)
+{
+    FlatSheet sheet;
+    sheet.vertices = vertices;
+    sheet.triangles = triangles;
+    sheet.grid = grid;
+    sheet.periods = std::move(periods);
+    sheet.uv.resize(corner_uvs.rows());
+    for (Eigen::Index c = 0; c < corner_uvs.rows(); ++c) sheet.uv[c] = {corner_uvs(c, 0), corner_uvs(c, 1)};
+    sheet.twin = pair_halfedges(triangles, static_cast<Index>(vertices.rows()));
+    find_steps(sheet);
+    number_sheets(sheet);
+    measure(sheet);
+    return sheet;
+}
+
+}  // namespace koebe

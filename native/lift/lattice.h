@@ -1,0 +1,40 @@
+// Lattices of shapes in the plane, and how they fit a period or two.
+#pragma once
+
+#include "core/types.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace koebe {
+
+/// A pattern that repeats along a and b. With cells of size 1 between the middles of neighbours.
+struct Lattice {
+    Complex a, b;
+    std::vector<std::vector<Complex>> shapes;  ///< of one cell, counter-clockwise, convex
+    int columns = 1;                           ///< cells in the direction of the real axis along a
+};
+
+/// The lattice of a built-in pattern: hexagons, triangles, diamonds or stripes.
+/// @param bridge between shapes, for cells of size 1: from 0 to below 1
+Lattice lattice_of(const std::string& pattern, double bridge);
+
+/// A lattice laid over a domain: the shapes around each place, and these places.
+struct LaidLattice {
+    std::vector<std::vector<Complex>> shapes;
+    std::vector<Complex> places;
+    double bend = 1.0;  ///< longest over shortest image of a unit vector: above 1 the lattice is no longer regular
+};
+
+/// @param periods of the domain: none, one along the real axis, or two
+/// @param size of a cell in the plane @param repeats round the one period; 0: as the size asks for
+/// @param low, high corners of the domain's bounding box, with one period between the rims
+/// @throws InputError repeats that the lattice does not allow, with the nearest that it allows; too many cells
+LaidLattice lay_lattice(const Lattice& lattice, const std::vector<Complex>& periods, double size, int repeats,
+                        Complex low, Complex high);
+
+/// A convex polygon with its corners cut, thrice [Chaikin 1974].
+std::vector<Complex> rounded_corners(std::vector<Complex> polygon);
+
+}  // namespace koebe

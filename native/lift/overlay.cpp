@@ -1,0 +1,313 @@
+#include "lift/overlay.h"
+
+#include "lift/outline_walk.h"
+#include "mesh/connectivity.h"
+#include "planar/divided_polygon.h"
+#include "quality/stored_uv.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+enum class Fault { border, too_fine, crossing };
+
+using Faults = std::vector<std::pair<Index, Fault>>;  // an outline, and why it cannot be drawn
+
+std::uint64_t key_of(Index a, Index b)
+{
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+class Drawing {
+public:
+    Drawing(const FlatSheet& sheet, const std::vector<Outline>& outlines) : sheet_(sheet), outlines_(outlines) {}
+
+    /// @return outlines that cannot be drawn; if there is one, the result is of no use
+    Faults run(Overlay& result)
+    {
+        walk_all();
+        if (!faults_.empty()) return faults_;
+        sort_edges();
+        number_vertices(result);
+        divide_faces(result);
+        if (!faults_.empty()) return faults_;
+        find_regions(result);
+        return faults_;
+    }
+
+private:
+    struct FacePart {
+        std::vector<Index> inside;                 // nodes inside the face
+        std::vector<std::array<Index, 2>> chords;  // nodes
+        Index outline = -1;
+    };
+
+    void blame(Index outline, Fault fault) { faults_.emplace_back(outline, fault); }
+
+    void walk_all()
+    {
+        std::unordered_map<Index, Index> owner;  // of vertices
+        for (Index o = 0; o < static_cast<Index>(outlines_.size()); ++o) {
+            OutlinePath path = walk_outline(sheet_, outlines_[o], nodes_);
+            if (path.end != WalkEnd::closed) {
+                blame(o, path.end == WalkEnd::border ? Fault::border : Fault::too_fine);
+                paths_.emplace_back();
+                continue;
+            }
+            for (const OutlineStep& step : path.steps)
+                if (const Index v = nodes_[step.node].vertex; v >= 0 && owner.emplace(v, o).first->second != o)
+                    blame(o, Fault::crossing);
+            paths_.push_back(std::move(path.steps));
+        }
+    }
+
+    void sort_edges()
+    {
+        for (Index o = 0; o < static_cast<Index>(paths_.size()); ++o) {
+            const std::vector<OutlineStep>& steps = paths_[o];
+            for (std::size_t i = 0; i < steps.size(); ++i) {
+                const OutlineNode& node = nodes_[steps[i].node];
+                if (node.halfedge >= 0) {
+                    on_edge_[node.halfedge].push_back(steps[i].node);
+                    touch(face_of(node.halfedge), o);
+                    touch(face_of(sheet_.twin[node.halfedge]), o);
+                } else if (node.vertex < 0) {
+                    touch(node.face, o).inside.push_back(steps[i].node);
+                }
+                const Index before = steps[(i + steps.size() - 1) % steps.size()].node;
+                touch(steps[i].face, o).chords.push_back({before, steps[i].node});
+            }
+        }
+        for (auto& [halfedge, list] : on_edge_) std::ranges::sort(list, {}, [&](Index n) { return nodes_[n].share; });
+    }
+
+    FacePart& touch(Index face, Index outline)
+    {
+        FacePart& part = parts_[face];
+        part.outline = std::max(part.outline, outline);
+        return part;
+    }
+
+    void number_vertices(Overlay& result)
+    {
+        vertex_of_.assign(nodes_.size(), -1);
+        Index count = static_cast<Index>(sheet_.vertices.rows());
+        std::vector<Index> added;
+        for (const auto& steps : paths_)
+            for (const OutlineStep& step : steps) {
+                const OutlineNode& node = nodes_[step.node];
+                vertex_of_[step.node] = node.vertex >= 0 ? node.vertex : count++;
+                if (node.vertex < 0) added.push_back(step.node);
+            }
+        result.vertices.resize(count, 3);
+        result.normals.resize(count, 3);
+        result.vertices.topRows(sheet_.vertices.rows()) = sheet_.vertices;
+        result.normals.topRows(sheet_.vertices.rows()) = sheet_.normals;
+        for (const Index n : added) lift(nodes_[n], vertex_of_[n], result);
+        for (const auto& steps : paths_) {
+            result.loops.emplace_back();
+            for (const OutlineStep& step : steps) result.loops.back().push_back(vertex_of_[step.node]);
+        }
+    }
+
+    void lift(const OutlineNode& node, Index vertex, Overlay& result) const
+    {
+        Eigen::RowVector3d weights = Eigen::RowVector3d::Zero();
+        Index face = node.face;
+        if (node.halfedge >= 0) {
+            face = face_of(node.halfedge);
+            weights[node.halfedge % 3] = 1.0 - node.share;
+            weights[next_halfedge(node.halfedge) % 3] = node.share;
+        } else {
+            weights = sheet_.weights_of(face, node.uv);
+        }
+        result.vertices.row(vertex) = sheet_.position_at(face, weights);
+        Eigen::RowVector3d normal = Eigen::RowVector3d::Zero();
+        for (int k = 0; k < 3; ++k) normal += weights[k] * sheet_.normals.row(sheet_.triangles(face, k));
+        const double length = normal.norm();
+        result.normals.row(vertex) = length > 0.0 ? (normal / length).eval() : normal;
+    }
+
+    void divide_faces(Overlay& result)
+    {
+        std::vector<Index> corners;
+        for (Index f = 0; f < static_cast<Index>(sheet_.triangles.rows()); ++f) {
+            const auto part = parts_.find(f);
+            if (part == parts_.end()) {
+                for (int k = 0; k < 3; ++k) {
+                    corners.push_back(sheet_.triangles(f, k));
+                    result.uv.push_back(sheet_.corner(f, k));
+                }
+                result.face.push_back(f);
+            } else {
+                divide(f, part->second, corners, result);
+            }
+        }
+        result.triangles =
+            Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    }
+
+    void divide(Index f, const FacePart& part, std::vector<Index>& corners, Overlay& result)
+    {
+        std::vector<Complex> polygon, inside;
+        std::vector<Index> vertices;
+        std::unordered_map<Index, Index> place;  // of a vertex in the polygon and the points inside
+        const auto add = [&](std::vector<Complex>& to, Complex z, Index vertex) {
+            to.push_back(z);
+            place.emplace(vertex, static_cast<Index>(vertices.size()));
+            vertices.push_back(vertex);
+        };
+        for (int k = 0; k < 3; ++k) {
+            add(polygon, sheet_.corner(f, k), sheet_.triangles(f, k));
+            const Index h = 3 * f + k;
+            const bool own = sheet_.border[h] || h < sheet_.twin[h];
+            const auto list = on_edge_.find(own ? h : sheet_.twin[h]);
+            if (list == on_edge_.end()) continue;
+            std::vector<Index> in_order = list->second;
+            if (!own) std::ranges::reverse(in_order);
+            for (const Index n : in_order) add(polygon, node_place(sheet_, nodes_[n], f), vertex_of_[n]);
+        }
+        for (const Index n : part.inside) add(inside, nodes_[n].uv, vertex_of_[n]);
+        std::vector<std::array<Index, 2>> segments;
+        for (const auto& [a, b] : part.chords) {
+            const auto from = place.find(vertex_of_[a]), to = place.find(vertex_of_[b]);
+            if (from == place.end() || to == place.end())
+                blame(part.outline, Fault::too_fine);
+            else
+                segments.push_back({from->second, to->second});
+        }
+        const Triangles pieces = divided_polygon(polygon, inside, segments);
+        if (pieces.rows() == 0) blame(part.outline, Fault::crossing);
+        polygon.insert(polygon.end(), inside.begin(), inside.end());
+        for (Eigen::Index t = 0; t < pieces.rows(); ++t) {
+            std::array<StoredPoint, 3> stored{};
+            for (int k = 0; k < 3; ++k) {
+                const Complex z = polygon[pieces(t, k)];
+                stored[k] = {as_stored(z.real()), as_stored(z.imag())};
+                corners.push_back(vertices[pieces(t, k)]);
+                result.uv.push_back(z);
+            }
+            if (StoredFace(stored[0], stored[1], stored[2]).doubtful()) blame(part.outline, Fault::too_fine);
+            result.face.push_back(f);
+        }
+    }
+
+    void find_regions(Overlay& result)
+    {
+        const std::vector<Index> twin = pair_halfedges(result.triangles, static_cast<Index>(result.vertices.rows()));
+        std::unordered_map<std::uint64_t, Index> outline_at;
+        for (Index o = 0; o < static_cast<Index>(result.loops.size()); ++o)
+            for (std::size_t i = 0; i < result.loops[o].size(); ++i)
+                outline_at[key_of(result.loops[o][i], result.loops[o][(i + 1) % result.loops[o].size()])] = o;
+        result.region.assign(result.triangles.rows(), -1);
+        std::vector<std::vector<Index>> begin(result.loops.size());
+        std::vector<std::size_t> found(result.loops.size(), 0);
+        for (Index h = 0; h < static_cast<Index>(twin.size()); ++h) {
+            const Index a = origin(result.triangles, h), b = target(result.triangles, h);
+            const auto at = outline_at.find(key_of(a, b));
+            if (at == outline_at.end()) continue;
+            const std::vector<Index>& loop = result.loops[at->second];
+            const std::size_t i = static_cast<std::size_t>(std::ranges::find(loop, a) - loop.begin());
+            if (loop[(i + 1) % loop.size()] != b) continue;
+            begin[at->second].push_back(h);
+            ++found[at->second];
+        }
+        for (Index o = 0; o < static_cast<Index>(begin.size()); ++o) {
+            if (found[o] != result.loops[o].size()) {
+                blame(o, Fault::crossing);  // a chord runs through another outline's point
+                continue;
+            }
+            flood(o, begin[o], twin, outline_at, result);
+        }
+    }
+
+    /// Numbers the faces inside an outline, and checks that they are a disk.
+    void flood(Index o, const std::vector<Index>& begin, const std::vector<Index>& twin,
+               const std::unordered_map<std::uint64_t, Index>& outline_at, Overlay& result)
+    {
+        std::vector<Index> front, faces;
+        const auto visit = [&](Index f) {
+            if (result.region[f] == o) return;
+            if (result.region[f] >= 0) blame(o, Fault::crossing);
+            result.region[f] = o;
+            front.push_back(f);
+            faces.push_back(f);
+        };
+        for (const Index h : begin) visit(face_of(h));
+        std::set<Index> vertices;
+        Index edges = 0;  // twice those between two faces, and those at the region's rim
+        bool at_border = false;
+        while (!front.empty()) {
+            const Index f = front.back();
+            front.pop_back();
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                vertices.insert(origin(result.triangles, h));
+                const bool chord =
+                    outline_at.contains(key_of(origin(result.triangles, h), target(result.triangles, h)));
+                edges += chord ? 2 : 1;
+                if (chord) continue;
+                if (twin[h] == no_twin) {
+                    at_border = true;
+                    ++edges;
+                } else {
+                    visit(face_of(twin[h]));
+                }
+            }
+            if (faces.size() > result.region.size()) break;
+        }
+        for (const Index h : begin)  // the other side must be outside
+            if (twin[h] == no_twin || result.region[face_of(twin[h])] == o) at_border = true;
+        const Index euler = static_cast<Index>(vertices.size()) - edges / 2 + static_cast<Index>(faces.size());
+        if (at_border || euler != 1) blame(o, Fault::border);
+    }
+
+    const FlatSheet& sheet_;
+    const std::vector<Outline>& outlines_;
+    std::vector<OutlineNode> nodes_;
+    std::vector<std::vector<OutlineStep>> paths_;
+    std::unordered_map<Index, std::vector<Index>> on_edge_;
+    std::unordered_map<Index, FacePart> parts_;
+    std::vector<Index> vertex_of_;
+    Faults faults_;
+};
+
+/// Takes out the groups of the faulty outlines. Each group counts once.
+void leave_out(const Faults& faults, std::vector<Outline>& outlines, LeftOut& left_out)
+{
+    std::unordered_map<Index, Fault> groups;
+    for (const auto& [outline, fault] : faults) groups.emplace(outlines[outline].group, fault);
+    for (const auto& [group, fault] : groups)
+        ++(fault == Fault::border     ? left_out.at_border
+           : fault == Fault::too_fine ? left_out.too_fine
+                                      : left_out.crossing);
+    for (const Outline& o : outlines)
+        if (groups.contains(o.group) && o.face >= 0) left_out.faces.push_back(o.face);
+    std::erase_if(outlines, [&](const Outline& o) { return groups.contains(o.group); });
+}
+
+}  // namespace
+
+Overlay draw_outlines(const FlatSheet& sheet, std::vector<Outline> outlines)
+{
+    LeftOut left_out;
+    while (true) {
+        Overlay result;
+        const Faults faults = Drawing(sheet, outlines).run(result);
+        if (faults.empty()) {
+            result.outlines = std::move(outlines);
+            std::ranges::sort(left_out.faces);
+            left_out.faces.erase(std::unique(left_out.faces.begin(), left_out.faces.end()), left_out.faces.end());
+            result.left_out = std::move(left_out);
+            return result;
+        }
+        leave_out(faults, outlines, left_out);
+    }
+}
+
+}  // namespace koebe

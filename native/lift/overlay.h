@@ -1,0 +1,39 @@
+// Outlines drawn into a sheet: they become edges, and every face knows in which outline it lies.
+#pragma once
+
+#include "lift/flat_sheet.h"
+#include "lift/outline.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// Why outlines were left out.
+struct LeftOut {
+    Index at_border = 0;            ///< they meet or enclose a hole or a rim, or meet a cut that is no period
+    Index too_fine = 0;             ///< 32-bit UVs cannot hold them, or they meet themselves
+    Index crossing = 0;             ///< they meet another outline
+    std::vector<Index> faces = {};  ///< where they begin: of the surface, ascending
+
+    Index all() const { return at_border + too_fine + crossing; }
+};
+
+/// The vertices of the sheet come first, unchanged; those of the outlines follow.
+struct Overlay {
+    Vertices vertices, normals;
+    Triangles triangles;
+    std::vector<Complex> uv;                ///< (3F)
+    std::vector<Index> face;                ///< (F) the sheet's face of each
+    std::vector<Index> region;              ///< (F) innermost outline that holds the face, or -1
+    std::vector<Outline> outlines;          ///< those that were drawn
+    std::vector<std::vector<Index>> loops;  ///< the vertices of each outline, in order
+    LeftOut left_out;
+};
+
+/// Cuts faces along the outlines by constrained Delaunay triangulations in their charts with exact predicates. Vertices
+/// of the outlines have barycentric coordinates on the surface. Outlines that cannot be drawn are left out, with their
+/// group, and counted. In the result no two outlines meet, each bounds a disk, and every
+/// new face is upright in 32-bit UVs.
+Overlay draw_outlines(const FlatSheet& sheet, std::vector<Outline> outlines);
+
+}  // namespace koebe

@@ -1,0 +1,33 @@
+// The built-in patterns, as outlines on a sheet.
+#pragma once
+
+#include "core/api.h"
+#include "lift/flat_sheet.h"
+#include "lift/outline.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace koebe {
+
+struct PatternOptions {
+    double size = 0.0;    ///< of a cell with its share of the bridge, in the unit of the vertices
+    double bridge = 0.0;  ///< between two outlines
+    int repeats = 0;      ///< of a lattice round a ring; 0: as the size asks for
+    std::uint64_t seed = 1;
+};
+
+/// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds and stripes
+/// lie in lattices that are even in the domain, and go on over the cut of a ring or a torus.
+KOEBE_API const std::vector<std::string>& pattern_names();
+
+struct Pattern {
+    std::vector<Outline> outlines;
+    double bend = 1.0;  ///< of the lattice, so that it fits a torus (LaidLattice)
+};
+
+/// @throws InputError no such pattern; a size, bridge or repeats that do not fit the surface
+Pattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options);
+
+}  // namespace koebe

@@ -1,0 +1,85 @@
+"""Brings flat patterns onto surfaces."""
+
+import copy
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._input import surface_of
+from ._native import _koebe
+from ._options import callback, filled, takes, token
+from ._result import Warning
+from ._signatures import LiftOptions
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+
+
+class LiftResult:
+    """A surface with a pattern on it, and its report.
+
+    vertices     (V, 3) float64; of a perforated sheet the surface's own come first, in their order
+    triangles    (F, 3) int32
+    uv           (F, 3, 2) float64 of corners in [0, 1]^2, the map's; walls have no area in it; of a solid (0, 3, 2)
+    original     (V,) int32: the vertex of the surface that lies there, to the last bit; -1: there is none
+    patch        (F,) int32: of a sheet 0, and 1 raised, 2 walls; of a solid 0 outside, 1 inside, 2 walls
+    shape, pattern, size, bridge    as asked for or chosen; lengths in the unit of the vertices
+    bend         above 1: a lattice is stretched by this much, so that it fits a torus
+    outlines     on the surface
+    left_out     dict of counts, why outlines were left out: at_border, too_fine, crossing
+    loops, euler    dicts before and after: boundary loops and Euler characteristic of the sheet
+    closed       whether it is a solid
+    converged    of the map
+    warnings     list of Warning: of the map, and left_out with the faces where such outlines begin
+    """
+
+    pattern: str
+    outlines: int
+    left_out: dict[str, int]
+    loops: dict[str, int]
+    euler: dict[str, int]
+    closed: bool
+    converged: bool
+
+    def __init__(self, report: dict[str, Any], native: Any) -> None:
+        self._report = report
+        hidden = ("input", "vertices", "faces")
+        vars(self).update({name: value for name, value in report.items() if name not in hidden})
+        self.vertices: np.ndarray = native.vertices
+        self.triangles: np.ndarray = native.triangles
+        self.uv: np.ndarray = native.uv.reshape(-1, 3, 2)
+        self.original: np.ndarray = native.original
+        self.patch: np.ndarray = native.patch
+        for array in (self.vertices, self.triangles, self.uv, self.original, self.patch):
+            array.flags.writeable = False
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict, with options."""
+        return copy.deepcopy(self._report)
+
+    def __repr__(self) -> str:
+        kind = "closed" if self.closed else f"{self.loops['after']} loops"
+        return f"<koebe.LiftResult {self.outlines} {self.pattern}, {len(self.triangles)} faces, {kind}>"
+
+
+@takes("lift", LiftOptions, progress=None, cancel=None)
+def lift(vertices: Any, triangles: Any = None, pattern: str = "circles", **given: "Unpack[LiftOptions]") -> LiftResult:
+    """Bring a flat pattern onto a surface, through a map of the surface: as holes, as a relief, as a closed solid.
+
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
+    pattern      circles or voronoi, which are even on the surface; hexagons, triangles, diamonds or stripes, whose
+                 lattices are even in the domain
+    {options}
+    progress, cancel    as for `uniformize`
+    Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. Where it
+    returns, each outline that is not left out has become one hole or one hill, no face is flipped, and a solid is
+    closed.
+    """
+    options, said = filled("lift", _koebe.LiftOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
+    source = surface_of(vertices, triangles)
+    if not isinstance(pattern, str):
+        raise TypeError(f"pattern must be a text, not {pattern!r}")
+    native = _koebe.lift(source.vertices, source.triangles, pattern, options, progress, cancel)
+    return LiftResult({**native.report(), "options": said}, native)

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The picture of docs/lift.md: a ring with a seamless lattice of hexagons, and a lampshade of Voronoi cells.
+
+    blender -b --factory-startup --python-exit-code 1 -P scripts/lift_picture.py -- docs/images/lift.jpg [SAMPLES]
+
+Both are closed solids that the command `koebe lift` makes; the environment variable KOEBE_COMMAND may name another one.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Vector
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.dont_write_bytecode = True
+
+import studio  # noqa: E402
+
+COMMAND = os.environ.get("KOEBE_COMMAND", str(Path(__file__).resolve().parent.parent / "build" / "koebe"))
+SIZE = (1000, 500)
+SHARP = 0.6  # radians between two faces at an edge that is not smooth
+
+
+def tube(rows, around, place):
+    """A tube of quadrilaterals, cut in two: place(share of the height, angle) -> (n, 3)."""
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(rows + 1), np.arange(around), indexing="ij"))
+    points = place(i / rows, 2 * np.pi * j / around)
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(rows), np.arange(around), indexing="ij"))
+    a, b = i * around + j, i * around + (j + 1) % around
+    c, d = a + around, b + around
+    return points, np.concatenate([np.stack([a, b, d], 1), np.stack([a, d, c], 1)])
+
+
+def finger_ring(height, angle):
+    """A ring for a finger in millimetres, a little rounded outwards."""
+    z = 6.4 * (height - 0.5)
+    radius = 9.5 + 0.5 * np.cos(np.pi * (height - 0.5))
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
+
+
+def lampshade(height, angle):
+    radius = 5.6 + 2.3 * np.sin(np.pi * (0.12 + 0.78 * height)) - 1.2 * height
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), 15.0 * height])
+
+
+def lifted(points, faces, *options):
+    """The solid of `koebe lift`: points and triangles."""
+    with tempfile.TemporaryDirectory() as folder:
+        surface, solid = Path(folder) / "in.obj", Path(folder) / "out.obj"
+        lines = ["v {} {} {}".format(*p) for p in points] + ["f {} {} {}".format(*f) for f in faces + 1]
+        surface.write_text("\n".join(lines) + "\n", encoding="ascii")
+        pattern, *rest = options
+        subprocess.run([COMMAND, "lift", surface, pattern, solid, *rest], check=True)
+        rows = [line.split() for line in solid.read_text(encoding="ascii").splitlines()]
+    return (
+        [tuple(map(float, row[1:4])) for row in rows if row and row[0] == "v"],
+        [tuple(int(corner) - 1 for corner in row[1:4]) for row in rows if row and row[0] == "f"],
+    )
+
+
+def metal(name, color, roughness, metallic):
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    surface = material.node_tree.nodes["Principled BSDF"]
+    surface.inputs["Base Color"].default_value = color
+    surface.inputs["Roughness"].default_value, surface.inputs["Metallic"].default_value = roughness, metallic
+    return material
+
+
+def add(name, solid, material, place, turn, scale):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(solid[0], [], solid[1])
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+    if hasattr(mesh, "use_auto_smooth"):
+        mesh.use_auto_smooth, mesh.auto_smooth_angle = True, SHARP
+    else:
+        mesh.set_sharp_from_angle(angle=SHARP)
+    mesh.materials.append(material)
+    obj = bpy.data.objects.new(name, mesh)
+    obj.location, obj.rotation_euler, obj.scale = place, turn, (scale,) * 3
+    bpy.context.scene.collection.objects.link(obj)
+
+
+def add_lamp(place, energy, size, color=(1.0, 1.0, 1.0), at=(0.0, 0.0, 0.5)):
+    light = bpy.data.lights.new("light", "AREA")
+    light.energy, light.size, light.color = energy, size, color
+    lamp = bpy.data.objects.new("light", light)
+    lamp.location = place
+    lamp.rotation_euler = (Vector(place) - Vector(at)).to_track_quat("Z", "Y").to_euler()
+    bpy.context.scene.collection.objects.link(lamp)
+
+
+def main():
+    out, *samples = sys.argv[sys.argv.index("--") + 1 :]
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    ring = lifted(*tube(24, 240, finger_ring), "hexagons", "--shape", "ring", "--perforate", "--repeats", "36",
+                  "--bridge", "0.45", "--thickness", "1.1")  # fmt: skip
+    shade = lifted(*tube(90, 220, lampshade), "voronoi", "--shape", "ring", "--perforate", "--size", "2.4",
+                   "--bridge", "0.5", "--thickness", "0.45")  # fmt: skip
+    add("ring", ring, metal("gold", (0.9, 0.6, 0.22, 1.0), 0.22, 1.0), (-1.2, 0.0, 0.88), (0.62, -0.3, 0.0), 0.105)
+    add("shade", shade, metal("clay", (0.62, 0.55, 0.47, 1.0), 0.6, 0.0), (1.2, 0.1, 0.0), (0.0, 0.0, 0.0), 0.135)
+    bpy.ops.mesh.primitive_plane_add(size=60.0)
+    bpy.context.object.data.materials.append(studio.plain_material(studio.BACKDROP))
+    add_lamp((-3.0, -3.5, 5.0), 170.0, 2.5)
+    add_lamp((4.0, -2.0, 3.5), 50.0, 3.0)
+    glow = bpy.data.lights.new("glow", "POINT")
+    glow.energy, glow.color, glow.shadow_soft_size = 16.0, (1.0, 0.72, 0.4), 0.12
+    lamp = bpy.data.objects.new("glow", glow)
+    lamp.location = (1.2, 0.1, 1.0)
+    scene.collection.objects.link(lamp)
+    studio.surround(scene, (0.9, 0.93, 1.0, 1.0), 0.42)
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.lens = 62.0
+    camera.location = (0.05, -8.6, 3.2)
+    camera.rotation_euler = (Vector((0.05, 0.0, 0.98)) - camera.location).to_track_quat("-Z", "Y").to_euler()
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    render = scene.render
+    render.engine = "CYCLES"
+    render.resolution_x, render.resolution_y = SIZE
+    render.use_stamp_filename = False
+    scene.view_settings.view_transform = "Standard"
+    scene.cycles.device, scene.cycles.samples, scene.cycles.adaptive_threshold = "CPU", int(*samples or [72]), 0.03
+    scene.cycles.max_bounces = 3
+    scene.cycles.use_denoising = studio._can_denoise()
+    studio.render_jpeg(scene, out)
+
+
+main()

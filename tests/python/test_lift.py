@@ -1,0 +1,191 @@
+"""Patterns on surfaces: holes counted, solids closed, and the surface between left as it is."""
+
+import json
+import struct
+
+import koebe
+import numpy as np
+import pytest
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
+from cli_support import koebe as command
+
+AROUND, ROWS = 60, 20
+
+
+def tube():
+    """A cylinder of radius 1 and height 2."""
+    angle, height = np.meshgrid(2 * np.pi * np.arange(AROUND) / AROUND, np.linspace(0, 2, ROWS + 1))
+    points = np.stack([np.cos(angle), np.sin(angle), height], axis=2).reshape(-1, 3)
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(ROWS), np.arange(AROUND), indexing="ij"))
+    a, b = i * AROUND + j, i * AROUND + (j + 1) % AROUND
+    return points, np.concatenate([np.stack([a, b, b + AROUND], 1), np.stack([a, b + AROUND, a + AROUND], 1)])
+
+
+def edges_of(triangles):
+    """The number of faces at each edge, and of half-edges in each direction."""
+    ends = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    return np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)[1], np.unique(ends, axis=0, return_counts=True)[
+        1
+    ]
+
+
+def euler(triangles):
+    return len(np.unique(triangles)) - len(edges_of(triangles)[0]) + len(triangles)
+
+
+def loops_of(triangles):
+    return koebe.boundary_loops(triangles, vertex_count=int(triangles.max()) + 1)
+
+
+def stored_areas(uv):
+    u = uv.astype(np.float32).astype(float)
+    a, b = u[:, 1] - u[:, 0], u[:, 2] - u[:, 0]
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
+@pytest.mark.parametrize("pattern", ["circles", "hexagons", "triangles", "diamonds", "stripes", "voronoi"])
+@pytest.mark.parametrize("shape", ["ring", "disk", "parts"])
+def test_each_outline_is_one_hole(pattern, shape):
+    vertices, triangles = tube()
+    result = koebe.lift(vertices, triangles, pattern, shape=shape, size=0.4, perforate=True)
+    holes = result.outlines
+    assert holes > 5 and len(loops_of(result.triangles)) == 2 + holes and euler(result.triangles) == -holes
+    assert result.loops == {"before": 2, "after": 2 + holes} and result.euler == {"before": 0, "after": -holes}
+    assert edges_of(result.triangles)[0].max() == 2 and edges_of(result.triangles)[1].max() == 1
+    assert (stored_areas(result.uv) > 0).all()
+    own = result.original >= 0
+    assert (result.vertices[own] == vertices[result.original[own]]).all()
+    assert len(np.unique(result.original[own])) == own.sum() > 0
+
+
+def test_the_surface_between_is_the_surface():
+    vertices, triangles = tube()
+    result = koebe.lift(vertices, triangles, "voronoi", shape="ring", size=0.4, perforate=True)
+    angle = np.arctan2(result.vertices[:, 1], result.vertices[:, 0])
+    middle = (np.floor(angle * AROUND / (2 * np.pi)) + 0.5) * 2 * np.pi / AROUND  # of the facet
+    off = result.vertices[:, 0] * np.cos(middle) + result.vertices[:, 1] * np.sin(middle) - np.cos(np.pi / AROUND)
+    assert abs(off).max() < 1e-12
+
+
+def test_the_two_sides_of_the_cut_differ_by_the_period():
+    vertices, triangles = tube()
+    result = koebe.lift(vertices, triangles, "hexagons", shape="ring", repeats=20, perforate=True)
+    assert result.outlines % 20 == 0 and result.outlines > 20
+    steps = set()
+    corner = {}
+    for f, face in enumerate(result.triangles.tolist()):
+        for k in range(3):
+            corner.setdefault(face[k], set()).add(tuple(result.uv[f, k]))
+    for places in corner.values():
+        if len(places) > 1:
+            assert len(places) == 2
+            a, b = places
+            steps.add((abs(a[0] - b[0]), a[1] - b[1]))
+    assert len(steps) == 1 and next(iter(steps))[1] == 0.0
+
+
+@pytest.mark.parametrize("options", [{"perforate": True}, {"height": 0.05}, {"height": -0.02}])
+def test_a_solid_is_closed(options):
+    vertices, triangles = tube()
+    result = koebe.lift(vertices, triangles, "circles", shape="ring", size=0.4, thickness=0.1, **options)
+    faces, directed = edges_of(result.triangles)
+    assert result.closed and (faces == 2).all() and (directed == 1).all()
+    assert euler(result.triangles) == (-2 * result.outlines if "perforate" in options else 0)
+    corners = result.vertices[result.triangles]
+    assert np.linalg.det(corners).sum() / 6 > 0.5  # of 1.26 without holes: not inside out
+
+
+def test_circles_are_even_on_the_surface():
+    x, y = (k.ravel() for k in np.meshgrid(np.linspace(-1, 1, 41), np.linspace(-1, 1, 41)))
+    hill = np.stack([x, y, 1.2 * np.exp(-4 * (x**2 + y**2))], 1)
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(40), np.arange(40), indexing="ij"))
+    a = 41 * i + j
+    faces = np.concatenate([np.stack([a, a + 1, a + 42], 1), np.stack([a, a + 42, a + 41], 1)])
+    result = koebe.lift(hill, faces, "circles", size=0.2, bridge=0.04, perforate=True)
+    lengths = []
+    for loop in loops_of(result.triangles):
+        points = result.vertices[loop]
+        lengths.append(np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1).sum())
+    circles = np.sort(lengths)[:-1] / (np.pi * 0.16)
+    assert len(circles) > 60 and circles.max() < 1.1 and np.median(circles) > 0.75
+
+
+def test_the_same_seed_gives_the_same_pattern():
+    vertices, triangles = tube()
+    first, again, other = (
+        koebe.lift(vertices, triangles, "voronoi", shape="ring", size=0.5, seed=seed, perforate=True)
+        for seed in (7, 7, 8)
+    )
+    assert (first.vertices == again.vertices).all() and (first.triangles == again.triangles).all()
+    assert first.vertices.shape != other.vertices.shape or (first.vertices != other.vertices).any()
+
+
+def test_holes_stay_as_they_are():
+    vertices, quads = perforated(32)
+    faces = triangles_of(quads)
+    result = koebe.lift(vertices, faces, "hexagons", size=0.06, perforate=True)
+    assert result.left_out["at_border"] > 0 and result.loops["before"] == 4
+    (warning,) = [one for one in result.warnings if one.kind == "left_out"]
+    assert "outlines of the pattern left out" in warning.text and len(warning.elements) > 0
+    rims = {int(v) for loop in loops_of(faces) for v in loop}
+    assert rims <= set(result.original.tolist())
+
+
+def test_what_cannot_be_made_is_refused():
+    vertices, triangles = tube()
+    with pytest.raises(koebe.InputError, match="either perforate, or give a height"):
+        koebe.lift(vertices, triangles)
+    with pytest.raises(koebe.InputError, match="no pattern 'spirals'"):
+        koebe.lift(vertices, triangles, "spirals", perforate=True)
+    with pytest.raises(koebe.InputError, match="6 or 8 fit"):
+        koebe.lift(vertices, triangles, "stripes", shape="ring", repeats=7, perforate=True)
+    with pytest.raises(koebe.InputError, match="would turn over") as caught:
+        koebe.lift(vertices, triangles, "circles", shape="ring", perforate=True, thickness=2.5)
+    assert len(caught.value.elements) > 0
+    with pytest.raises(koebe.InputError, match="sunk through"):
+        koebe.lift(vertices, triangles, "circles", shape="ring", height=-0.3, thickness=0.2)
+    with pytest.raises(koebe.InputError, match="no outline"):
+        koebe.lift(vertices, triangles, "circles", shape="ring", size=40.0, perforate=True)
+
+
+def test_the_command_writes_obj_ply_and_stl(tmp_path):
+    vertices, triangles = tube()
+    (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
+    options = ["--shape", "ring", "--size", "0.4", "--perforate"]
+    run = command("lift", "in.obj", "hexagons", "out.obj", *options, "--json", "r.json", cwd=tmp_path)
+    assert run.returncode == 0 and "outlines cut out" in run.stdout, run.stderr
+    report = json.loads((tmp_path / "r.json").read_text())
+    lines = [line.split() for line in (tmp_path / "out.obj").read_text().splitlines()]
+    points = np.array([line[1:] for line in lines if line[:1] == ["v"]], float)
+    faces = [line for line in lines if line[:1] == ["f"]]
+    assert report["input"] == "in.obj" and report["options"]["size"] == 0.4 and report["faces"] == len(faces)
+    assert report["loops"]["after"] == 2 + report["outlines"]
+    result = koebe.lift(vertices, triangles, "hexagons", shape="ring", size=0.4, perforate=True)
+    assert np.array_equal(points, result.vertices)
+    run = command("lift", "in.obj", "hexagons", "out.stl", *options, "--thickness", "0.1", cwd=tmp_path)
+    assert run.returncode == 0 and "closed" in run.stdout, run.stderr
+    data = (tmp_path / "out.stl").read_bytes()
+    (count,) = struct.unpack_from("<I", data, 80)
+    assert len(data) == 84 + 50 * count
+    facets = np.frombuffer(data, np.dtype([("n", "<f4", 3), ("p", "<f4", (3, 3)), ("a", "<u2")]), count, 84)
+    index = np.unique(facets["p"].reshape(-1, 3), axis=0, return_inverse=True)[1].reshape(-1, 3)
+    assert (edges_of(index)[0] == 2).all() and (edges_of(index)[1] == 1).all()
+    sides = facets["p"][:, 1] - facets["p"][:, 0], facets["p"][:, 2] - facets["p"][:, 0]
+    assert (np.einsum("fd,fd->f", np.cross(*sides), facets["n"]) >= 0).all()
+    assert command("lift", "in.obj", "hexagons", "out.ply", *options, cwd=tmp_path).returncode == 0
+    assert koebe.lift(tmp_path / "out.ply", pattern="circles", size=0.1, height=0.01).outlines > 0
+
+
+def test_a_refusal_leaves_no_file(tmp_path):
+    vertices, triangles = tube()
+    (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
+    for name, pattern, code, *options in (
+        ("out.stl", "circles", CANNOT_BE_MAPPED, "--shape", "ring", "--perforate", "--thickness", "3"),
+        ("out.obj", "circles", CANNOT_BE_MAPPED, "--shape", "torus", "--perforate"),
+        ("out.obj", "circles", CANNOT_BE_MAPPED, "--shape", "ring"),
+        ("out.obj", "spirals", USAGE, "--perforate"),
+        ("out.off", "circles", USAGE, "--perforate"),
+    ):
+        run = command("lift", "in.obj", pattern, name, *options, cwd=tmp_path)
+        assert run.returncode == code and run.stderr, (name, pattern, options)
+        assert not (tmp_path / name).exists()
