@@ -169,7 +169,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     result.distortion = domain.map.distortion;
     result.seconds = domain.map.seconds;
 
-    Pattern pattern = built_in_pattern(domain.sheet, name, chosen);
+    DrawnPattern pattern = built_in_pattern(domain.sheet, name, chosen);
     context.checkpoint();
     result.bend = pattern.bend;
     const Overlay overlay = draw_outlines(domain.sheet, std::move(pattern.outlines));

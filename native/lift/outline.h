@@ -8,7 +8,7 @@
 namespace koebe {
 
 /// A closed polygon, counter-clockwise.
-struct Outline {
+struct DrawnOutline {
     std::vector<Complex> points;  ///< in the chart of `face`
     Index face = -1;              ///< of a sheet: holds the first point
     Index group = -1;             ///< outlines of one group are lifted together or not at all

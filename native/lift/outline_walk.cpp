@@ -21,7 +21,7 @@ struct Chart {
 
 class Walk {
 public:
-    Walk(const FlatSheet& sheet, const Outline& outline, std::vector<OutlineNode>& nodes)
+    Walk(const FlatSheet& sheet, const DrawnOutline& outline, std::vector<OutlineNode>& nodes)
         : sheet_(sheet), outline_(outline), nodes_(nodes), chart_{outline.face, 0.0}
     {
         const std::size_t n = outline.points.size();
@@ -283,7 +283,7 @@ private:
     }
 
     const FlatSheet& sheet_;
-    const Outline& outline_;
+    const DrawnOutline& outline_;
     std::vector<OutlineNode>& nodes_;
     Chart chart_;
     OutlinePath path_;
@@ -293,7 +293,7 @@ private:
 
 }  // namespace
 
-OutlinePath walk_outline(const FlatSheet& sheet, const Outline& outline, std::vector<OutlineNode>& nodes)
+OutlinePath walk_outline(const FlatSheet& sheet, const DrawnOutline& outline, std::vector<OutlineNode>& nodes)
 {
     return Walk(sheet, outline, nodes).run();
 }

@@ -38,7 +38,7 @@ struct OutlinePath {
 /// segment, and a tenth of the sheet's edge, it is led through this vertex or edge: no face becomes a sliver, and no
 /// vertex of the surface moves.
 /// @param nodes new ones are appended
-OutlinePath walk_outline(const FlatSheet& sheet, const Outline& outline, std::vector<OutlineNode>& nodes);
+OutlinePath walk_outline(const FlatSheet& sheet, const DrawnOutline& outline, std::vector<OutlineNode>& nodes);
 
 /// The node's place in the chart of a face that holds it.
 Complex node_place(const FlatSheet& sheet, const OutlineNode& node, Index face);

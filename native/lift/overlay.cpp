@@ -26,7 +26,7 @@ std::uint64_t key_of(Index a, Index b)
 
 class Drawing {
 public:
-    Drawing(const FlatSheet& sheet, const std::vector<Outline>& outlines) : sheet_(sheet), outlines_(outlines) {}
+    Drawing(const FlatSheet& sheet, const std::vector<DrawnOutline>& outlines) : sheet_(sheet), outlines_(outlines) {}
 
     /// @return outlines that cannot be drawn; if there is one, the result is of no use
     Faults run(Overlay& result)
@@ -268,7 +268,7 @@ private:
     }
 
     const FlatSheet& sheet_;
-    const std::vector<Outline>& outlines_;
+    const std::vector<DrawnOutline>& outlines_;
     std::vector<OutlineNode> nodes_;
     std::vector<std::vector<OutlineStep>> paths_;
     std::unordered_map<Index, std::vector<Index>> on_edge_;
@@ -278,7 +278,7 @@ private:
 };
 
 /// Takes out the groups of the faulty outlines. Each group counts once.
-void leave_out(const Faults& faults, std::vector<Outline>& outlines, LeftOut& left_out)
+void leave_out(const Faults& faults, std::vector<DrawnOutline>& outlines, LeftOut& left_out)
 {
     std::unordered_map<Index, Fault> groups;
     for (const auto& [outline, fault] : faults) groups.emplace(outlines[outline].group, fault);
@@ -286,14 +286,14 @@ void leave_out(const Faults& faults, std::vector<Outline>& outlines, LeftOut& le
         ++(fault == Fault::border     ? left_out.at_border
            : fault == Fault::too_fine ? left_out.too_fine
                                       : left_out.crossing);
-    for (const Outline& o : outlines)
+    for (const DrawnOutline& o : outlines)
         if (groups.contains(o.group) && o.face >= 0) left_out.faces.push_back(o.face);
-    std::erase_if(outlines, [&](const Outline& o) { return groups.contains(o.group); });
+    std::erase_if(outlines, [&](const DrawnOutline& o) { return groups.contains(o.group); });
 }
 
 }  // namespace
 
-Overlay draw_outlines(const FlatSheet& sheet, std::vector<Outline> outlines)
+Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines)
 {
     LeftOut left_out;
     while (true) {

@@ -25,7 +25,7 @@ struct Overlay {
     std::vector<Complex> uv;                ///< (3F)
     std::vector<Index> face;                ///< (F) the sheet's face of each
     std::vector<Index> region;              ///< (F) innermost outline that holds the face, or -1
-    std::vector<Outline> outlines;          ///< those that were drawn
+    std::vector<DrawnOutline> outlines;     ///< those that were drawn
     std::vector<std::vector<Index>> loops;  ///< the vertices of each outline, in order
     LeftOut left_out;
 };
@@ -34,6 +34,6 @@ struct Overlay {
 /// of the outlines have barycentric coordinates on the surface. Outlines that cannot be drawn are left out, with their
 /// group, and counted. In the result no two outlines meet, each bounds a disk, and every
 /// new face is upright in 32-bit UVs.
-Overlay draw_outlines(const FlatSheet& sheet, std::vector<Outline> outlines);
+Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines);
 
 }  // namespace koebe

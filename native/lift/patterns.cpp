@@ -14,7 +14,7 @@ namespace koebe {
 namespace {
 
 /// Finds the copy of an outline whose first point lies in the sheet. Others lie beyond its border, in no face.
-void locate(const FlatSheet& sheet, std::vector<Outline>& outlines)
+void locate(const FlatSheet& sheet, std::vector<DrawnOutline>& outlines)
 {
     std::vector<Complex> shifts{0.0};
     for (const Complex period : sheet.periods) {
@@ -55,7 +55,7 @@ Complex first_copy(const std::vector<Complex>& periods, Complex z)
            std::floor(cross(periods[0], z) / whole) * periods[1];
 }
 
-Pattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
+DrawnPattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
 {
     Complex low = sheet.uv[0], high = sheet.uv[0];
     for (const Complex z : sheet.uv) {
@@ -64,18 +64,18 @@ Pattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const P
     }
     const LaidLattice laid = lay_lattice(lattice_of(name, options.bridge / options.size), sheet.periods,
                                          options.size / sheet.mean_scale, options.repeats, low, high);
-    Pattern pattern;
+    DrawnPattern pattern;
     pattern.bend = laid.bend;
     for (const Complex place : laid.places)
         for (const std::vector<Complex>& shape : laid.shapes) {
-            Outline outline;
+            DrawnOutline outline;
             const Complex moved = first_copy(sheet.periods, place + shape[0]) - shape[0];
             for (const Complex z : shape) outline.points.push_back(moved + z);
             outline.group = static_cast<Index>(pattern.outlines.size());
             pattern.outlines.push_back(std::move(outline));
         }
     locate(sheet, pattern.outlines);
-    std::erase_if(pattern.outlines, [](const Outline& outline) { return outline.face < 0; });
+    std::erase_if(pattern.outlines, [](const DrawnOutline& outline) { return outline.face < 0; });
     for (std::size_t i = 0; i < pattern.outlines.size(); ++i) pattern.outlines[i].group = static_cast<Index>(i);
     return pattern;
 }
@@ -88,7 +88,7 @@ const std::vector<std::string>& pattern_names()
     return names;
 }
 
-Pattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
+DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
 {
     if (std::ranges::find(pattern_names(), name) == pattern_names().end()) {
         std::string all;

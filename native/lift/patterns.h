@@ -22,12 +22,12 @@ struct PatternOptions {
 /// lie in lattices that are even in the domain, and go on over the cut of a ring or a torus.
 KOEBE_API const std::vector<std::string>& pattern_names();
 
-struct Pattern {
-    std::vector<Outline> outlines;
+struct DrawnPattern {
+    std::vector<DrawnOutline> outlines;
     double bend = 1.0;  ///< of the lattice, so that it fits a torus (LaidLattice)
 };
 
 /// @throws InputError no such pattern; a size, bridge or repeats that do not fit the surface
-Pattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options);
+DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options);
 
 }  // namespace koebe

@@ -186,8 +186,8 @@ Index face_towards(const FlatSheet& sheet, const Site& site, std::vector<Complex
 
 }  // namespace
 
-std::vector<Outline> site_outlines(const FlatSheet& sheet, const std::vector<SurfacePoint>& points, SiteShape shape,
-                                   double size, double bridge)
+std::vector<DrawnOutline> site_outlines(const FlatSheet& sheet, const std::vector<SurfacePoint>& points,
+                                        SiteShape shape, double size, double bridge)
 {
     std::vector<Site> sites;
     for (const SurfacePoint& point : points) {
@@ -196,9 +196,9 @@ std::vector<Outline> site_outlines(const FlatSheet& sheet, const std::vector<Sur
                          bridge / scale});
     }
     const Neighbourhood around(sheet, sites, size / sheet.mean_scale);
-    std::vector<Outline> outlines;
+    std::vector<DrawnOutline> outlines;
     for (const Site& site : sites) {
-        Outline outline{shape == SiteShape::circles ? around.circle(site) : around.cell(site)};
+        DrawnOutline outline{shape == SiteShape::circles ? around.circle(site) : around.cell(site)};
         if (outline.points.empty()) continue;
         outline.face = face_towards(sheet, site, outline.points);
         outline.group = static_cast<Index>(outlines.size());

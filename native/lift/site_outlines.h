@@ -16,7 +16,7 @@ enum class SiteShape { circles, voronoi };
 /// bridge; its corners are round. A circle touches no other circle, and no border.
 /// @param size of a cell, bridge between two: lengths on the surface
 /// @return an outline for each site that has room
-std::vector<Outline> site_outlines(const FlatSheet& sheet, const std::vector<SurfacePoint>& sites, SiteShape shape,
-                                   double size, double bridge);
+std::vector<DrawnOutline> site_outlines(const FlatSheet& sheet, const std::vector<SurfacePoint>& sites, SiteShape shape,
+                                        double size, double bridge);
 
 }  // namespace koebe

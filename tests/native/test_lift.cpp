@@ -34,9 +34,9 @@ FlatSheet exact_sheet(const test::CircleDomain& domain, test::Lift kind)
     return flat_sheet(test::lift(domain.points, kind), domain.triangles, uv);
 }
 
-Outline circle(Complex middle, double radius, Index face, int corners = 64)
+DrawnOutline circle(Complex middle, double radius, Index face, int corners = 64)
 {
-    Outline outline;
+    DrawnOutline outline;
     for (int k = 0; k < corners; ++k) outline.points.push_back(middle + std::polar(radius, 2.0 * pi * k / corners));
     outline.face = face;
     return outline;
@@ -165,7 +165,7 @@ TEST(Overlay, LiftedCirclesAreRound)
         for (const Index faces : {3000, 12000}) {
             const FlatSheet sheet = exact_sheet(test::make_circle_domain(test::five_circles(), faces), kind);
             double worst = 0.0, size = 0.04 * sheet.mean_scale;
-            const std::vector<Outline> outlines =
+            const std::vector<DrawnOutline> outlines =
                 site_outlines(sheet, std::vector<SurfacePoint>{{face_at(sheet, {0.05, -0.75}), {0.3, 0.3, 0.4}}},
                               SiteShape::circles, size, 0.1 * size);
             const Overlay overlay = draw_outlines(sheet, outlines);
@@ -181,7 +181,7 @@ TEST(Overlay, LiftedCirclesAreRound)
 TEST(Overlay, KeepsTheSurfaceAndCountsHoles)
 {
     const FlatSheet sheet = exact_sheet(test::make_circle_domain(test::five_circles(), 4000), test::Lift::enneper);
-    const Pattern pattern = built_in_pattern(
+    const DrawnPattern pattern = built_in_pattern(
         sheet, "voronoi", {.size = 0.15 * std::sqrt(sheet.area), .bridge = 0.03 * std::sqrt(sheet.area)});
     const Overlay overlay = draw_outlines(sheet, pattern.outlines);
     ASSERT_GT(overlay.outlines.size(), 10U);
@@ -205,7 +205,7 @@ TEST(Overlay, LeavesOutWhatMeetsAHoleOrAnotherOutline)
     const test::CircleDomain domain = test::make_circle_domain(test::five_circles(), 4000);
     const FlatSheet sheet = exact_sheet(domain, test::Lift::plane);
     const auto at = [&](Complex middle, double radius, Index group) {
-        Outline outline = circle(middle, radius, face_at(sheet, middle + radius));
+        DrawnOutline outline = circle(middle, radius, face_at(sheet, middle + radius));
         outline.group = group;
         return outline;
     };
