@@ -4,8 +4,8 @@
 
 namespace koebe {
 
-/// How loops move when a map is made more even: `round` keeps each on a circle or a straight end. `automatic` is free in
-/// parts, where round loops cost long cuts, and round elsewhere.
+/// How loops move when a map is made more even: `round` keeps each on a circle or a straight end. `automatic` is free
+/// in parts, where round loops cost long cuts, and round elsewhere.
 enum class LoopForm { automatic, round, free };
 
 struct MapOptions {

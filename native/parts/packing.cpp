@@ -445,20 +445,24 @@ private:
     std::vector<CellBoard> boards_;  // of the last sheets
 };
 
+void require_finite(const std::vector<Outline>& outlines)
+{
+    for (const Outline& outline : outlines)
+        if (!outline.points.allFinite()) throw SolverError("an island to pack has a point that is NaN or infinite");
+}
+
 }  // namespace
 
 Packing pack_islands(const std::vector<Outline>& outlines, double margin)
 {
     if (outlines.empty()) return {{}, 1.0, margin};
-    for (const Outline& outline : outlines)
-        if (!outline.points.allFinite()) throw SolverError("an island to pack has a point that is NaN or infinite");
+    require_finite(outlines);
     return Packer(outlines, margin).pack();
 }
 
 SheetPacking pack_on_sheets(const std::vector<Outline>& outlines, double margin, const SheetSize& sheet)
 {
-    for (const Outline& outline : outlines)
-        if (!outline.points.allFinite()) throw SolverError("an island to pack is not finite");
+    require_finite(outlines);
     return SheetPacker(outlines, margin, sheet).pack(margin);
 }
 
