@@ -24,7 +24,7 @@ NAMED = {
     "--darts 0": ("no darts", BLUE, (8, 5), (8, 6)),
     "ours, in parts": ("ours", BLUE, (4, 12), (8, 7)),
     "--darts 0.5": ("more darts", BLUE, (2, -21), (9, 2)),
-    "--loops free": ("free loops", BLUE, (-7, -10), (-7, -9)),
+    "--loops round": ("round loops", BLUE, (-7, -10), (-7, -9)),
 }
 CLOUDS = {"ours, in parts": BLUE, "Smart UV": RED, "OptCuts": GREEN}  # drawn model by model
 PANELS = (("spread", "texel density, 95 % over 5 %", (0.85, 4.0), (1, 1.5, 2, 3, 4)),
