@@ -1,5 +1,6 @@
 #include "flatten/allowance.h"
 
+#include "flatten/edge_distance.h"
 #include "planar/boundary_crossings.h"
 
 #include <boost/geometry.hpp>
@@ -59,14 +60,6 @@ PlanarPoints points_of(const Ring& ring)
     return points;
 }
 
-double squared_distance(const Eigen::RowVector2d& p, const Eigen::RowVector2d& a, const Eigen::RowVector2d& b)
-{
-    const Eigen::RowVector2d along = b - a;
-    const double square = along.squaredNorm();
-    const double share = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
-    return (p - a - share * along).squaredNorm();
-}
-
 /// How often loops of points run round a point.
 int winding(const PlanarPoints& ring, const Eigen::RowVector2d& p)
 {
@@ -91,9 +84,8 @@ bool fit(const std::vector<PlanarPoints>& rings, const std::vector<VertexLoop>& 
             for (const VertexLoop& loop : loops)
                 for (std::size_t i = 0; i < loop.size(); ++i)
                     least = std::min(least,
-                                     squared_distance(p, points.row(loop[i]), points.row(loop[(i + 1) % loop.size()])));
-            const double distance = std::sqrt(least);
-            if (!(distance >= nearest * width && distance <= farthest * width)) return false;
+                                     distance_to_edge(p, points.row(loop[i]), points.row(loop[(i + 1) % loop.size()])));
+            if (!(least >= nearest * width && least <= farthest * width)) return false;
         }
     std::vector<VertexLoop> all = loops;
     PlanarPoints together = points;

@@ -1,5 +1,7 @@
 #include "flatten/labels.h"
 
+#include "flatten/edge_distance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -81,14 +83,6 @@ std::vector<double> notches(double length, bool closed)
     std::vector<double> shares;
     for (int i = 0; i < count; ++i) shares.push_back(closed ? i / double(count) : (i + 1) / (count + 1.0));
     return shares;
-}
-
-double distance_to_edge(const Eigen::RowVector2d& p, const Eigen::RowVector2d& a, const Eigen::RowVector2d& b)
-{
-    const Eigen::RowVector2d along = b - a;
-    const double square = along.squaredNorm();
-    const double share = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
-    return (p - a - share * along).norm();
 }
 
 }  // namespace

@@ -16,11 +16,6 @@ constexpr double least_gap_share = 0.02;  // of a sheet without page: small piec
 constexpr double larger_sheet = 1.05;     // where pieces have no room on one
 constexpr int most_pages = 1000;
 
-double extent(const PlanarPoints& points)
-{
-    return (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
-}
-
 /// The side of a square in which the pieces have about room.
 double square_for(const std::vector<PieceShape>& pieces, double margin)
 {

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace koebe::cli {
 
@@ -39,6 +40,22 @@ MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen
     };
     kind.write_mesh = corner_writer<Result>(request.format);
     kind.report = [](const Result& result) { return to_json(result); };
+    return kind;
+}
+
+/// The kind of such a map in pieces, whose faces are those of the file.
+template <typename Result, typename Options, typename Piece>
+MapKind<Result> piece_map_kind(const MapRequest& request, const Options& chosen,
+                               Result (*map)(const Vertices&, const Triangles&, const Options&, ExecutionContext&),
+                               std::vector<Piece> Result::*pieces)
+{
+    auto kind = corner_map_kind<Result, Options>(request, chosen, map);
+    kind.many_pieces = true;
+    kind.compute = [compute = kind.compute, pieces](const MeshInput& input, ExecutionContext& context) {
+        Result result = compute(input, context);
+        for (Piece& piece : result.*pieces) piece.faces = filed_faces(input.triangulation, piece.faces);
+        return result;
+    };
     return kind;
 }
 

@@ -60,13 +60,7 @@ std::string first_words(const FlattenResult& result)
 
 int run_flatten(const FlattenRequest& request)
 {
-    auto kind = corner_map_kind<FlattenResult, FlattenOptions>(request, request.chosen, flatten);
-    kind.many_pieces = true;
-    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
-        FlattenResult result = compute(input, context);
-        for (PatternPiece& piece : result.pieces) piece.faces = filed_faces(input.triangulation, piece.faces);
-        return result;
-    };
+    auto kind = piece_map_kind(request, request.chosen, flatten, &FlattenResult::pieces);
     kind.write_mesh = [&](AtomicFile& file, const MeshInput&, const FlattenResult& result) {
         file.write(is_dxf(request.output) ? pattern_dxf(result.pattern) : pattern_svg(result.pattern).front());
         return std::vector<Warning>();

@@ -13,13 +13,7 @@ namespace {
 
 int run_parts(const CornerMapRequest<PartsOptions>& request)
 {
-    auto kind = corner_map_kind<PartsResult, PartsOptions>(request, request.chosen, parts_of);
-    kind.many_pieces = true;
-    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
-        PartsResult result = compute(input, context);
-        for (PartReport& part : result.parts) part.faces = filed_faces(input.triangulation, part.faces);
-        return result;
-    };
+    auto kind = piece_map_kind(request, request.chosen, parts_of, &PartsResult::parts);
     kind.draw = [](const MeshInput&, const PartsResult& result) { return parts_svg(result.uv, result.part); };
     kind.first_words = [](const PartsResult& result) {
         return counted(result.parts.size(), "part") + ", cuts " + rounded("%.2f", result.cut_length) +
