@@ -445,7 +445,7 @@ private:
     std::vector<CellBoard> boards_;  // of the last sheets
 };
 
-void require_finite(const std::vector<Outline>& outlines)
+void require_finite_outlines(const std::vector<Outline>& outlines)
 {
     for (const Outline& outline : outlines)
         if (!outline.points.allFinite()) throw SolverError("an island to pack has a point that is NaN or infinite");
@@ -456,13 +456,13 @@ void require_finite(const std::vector<Outline>& outlines)
 Packing pack_islands(const std::vector<Outline>& outlines, double margin)
 {
     if (outlines.empty()) return {{}, 1.0, margin};
-    require_finite(outlines);
+    require_finite_outlines(outlines);
     return Packer(outlines, margin).pack();
 }
 
 SheetPacking pack_on_sheets(const std::vector<Outline>& outlines, double margin, const SheetSize& sheet)
 {
-    require_finite(outlines);
+    require_finite_outlines(outlines);
     return SheetPacker(outlines, margin, sheet).pack(margin);
 }
 

@@ -310,10 +310,10 @@ def test_the_circles_of_a_piece_are_moved_as_any_others():
 
 
 def test_a_part_is_turned_by_hand():
-    """Of Unwrap to Parts too: a disk is a circle domain, wherever it lies."""
+    """Of Unwrap to Parts too, at Even 0: a disk is a circle domain, wherever it lies."""
     obj = added(bpy.ops.mesh.primitive_monkey_add)
     scenes.select(obj)
-    bpy.ops.uv.koebe_parts(checker=False)
+    bpy.ops.uv.koebe_parts(checker=False, keep_angles=False, even=0)
     before = scenes.corner_uv(obj.data, "Koebe").copy()
     assert bpy.ops.uv.koebe_moebius(rotation=0.5) == {"FINISHED"}
     moved = (scenes.corner_uv(obj.data, "Koebe") != before).any(axis=1)

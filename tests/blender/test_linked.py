@@ -71,7 +71,7 @@ def test_what_is_said_to_be_done_is_there_after_saving_and_opening(tmp_path):
     scenes.select(obj)
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
     (entry,) = bpy.context.window_manager.koebe_uv.islands
-    assert entry.mapped and "no checker" in entry.message
+    assert entry.mapped and "did not get the checker" in entry.message
     uv = scenes.corner_uv(obj.data, "Koebe").copy()
     slots = [(slot.link, slot.material) for slot in obj.material_slots]
     assert "Koebe Checker" not in [material and material.name for _, material in slots]

@@ -308,7 +308,7 @@ def test_an_option_that_does_not_fit_one_mesh_fails_that_one(library, tmp_path):
     [
         (["library"], "--output is required"),
         (["nowhere", "--output", "out"], "does not exist"),
-        (["library/notes.txt", "--output", "out"], "no mesh file"),
+        (["library/notes.txt", "--output", "out"], "is not a mesh file"),
         (["library/s.blend", "--output", "out"], "--blender"),
         (["library/a.obj", "other/a.obj", "--output", "out"], "would both get the name a.obj"),
         (["library/a.obj", "other/a.ply", "--output", "out"], "would both write"),
