@@ -3,6 +3,20 @@
 #include "flatten/edge_distance.h"
 #include "planar/boundary_crossings.h"
 
+// These enumerations of Boost get a fixed underlying type: Boost counts beyond their last value, which Clang refuses
+// otherwise.
+// clang-format off
+#define int_float_mixture_enum int_float_mixture_enum : int
+#define sign_mixture_enum sign_mixture_enum : int
+#define udt_builtin_mixture_enum udt_builtin_mixture_enum : int
+// clang-format on
+#include <boost/numeric/conversion/int_float_mixture_enum.hpp>
+#include <boost/numeric/conversion/sign_mixture_enum.hpp>
+#include <boost/numeric/conversion/udt_builtin_mixture_enum.hpp>
+#undef int_float_mixture_enum
+#undef sign_mixture_enum
+#undef udt_builtin_mixture_enum
+
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
