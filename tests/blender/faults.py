@@ -8,7 +8,8 @@ import fingerprint
 
 # In the environment: fail at every step, or, if it is "lines", at every line, and not at a choice of them.
 EVERY_STEP = "KOEBE_EVERY_STEP"
-HANDLERS = ("after_update", "after_undo", "after_frame")  # Blender calls them and swallows what they raise: no operator fails by it
+# Blender calls them and swallows what they raise: no operator fails by it.
+HANDLERS = ("after_update", "after_undo", "after_frame")
 
 
 class Fault:
