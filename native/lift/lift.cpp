@@ -191,6 +191,8 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     else
         finish_sheet(sheet, options, result);
     add_warnings(domain.map, result);
+    result.vertex_count = static_cast<Index>(result.vertices.rows());
+    result.face_count = static_cast<Index>(result.triangles.rows());
     result.peak_memory_mb = peak_memory_mb();
     result.seconds.total = clock.elapsed();
     return result;

@@ -45,7 +45,9 @@ struct LiftOptions {
     }
 };
 
-struct LiftResult {
+/// `vertex_count` and `face_count` are those of the result; what judges a map judges the map that the pattern is drawn
+/// in.
+struct LiftResult : MapReport {
     Vertices vertices;
     Triangles triangles;
     PlanarPoints uv;              ///< (3F, 2) of corners; walls have no area, and a solid has none
@@ -59,11 +61,6 @@ struct LiftResult {
     LeftOut left_out;
     int loops_before = 0, loops_after = 0;  ///< of the sheet
     int euler_before = 0, euler_after = 0;  ///< of the sheet
-    bool converged = false;                 ///< of the map
-    Distortion distortion;                  ///< of the map
-    StageSeconds seconds;
-    double peak_memory_mb = 0.0;
-    std::vector<Warning> warnings;
 };
 
 /// Maps the surface to the domain, draws the pattern's outlines there, and brings them onto the surface: as holes, as a

@@ -8,8 +8,8 @@
 
 namespace koebe {
 
-/// {"version", "input", "shape", "pattern", "size", "bridge", "bend", "outlines", "left_out", "loops", "euler",
-/// "vertices", "faces", "closed", "converged", the map's distortion, "seconds", "peak_memory_mb", "warnings"}
+/// The report of every map (report_json), with {"shape", "pattern", "size", "bridge", "bend", "outlines", "left_out",
+/// "loops", "euler", "closed", "converged"}; "vertices" and "faces" are those of the result.
 KOEBE_API nlohmann::ordered_json to_json(const LiftResult& result);
 
 }  // namespace koebe
