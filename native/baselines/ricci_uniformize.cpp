@@ -2,6 +2,7 @@
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
+#include "core/counted.h"
 #include "core/tolerances.h"
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -32,13 +32,6 @@ constexpr double worth_a_warning = 1e-3;  // relative change of a length
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-std::string with_number(const char* format, double number)
-{
-    char text[160];
-    std::snprintf(text, sizeof text, format, number);
-    return text;
-}
 
 /// Puts vertices of the outer loop that lie outside the unit disk onto its circle.
 void draw_in(const VertexLoop& outer, PlanarPoints& points)
@@ -125,11 +118,10 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (flow.packing_change > worth_a_warning)
         result.warnings.push_back(
             {WarningKind::packing,
-             with_number("the circle packing changes edge lengths by up to %.2g of themselves", flow.packing_change)});
+             formatted("the circle packing changes edge lengths by up to %.2g of themselves", flow.packing_change)});
     if (flow.closing_gap > circle_tolerance)
-        result.warnings.push_back(
-            {WarningKind::closing_gap,
-             with_number("holes do not close: gaps up to %.2g of their length", flow.closing_gap)});
+        result.warnings.push_back({WarningKind::closing_gap,
+                                   formatted("holes do not close: gaps up to %.2g of their length", flow.closing_gap)});
     if (own_flips > 0)
         result.warnings.push_back(
             {WarningKind::flow_flips, "faces flipped by the flow's own map: " + std::to_string(own_flips)});

@@ -13,12 +13,12 @@
 #include "flatten/stretch.h"
 #include "flatten/unfold.h"
 #include "linear/dense_spd.h"
-#include "parts/layout.h"
+#include "parts/flat_mesh.h"
+#include "planar/planar_predicates.h"
 #include "quality/shared_warnings.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,17 +32,9 @@ constexpr double most_lost = 0.01;                     // of the area, in smalle
 constexpr double fewest_cuts = 50.0;                   // a price at which nothing is cut but what has to be
 constexpr double true_to_size = 1e-3;                  // stretch in the mean
 
-std::string in_millimetres(double length)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g mm", length);
-    return text;
-}
+std::string in_millimetres(double length) { return formatted("%.3g mm", length); }
 
-double extent_of(const FlatPart& part)
-{
-    return (part.points.colwise().maxCoeff() - part.points.colwise().minCoeff()).maxCoeff();
-}
+double extent_of(const FlatPart& part) { return box_size(part.points).maxCoeff(); }
 
 [[noreturn]] void throw_overlapping(const FlatPart& part)
 {
@@ -63,7 +55,7 @@ void require_one_to_one(FlatPart& part, ExecutionContext& context)
     if (!lies_one_to_one(part, uv)) throw_overlapping(part);
     double image = 0.0;
     for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
-        image += area_laid_flat(uv, part.surface.triangles, f);
+        image += signed_area(uv, part.surface.triangles, f);
     part.points = uv * std::sqrt(face_areas(part.vertices, part.surface.triangles).sum() / image);
 }
 
@@ -153,7 +145,7 @@ PatternSeam report_seam(const Seam& seam, const std::vector<FlatPart>& parts, co
 PatternPiece report_piece(const FlatPart& part, const PlanarPoints& at, int sheet)
 {
     PatternPiece piece{part.kind, part.faces};
-    const Eigen::RowVector2d size = at.colwise().maxCoeff() - at.colwise().minCoeff();
+    const Eigen::RowVector2d size = box_size(at);
     piece.width = size[0];
     piece.height = size[1];
     for (VertexLoop loop : part.surface.loops) {

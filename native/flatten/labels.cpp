@@ -1,6 +1,7 @@
 #include "flatten/labels.h"
 
 #include "flatten/edge_distance.h"
+#include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +28,7 @@ PatternSheet& sheet_of(PlacedPieces& placed, std::size_t k)
 double root_of_image(const FlatPart& part, const PlanarPoints& at)
 {
     double area = 0.0;
-    for (const auto& face : part.surface.triangles.rowwise()) {
-        const Eigen::RowVector2d a = at.row(face[1]) - at.row(face[0]), b = at.row(face[2]) - at.row(face[0]);
-        area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
-    }
+    for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f) area += signed_area(at, part.surface.triangles, f);
     return std::sqrt(std::max(area, 0.0));
 }
 

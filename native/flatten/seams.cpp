@@ -1,6 +1,6 @@
 #include "flatten/seams.h"
 
-#include "parts/layout.h"
+#include "parts/flat_mesh.h"
 
 #include <algorithm>
 #include <array>

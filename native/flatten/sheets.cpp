@@ -21,7 +21,7 @@ double square_for(const std::vector<PieceShape>& pieces, double margin)
 {
     double area = 0.0, longest = 0.0;
     for (const PieceShape& piece : pieces) {
-        const Eigen::RowVector2d size = piece.points.colwise().maxCoeff() - piece.points.colwise().minCoeff();
+        const Eigen::RowVector2d size = box_size(piece.points);
         area += 0.6 * (size[0] + margin) * (size[1] + margin);
         longest = std::max(longest, size.norm());
     }
@@ -112,7 +112,7 @@ private:
 
     double pages_for(const PlanarPoints& at) const
     {
-        const Eigen::RowVector2d size = at.colwise().maxCoeff() - at.colwise().minCoeff();
+        const Eigen::RowVector2d size = box_size(at);
         const auto pages = [&](int k) {
             return tiles(size[k] + margin(), frame_width()) * tiles(size[1 - k] + margin(), frame_height());
         };
@@ -123,7 +123,7 @@ private:
     void put_on_own_sheet(std::size_t k, IslandPlace island)
     {
         PlanarPoints at = place_island(pieces_[k].points, island, 1.0);
-        Eigen::RowVector2d size = at.colwise().maxCoeff() - at.colwise().minCoeff();
+        Eigen::RowVector2d size = box_size(at);
         const auto columns = [&] { return tiles(size[0] + margin(), frame_width()); };
         const auto rows = [&] { return tiles(size[1] + margin(), frame_height()); };
         if (columns() * rows() > pages_for(at)) {

@@ -3,7 +3,7 @@
 
 #include "flatten/pattern.h"
 #include "flatten/seams.h"
-#include "parts/packing.h"
+#include "parts/sheet_packing.h"
 
 #include <string>
 #include <vector>

@@ -6,7 +6,6 @@
 #include "flow/flat_layout.h"
 #include "mesh/connectivity.h"
 #include "parts/darts.h"
-#include "planar/boundary_crossings.h"
 #include "relax/even_map.h"
 
 #include <Eigen/Geometry>
@@ -59,22 +58,6 @@ PlanarPoints unfolded(const FlatPart& part)
 }
 
 }  // namespace
-
-double area_laid_flat(const PlanarPoints& p, const Triangles& triangles, Eigen::Index f)
-{
-    const Eigen::RowVector2d a = p.row(triangles(f, 1)) - p.row(triangles(f, 0));
-    const Eigen::RowVector2d b = p.row(triangles(f, 2)) - p.row(triangles(f, 0));
-    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
-}
-
-bool lies_one_to_one(const FlatPart& part, const PlanarPoints& at)
-{
-    if (!at.allFinite()) return false;
-    for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
-        if (!(area_laid_flat(at, part.surface.triangles, f) > 0.0)) return false;
-    return crossing_boundary_edges(part.surface.loops, at, 0.0).empty() &&
-           turned_loops(part.surface.loops, at, 0.0).empty();
-}
 
 bool is_bent_at_few_vertices(const Vertices& vertices, const Triangles& triangles)
 {

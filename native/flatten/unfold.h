@@ -7,12 +7,6 @@
 
 namespace koebe {
 
-/// The area of a face in the plane, negative if it is turned over.
-double area_laid_flat(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f);
-
-/// Whether all faces are upright, and loops are simple, apart and not turned, in 64 bits.
-bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points);
-
 /// Whether the angles round nearly all inner vertices sum to a whole turn.
 bool is_bent_at_few_vertices(const Vertices& vertices, const Triangles& triangles);
 

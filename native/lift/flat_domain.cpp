@@ -1,5 +1,6 @@
 #include "lift/flat_domain.h"
 
+#include "mesh/corner_order.h"
 #include "parts/parts.h"
 #include "pipeline/uniformize.h"
 #include "tiles/tile.h"
@@ -10,18 +11,6 @@
 
 namespace koebe {
 namespace {
-
-/// (3F, 2) for the surface's faces, from those of the input's, some of which were turned.
-PlanarPoints turned_corners(const Triangles& input, const Surface& surface, const PlanarPoints& uv)
-{
-    PlanarPoints result(uv.rows(), 2);
-    for (Eigen::Index c = 0; c < uv.rows(); ++c) {
-        Eigen::Index own = c - c % 3;
-        while (input.data()[own] != surface.triangles.data()[c]) ++own;
-        result.row(c) = uv.row(own);
-    }
-    return result;
-}
 
 PlanarPoints disk_corners(const Surface& surface, const PlanarPoints& disk)
 {
@@ -52,14 +41,14 @@ FlatDomain flat_domain(const Vertices& vertices, const Triangles& triangles, con
         PartsOptions chosen;
         chosen.even = options.even;
         PartsResult map = parts_of(vertices, triangles, chosen, context);
-        uv = turned_corners(triangles, domain.surface, map.uv);
+        uv = in_corner_order(map.uv, triangles, domain.surface.triangles);
         domain.map = std::move(map);
     } else {
         TileOptions chosen;
         chosen.even = options.even.value_or(0.0);
         TileResult map = options.shape == LiftShape::ring ? ring_map(vertices, triangles, chosen, context)
                                                           : torus_map(vertices, triangles, chosen, context);
-        uv = turned_corners(triangles, domain.surface, map.uv);
+        uv = in_corner_order(map.uv, triangles, domain.surface.triangles);
         for (const auto& period : map.periods) periods.emplace_back(period[0], period[1]);
         grid = uv_grid;
         domain.map = std::move(map);

@@ -2,7 +2,6 @@
 
 #include "core/errors.h"
 #include "cut/edge_graph.h"
-#include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "relax/even_map.h"
 
@@ -151,16 +150,6 @@ VectorXd least_heights(const FlatPart& flat)
     return least;
 }
 
-bool is_one_to_one(const FlatPart& flat)
-{
-    for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) {
-        const CornerPlaces at = corners_of(flat.points, flat.surface.triangles, f);
-        if (!(cross(at[1] - at[0], at[2] - at[0]) > 0.0)) return false;
-    }
-    return crossing_boundary_edges(flat.surface.loops, flat.points, 0.0).empty() &&
-           turned_loops(flat.surface.loops, flat.points, 0.0).empty();
-}
-
 }  // namespace
 
 std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces, double even, double price,
@@ -168,6 +157,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
 {
     const Triangles& triangles = flat.surface.triangles;
     const std::vector<char> outside = boundary_mask(flat.surface);
+    const EdgeGraph graph(seamed(flat), 1.0);
     const Tension tension(flat, forces);
     const double t = area_weight(even), compliance = 2.0 * (1.0 + t) / (8.0 * t);
     std::vector<std::pair<double, Dart>> found;
@@ -177,7 +167,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
         for (Index v = 0; v < flat.surface.vertex_count; ++v)
             if (outside[v] && (flat.held[v] != 0) == round) sources.push_back(v);
         if (sources.empty()) continue;
-        const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
+        const PathTree tree = shortest_paths(graph, sources);
         if (round) from_round = Eigen::Map<const VectorXd>(tree.distance.data(), from_round.size());
         for (Index v = 0; v < flat.surface.vertex_count; ++v) {
             if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
@@ -198,10 +188,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
     }
     std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
     double part_area = 0.0;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const CornerPlaces at = corners_of(flat.points, triangles, f);
-        part_area += 0.5 * cross(at[1] - at[0], at[2] - at[0]);
-    }
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) part_area += signed_area(flat.points, triangles, f);
     const double gap = std::min(apart_by, apart_in_part * std::sqrt(std::max(part_area, 0.0)));
     std::vector<char> taken(static_cast<std::size_t>(flat.surface.vertex_count), 0);
     std::vector<Dart> darts;
@@ -298,7 +285,7 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
                                            loop[(i + 1) % loop.size()], gap * heights[loop[i]]);
                 after.points.row(loop[i]) << z.real(), z.imag();
             }
-        if (!is_one_to_one(after)) continue;
+        if (!lies_one_to_one(after, after.points)) continue;
         for (const Dart& dart : darts) {
             std::erase(after.tips, dart.vertices.back());
             after.tips.push_back(dart.vertices.front());

@@ -8,6 +8,7 @@
 #include "parts/free_rims.h"
 #include "parts/tube_slit.h"
 #include "planar/boundary_crossings.h"
+#include "planar/planar_predicates.h"
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
 #include "surface/harmonic_map.h"
@@ -41,13 +42,6 @@ std::vector<VertexLoop> original_loops(const PartMesh& mesh)
     return loops;
 }
 
-double signed_area(const PlanarPoints& p, const Triangles& triangles, Eigen::Index f)
-{
-    const Eigen::RowVector2d a = p.row(triangles(f, 1)) - p.row(triangles(f, 0));
-    const Eigen::RowVector2d b = p.row(triangles(f, 2)) - p.row(triangles(f, 0));
-    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
-}
-
 double longest_edge(const PlanarPoints& p, const Triangles& triangles, Eigen::Index f)
 {
     double longest = 0.0;
@@ -62,8 +56,7 @@ double longest_edge(const PlanarPoints& p, const Triangles& triangles, Eigen::In
 void scale_evenly(const PartMesh& mesh, FlatPart& flat)
 {
     const Eigen::Index count = flat.surface.triangles.rows();
-    const double floor =
-        rounded_edge * (flat.points.colwise().maxCoeff() - flat.points.colwise().minCoeff()).maxCoeff();
+    const double floor = rounded_edge * box_size(flat.points).maxCoeff();
     const auto [u, lost, image] = flat_density(flat, mesh.areas, floor);
     const Evenness even = evenness(u, mesh.areas, lost);
     double sum = 0.0, known = 0.0;
@@ -294,7 +287,7 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
     for (const std::vector<Index>& rim : part.rims) {
         const PlanarPoints at = uv(rim, Eigen::all);
         if (part.kind == PartKind::tube) {
-            const Eigen::RowVector2d extent = at.colwise().maxCoeff() - at.colwise().minCoeff();
+            const Eigen::RowVector2d extent = box_size(at);
             off.push_back(std::numbers::pi * extent.minCoeff() / std::max(extent.maxCoeff(), 1e-300));
             continue;
         }
@@ -311,6 +304,15 @@ bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
     const PlanarPoints stored = uv.unaryExpr(&as_stored);
     return crossing_boundary_edges(part.surface.loops, stored, shortest_drawn).empty() &&
            turned_loops(part.surface.loops, stored, shortest_drawn).empty();
+}
+
+bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points)
+{
+    if (!points.allFinite()) return false;
+    for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
+        if (!(signed_area(points, part.surface.triangles, f) > 0.0)) return false;
+    return crossing_boundary_edges(part.surface.loops, points, 0.0).empty() &&
+           turned_loops(part.surface.loops, points, 0.0).empty();
 }
 
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)

@@ -66,6 +66,9 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv);
 /// Then a part without flips is one to one.
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
 
+/// Whether all faces are upright, and loops are simple, apart and not turned, in 64 bits. @param points (V, 2)
+bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points);
+
 /// Turns flipped faces back where the part lies in the unit square. First the boundary is held. If flips are left, all
 /// vertices move, as long as no loops cross.
 /// @param uv (V, 2) in [0, 1]^2, changed in place @return faces still flipped as 32-bit floats

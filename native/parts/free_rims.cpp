@@ -1,6 +1,7 @@
 #include "parts/free_rims.h"
 
 #include "planar/boundary_crossings.h"
+#include "planar/planar_predicates.h"
 #include "quality/distortion.h"
 #include "surface/laplacian.h"
 
@@ -197,7 +198,7 @@ void free_rims(const Vertices& vertices, const Surface& surface, const RimFreedo
     if (!points.allFinite()) return;
     RimProblem problem(vertices, surface, freedom, points);
     if (problem.empty()) return;
-    const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
+    const double extent = box_size(points).maxCoeff();
     const auto crossings = [&](const PlanarPoints& places) {
         return crossing_boundary_edges(surface.loops, places, shortest_drawn * extent).size() +
                turned_loops(surface.loops, places, shortest_drawn * extent).size();

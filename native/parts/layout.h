@@ -1,8 +1,7 @@
-// The parts of a mesh, flat, and packed into the unit square.
+// The parts of a mesh where they have been laid.
 #pragma once
 
 #include "cut/open_surface.h"
-#include "execution/execution.h"
 #include "parts/flat_part.h"
 #include "parts/parts.h"
 
@@ -35,10 +34,6 @@ struct FlatMesh {
     std::vector<LeftOutFace> left_out;
 };
 
-/// @throws as parts_of
-FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
-                   ExecutionContext& context);
-
 /// @param places (V, 2) of each part's vertices, the UVs of the layout
 PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places);
 
@@ -48,15 +43,5 @@ PlanarPoints uv_of_input(const PartsLayout& layout, const Triangles& input);
 /// Of some faces, each corner a vertex of its own. @param uv (3F, 2) in [0, 1]^2
 ComputedDistortion distortion_of_parts(const PartsLayout& layout, const PlanarPoints& uv,
                                        const std::vector<Index>& faces);
-
-/// (V) for each vertex the first of those with the same coordinates.
-std::vector<Index> first_in_place(const Vertices& vertices);
-
-/// The length of a layout's unit in the unit of the mesh.
-double root_of_area(const Vertices& vertices, const Triangles& triangles);
-
-/// Packed. @throws as parts_of
-PartsLayout parts_layout(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
-                         ExecutionContext& context);
 
 }  // namespace koebe

@@ -45,7 +45,7 @@ std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, 
     for (int round = 1; again; ++round) {
         std::vector<Outline> outlines;
         for (const FlatPart& flat : flats) outlines.push_back(outline_of(flat));
-        const Packing packing = pack_islands(outlines, margin + 2.0 * rim_slack);
+        const IslandPacking packing = pack_islands(outlines, margin + 2.0 * rim_slack);
         std::vector<char> outgrown(flats.size(), 0);
         side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
             const PlanarPoints before = place_island(flats[k].points, packing.places[k], packing.scale);

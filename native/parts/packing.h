@@ -1,4 +1,4 @@
-// Packs islands into the unit square, or onto sheets in their own size.
+// Packs islands into the unit square.
 #pragma once
 
 #include "core/api.h"
@@ -21,7 +21,7 @@ struct IslandPlace {
     Complex offset = 0.0;
 };
 
-struct Packing {
+struct IslandPacking {
     std::vector<IslandPlace> places;
     double scale = 1.0;   ///< the same for all islands
     double margin = 0.0;  ///< the margin that was kept
@@ -35,23 +35,7 @@ struct Packing {
 /// @param margin distance of two islands, and twice the distance from the border, in sides of the square. Many islands
 /// get a smaller margin, so that they have room
 /// @throws SolverError points that are NaN or infinite
-Packing pack_islands(const std::vector<Outline>& outlines, double margin);
-
-struct SheetSize {
-    double width = 0.0, height = 0.0;
-};
-
-struct SheetPacking {
-    std::vector<IslandPlace> places;
-    std::vector<int> sheet;  ///< of each island; -1: no sheet is large enough, and it lies in a corner by itself
-    int sheets = 0;
-};
-
-/// Puts islands onto sheets without a change of size, each in the lowest place of the first sheet that has room; drawn
-/// on cells as above, the largest first.
-/// @param margin between two islands, and half of it to the edge, in the unit of the points
-/// @throws SolverError points that are NaN or infinite
-SheetPacking pack_on_sheets(const std::vector<Outline>& outlines, double margin, const SheetSize& sheet);
+IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin);
 
 /// The points (V, 2) of an island, moved to its place.
 PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale);

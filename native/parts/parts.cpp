@@ -6,7 +6,8 @@
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
 #include "linear/dense_spd.h"
-#include "parts/layout.h"
+#include "parts/flat_mesh.h"
+#include "parts/pack_parts.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
@@ -120,7 +121,10 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
-    PartsLayout layout = parts_layout(vertices, triangles, options, context);
+    FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
+    context.begin_stage("pack", 0.9, 1.0);
+    const std::vector<PlanarPoints> places = pack_parts(mesh.parts, options.threads, context);
+    PartsLayout layout = layout_at(std::move(mesh), places);
     const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
 
     PartsResult result;

@@ -6,7 +6,6 @@
 #include "quality/stored_uv.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 
 namespace koebe {
@@ -16,12 +15,7 @@ constexpr std::size_t limb = 12;  // faces; a smaller region is a corner with ha
 constexpr double delicate = 1e4;  // least height of a face, in steps of the grid, for the grid not to show
 constexpr double coarse = 0.25;   // inner vertices over loop vertices: with fewer, faces reach from loop to loop
 
-std::string figure(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g", value);
-    return text;
-}
+std::string figure(double value) { return formatted("%.2g", value); }
 
 /// The faces in the input's numbering, ascending.
 std::vector<Index> input_faces(const MapInput& whole, const std::vector<Index>& faces)

@@ -29,4 +29,18 @@ inline bool segments_meet(Complex a, Complex b, Complex c, Complex d)
     return std::max(u, v) >= 0.0 && std::min(u, v) <= length;
 }
 
+/// The area of a face in the plane, negative if it is turned over. @param points (V, 2) @param triangles (F, 3)
+inline double signed_area(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f)
+{
+    const Eigen::RowVector2d a = points.row(triangles(f, 1)) - points.row(triangles(f, 0));
+    const Eigen::RowVector2d b = points.row(triangles(f, 2)) - points.row(triangles(f, 0));
+    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/// Width and height of the smallest rectangle along the axes round the points (V, 2).
+inline Eigen::RowVector2d box_size(const PlanarPoints& points)
+{
+    return points.colwise().maxCoeff() - points.colwise().minCoeff();
+}
+
 }  // namespace koebe

@@ -3,7 +3,6 @@
 #include "core/counted.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace koebe {
 
@@ -11,12 +10,10 @@ void take_verdict(const LossPolicy& policy, MapReport& report)
 {
     const Distortion& distortion = report.distortion;
     if (!(distortion.lost_area > policy.most_lost)) return;
-    char share[32];
-    std::snprintf(share, sizeof share, "%.3g", 100.0 * distortion.lost_area);
     report.converged = report.converged && policy.done;
     report.warnings.insert(report.warnings.begin(),
                            {WarningKind::lost_area,
-                            (policy.done ? "" : "not done: ") + std::string(share) +
+                            (policy.done ? "" : "not done: ") + formatted("%.3g", 100.0 * distortion.lost_area) +
                                 " % of the surface's area is lost, " + counted(distortion.flipped.size(), "triangle") +
                                 " without area or turned over as 32-bit UVs",
                             distortion.flipped, policy.advice});

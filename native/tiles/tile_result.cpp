@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "mesh/connectivity.h"
+#include "mesh/corner_order.h"
 #include "quality/shared_warnings.h"
 #include "relax/even_map.h"
 #include "tiles/even_tile.h"
@@ -18,26 +19,26 @@
 namespace koebe {
 namespace {
 
-/// (3F, 2) in the input's order of faces; in a turned face the second and third corner are exchanged.
+/// (3F, 2) by the corners of the domain's faces.
+PlanarPoints tile_uv(const Tile& tile)
+{
+    PlanarPoints uv(static_cast<Eigen::Index>(tile.corners.size()), 2);
+    for (Eigen::Index c = 0; c < uv.rows(); ++c)
+        for (int i = 0; i < 2; ++i) uv(c, i) = uv_grid * static_cast<double>(tile.corners[c][i]);
+    return uv;
+}
+
+/// (3F, 2) by the corners of the input's faces.
 PlanarPoints corner_uvs(const Triangles& triangles, const PeriodicSurface& domain, const Tile& tile)
 {
-    PlanarPoints uv(triangles.size(), 2);
-    for (Eigen::Index c = 0; c < triangles.size(); ++c) {
-        Eigen::Index own = c - c % 3;
-        while (domain.original[domain.surface.triangles.data()[own]] != triangles.data()[c]) ++own;
-        uv.row(c) << uv_grid * static_cast<double>(tile.corners[own][0]),
-            uv_grid * static_cast<double>(tile.corners[own][1]);
-    }
-    return uv;
+    const Triangles named = domain.surface.triangles.unaryExpr([&](Index v) { return domain.original[v]; });
+    return in_corner_order(tile_uv(tile), named, triangles);
 }
 
 /// Measures the tile with corners of its own for every face.
 ComputedDistortion distortion_of(const PeriodicSurface& domain, const Tile& tile)
 {
-    PlanarPoints points(domain.surface.triangles.size(), 2);
-    for (Eigen::Index c = 0; c < points.rows(); ++c)
-        for (int i = 0; i < 2; ++i) points(c, i) = 2.0 * uv_grid * static_cast<double>(tile.corners[c][i]) - 1.0;
-    return measure_corner_distortion(domain.vertices, domain.surface.triangles, points);
+    return measure_corner_distortion(domain.vertices, domain.surface.triangles, 2.0 * tile_uv(tile).array() - 1.0);
 }
 
 TileLoop loop_report(const PeriodicSurface& domain, const FlatMap& map, std::size_t k)

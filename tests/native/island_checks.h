@@ -84,7 +84,7 @@ inline bool covers(const std::vector<Rim>& rims, const Complex& p)
 }
 
 /// The least distance of two islands, 0 if they overlap; twice that to the border counts too.
-inline double least_gap(const std::vector<Outline>& outlines, const Packing& packing)
+inline double least_gap(const std::vector<Outline>& outlines, const IslandPacking& packing)
 {
     std::vector<std::vector<Rim>> islands;
     std::vector<std::array<double, 4>> boxes;

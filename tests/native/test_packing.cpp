@@ -17,7 +17,7 @@ TEST(Packing, islands_lie_apart_in_the_square)
     for (const int count : {1, 2, 3, 7, 7, 20, 300}) {
         std::vector<Outline> outlines;
         for (int i = 0; i < count; ++i) outlines.push_back(test::random_island(random));
-        const Packing packing = pack_islands(outlines, margin);
+        const IslandPacking packing = pack_islands(outlines, margin);
         EXPECT_EQ(packing.margin, margin);
         EXPECT_GE(test::least_gap(outlines, packing), margin) << count;
         for (const IslandPlace& place : packing.places) EXPECT_NEAR(std::abs(place.turn), 1.0, 1e-15);
@@ -37,7 +37,7 @@ TEST(Packing, four_squares_fill_the_square_however_they_lay)
 TEST(Packing, a_long_island_stands_upright_and_fills_the_height)
 {
     const std::vector<Outline> outlines = {test::rectangle(5.0, 1.0, 0.3)};
-    const Packing packing = pack_islands(outlines, margin);
+    const IslandPacking packing = pack_islands(outlines, margin);
     const PlanarPoints at = place_island(outlines[0].points, packing.places[0], packing.scale);
     const Eigen::RowVector2d size = at.colwise().maxCoeff() - at.colwise().minCoeff();
     EXPECT_NEAR(size[1], 1.0 - margin, 1e-3);
@@ -52,7 +52,7 @@ TEST(Packing, a_hole_takes_in_an_island)
     frame.points.bottomRows(4) = hole.points.array() + 0.1;
     frame.loops.push_back({7, 6, 5, 4});
     const std::vector<Outline> outlines = {test::rectangle(0.7, 0.7, 0.2), frame};
-    const Packing packing = pack_islands(outlines, margin);
+    const IslandPacking packing = pack_islands(outlines, margin);
     EXPECT_GT(packing.scale, 0.99);
     EXPECT_GE(test::least_gap(outlines, packing), margin);
 }
@@ -60,7 +60,7 @@ TEST(Packing, a_hole_takes_in_an_island)
 TEST(Packing, many_islands_have_room_and_less_margin)
 {
     const std::vector<Outline> outlines(5000, test::rectangle(2.0, 1.0, 0.0));
-    const Packing packing = pack_islands(outlines, margin);
+    const IslandPacking packing = pack_islands(outlines, margin);
     EXPECT_LT(packing.margin, margin);
     EXPECT_GE(test::least_gap(outlines, packing), packing.margin);
     EXPECT_GT(2.0 * 5000.0 * packing.scale * packing.scale, 0.4);

@@ -54,8 +54,8 @@ std::string first_words(const FlattenResult& result)
     const Page& page = result.pattern.page;
     return counted(result.pieces.size(), "piece") + " on " +
            counted(static_cast<std::size_t>(result.pattern.pages()), page.any() ? "page" : "sheet") + ", cuts " +
-           rounded("%.0f", result.cut_length) + " mm, stretch " + rounded("%.2g", result.stretch.mean) +
-           " % in the mean and " + rounded("%.2g", result.stretch.max) + " % at most";
+           formatted("%.0f", result.cut_length) + " mm, stretch " + formatted("%.2g", result.stretch.mean) +
+           " % in the mean and " + formatted("%.2g", result.stretch.max) + " % at most";
 }
 
 int run_flatten(const FlattenRequest& request)

@@ -6,29 +6,21 @@
 #include "report/svg.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace koebe::cli {
 
-std::string rounded(const char* format, double number)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, format, number);
-    return text;
-}
-
 std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,
                      double seconds, bool converged, const std::vector<Warning>& warnings)
 {
     std::string line = one_line(request.output) + ": " + first_words + ", angle error " +
-                       rounded("%.2f", distortion.angle_error_deg.mean) + " deg, " +
+                       formatted("%.2f", distortion.angle_error_deg.mean) + " deg, " +
                        std::to_string(distortion.flipped.size()) + " flipped";
     if (const std::size_t tiny = distortion.below_resolution.size(); tiny > 0)
         line += " (" + std::to_string(tiny) + " below resolution)";
-    line += ", " + rounded("%.2f", seconds) + " s";
+    line += ", " + formatted("%.2f", seconds) + " s";
     if (!converged) line += ", not converged";
     return line + warning_count(warnings) + "\n";
 }
@@ -54,7 +46,7 @@ MapKind<UniformizeResult> disk_map(const MapRequest& request)
         double roundness = 0.0;
         for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness.paper);
         return counted(result.loops.size(), "loop") + ", " + counted(static_cast<std::size_t>(result.sweeps), "sweep") +
-               ", roundness " + rounded("%.1e", roundness);
+               ", roundness " + formatted("%.1e", roundness);
     };
     return kind;
 }

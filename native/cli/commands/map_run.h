@@ -9,6 +9,7 @@
 #include "cli/process/result_line.h"
 #include "cli/process/roomy_heap.h"
 #include "cli/process/standard_streams.h"
+#include "core/counted.h"
 #include "core/warning.h"
 #include "execution/thread_share.h"
 #include "io/atomic_file.h"
@@ -44,9 +45,6 @@ struct MapKind {
 
 /// The kind of a map to the disk, without its computation.
 MapKind<UniformizeResult> disk_map(const MapRequest& request);
-
-/// The number in a printf format.
-std::string rounded(const char* format, double number);
 
 /// The result line: the file, the first words, and the figures that all maps have.
 std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,

@@ -16,9 +16,9 @@ int run_parts(const CornerMapRequest<PartsOptions>& request)
     auto kind = piece_map_kind(request, request.chosen, parts_of, &PartsResult::parts);
     kind.draw = [](const MeshInput&, const PartsResult& result) { return parts_svg(result.uv, result.part); };
     kind.first_words = [](const PartsResult& result) {
-        return counted(result.parts.size(), "part") + ", cuts " + rounded("%.2f", result.cut_length) +
+        return counted(result.parts.size(), "part") + ", cuts " + formatted("%.2f", result.cut_length) +
                " times the root of the area, texel density within a factor " +
-               rounded("%.3g", result.density_ratio_5_95);
+               formatted("%.3g", result.density_ratio_5_95);
     };
     return run_map_of(request, kind);
 }

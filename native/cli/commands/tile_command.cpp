@@ -20,8 +20,8 @@ std::string first_words(const TileResult& result)
 {
     const bool torus = result.periods.size() > 1;
     std::string words = counted(result.loops.size(), "loop") + ", modulus ";
-    if (torus) words += rounded("%.5g", result.modulus.real()) + (result.modulus.imag() < 0.0 ? "" : "+");
-    return words + rounded("%.5g", result.modulus.imag()) + "i";
+    if (torus) words += formatted("%.5g", result.modulus.real()) + (result.modulus.imag() < 0.0 ? "" : "+");
+    return words + formatted("%.5g", result.modulus.imag()) + "i";
 }
 
 int run(const Request& request, TileFunction map)

@@ -1,0 +1,151 @@
+#include "parts/packed_island.h"
+
+#include "core/errors.h"
+#include "planar/planar_predicates.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr int least_side = 1024;          // cells along the square,
+constexpr double cells_an_island = 32.0;  // and at least this times the root of the number of islands
+constexpr double worth_a_turn = 0.999;    // of the area of the box: a turn must make it smaller than this
+constexpr std::size_t most_sides = 1000;  // sides of the hull along which boxes are tried
+
+constexpr std::array<Complex, 4> quarters = {Complex(1, 0), Complex(0, 1), Complex(-1, 0), Complex(0, -1)};
+
+double across(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// Indices of the corners of the convex hull, counter-clockwise.
+std::vector<Eigen::Index> hull(const PlanarPoints& points)
+{
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1)}; });
+    std::vector<Eigen::Index> corners;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t first = corners.size();
+        for (const Eigen::Index i : order) {
+            while (corners.size() >= first + 2 &&
+                   !(across(points.row(corners.back()) - points.row(corners[corners.size() - 2]),
+                            points.row(i) - points.row(corners.back())) > 0.0))
+                corners.pop_back();
+            corners.push_back(i);
+        }
+        corners.pop_back();
+        std::ranges::reverse(order);
+    }
+    return corners;
+}
+
+PlanarPoints turned_by(const PlanarPoints& points, const Complex& turn)
+{
+    PlanarPoints at(points.rows(), 2);
+    at.col(0) = turn.real() * points.col(0) - turn.imag() * points.col(1);
+    at.col(1) = turn.imag() * points.col(0) + turn.real() * points.col(1);
+    return at;
+}
+
+/// The turn that lays the smallest rectangle round the points along the axes, its long side upright.
+Complex upright_turn(const Outline& outline)
+{
+    const PlanarPoints corners = outline.points(hull(outline.points), Eigen::all);
+    const auto count = outline.along_axes ? 0 : static_cast<std::size_t>(corners.rows());
+    Complex best = 1.0;
+    Eigen::RowVector2d size = box_size(corners);
+    for (std::size_t i = 0; i < count; i += count / most_sides + 1) {
+        const Eigen::RowVector2d side = corners.row((i + 1) % count) - corners.row(i);
+        const double length = side.norm();
+        if (!(length > 0.0)) continue;
+        const Complex turn(side[0] / length, -side[1] / length);
+        const Eigen::RowVector2d own = box_size(turned_by(corners, turn));
+        if (!(own.prod() < worth_a_turn * size.prod())) continue;
+        best = turn;
+        size = own;
+    }
+    return size[0] > size[1] ? Complex(-best.imag(), best.real()) : best;
+}
+
+/// The same runs, the first ones from all over the shape.
+std::vector<CellRun> spread(const std::vector<CellRun>& runs)
+{
+    std::vector<CellRun> order{runs.front()};
+    for (std::size_t step = std::bit_ceil(runs.size()) / 2; step > 0; step /= 2)
+        for (std::size_t i = step; i < runs.size(); i += 2 * step) order.push_back(runs[i]);
+    return order;
+}
+
+}  // namespace
+
+UprightIsland upright_island(const Outline& outline)
+{
+    UprightIsland island{{}, &outline.loops, upright_turn(outline), {}};
+    island.points = turned_by(outline.points, island.turn);
+    island.corner = island.points.colwise().minCoeff();
+    island.points.rowwise() -= island.corner;
+    island.extent = island.points.maxCoeff();
+    for (const VertexLoop& loop : outline.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            island.area += 0.5 * across(island.points.row(loop[i]), island.points.row(loop[(i + 1) % loop.size()]));
+    return island;
+}
+
+DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t reach)
+{
+    std::array<std::vector<GridLoop>, 2> loops;
+    for (const VertexLoop& loop : *island.loops) {
+        GridLoop straight, across;
+        for (const Index v : loop) {
+            const GridPoint at = {std::llround(scale * island.points(v, 0)), std::llround(scale * island.points(v, 1))};
+            if (!straight.empty() && straight.back() == at) continue;
+            straight.push_back(at);
+            across.push_back({-at[1], at[0]});
+        }
+        loops[0].push_back(std::move(straight));
+        loops[1].push_back(std::move(across));
+    }
+    DrawnTurns turns;
+    for (int t = 0; t < 2; ++t) {
+        turns[t].shape = cells_near(loops[t], reach);
+        turns[t + 2].shape = half_turn(turns[t].shape);
+    }
+    for (DrawnTurn& turn : turns) turn.order = spread(turn.shape.runs);
+    return turns;
+}
+
+IslandPlace place_of_spot(const UprightIsland& island, const DrawnTurns& turns, const CellSpot& spot, double unit,
+                          double scale)
+{
+    const GridPoint& origin = turns[spot.turn].shape.origin;
+    const Complex corner(island.corner[0], island.corner[1]);
+    const Complex cells(static_cast<double>(spot.x * grid_cell - origin[0]),
+                        static_cast<double>(spot.y * grid_cell - origin[1]));
+    return {quarters[spot.turn] * island.turn, cells / unit - scale * (quarters[spot.turn] * corner)};
+}
+
+int board_side(std::size_t count)
+{
+    int side = least_side;
+    while (side < cells_an_island * std::sqrt(static_cast<double>(count))) side *= 2;
+    return side;
+}
+
+void require_finite_outlines(const std::vector<Outline>& outlines)
+{
+    for (const Outline& outline : outlines)
+        if (!outline.points.allFinite()) throw SolverError("an island to pack has a point that is NaN or infinite");
+}
+
+PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale)
+{
+    PlanarPoints at = scale * turned_by(points, place.turn);
+    at.rowwise() += Eigen::RowVector2d(place.offset.real(), place.offset.imag());
+    return at;
+}
+
+}  // namespace koebe

@@ -1,0 +1,49 @@
+// An island to pack: turned upright, and drawn on a grid of cells in its four quarter turns.
+#pragma once
+
+#include "parts/cell_board.h"
+#include "parts/packing.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace koebe {
+
+struct UprightIsland {
+    PlanarPoints points;  ///< upright, the lower left corner of their box at 0
+    const std::vector<VertexLoop>* loops;
+    Complex turn;
+    Eigen::RowVector2d corner;  ///< of the box, before
+    double area = 0.0, extent = 0.0;
+};
+
+UprightIsland upright_island(const Outline& outline);
+
+/// An island in one of its turns.
+struct DrawnTurn {
+    CellShape shape;
+    std::vector<CellRun> order;  ///< of tests
+};
+
+using DrawnTurns = std::array<DrawnTurn, 4>;
+
+/// @param scale grid units of a unit of the points @param reach of the margin, in grid units
+DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t reach);
+
+/// A place on a board, in cells.
+struct CellSpot {
+    int turn = 0, x = 0, y = 0;
+};
+
+/// @param unit grid units of the square's side @param scale of the island, in sides of the square
+IslandPlace place_of_spot(const UprightIsland& island, const DrawnTurns& turns, const CellSpot& spot, double unit,
+                          double scale);
+
+/// Cells along a board for so many islands.
+int board_side(std::size_t count);
+
+/// @throws SolverError a point is NaN or infinite
+void require_finite_outlines(const std::vector<Outline>& outlines);
+
+}  // namespace koebe
