@@ -1,6 +1,7 @@
 #include "flatten/sheets.h"
 
 #include "core/errors.h"
+#include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <cmath>
