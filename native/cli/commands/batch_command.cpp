@@ -53,7 +53,7 @@ bool has_too(const std::string& domain, const std::string& flag)
     });
 }
 
-struct Request : MapRequest {
+struct BatchRequest : MapRequest {
     std::vector<CLI::Option*> forwarded;           ///< a map's options
     std::map<std::string, std::string> of_domain;  ///< words of options that only other domains have
     std::string domain = disk_domain;
@@ -66,7 +66,7 @@ struct Request : MapRequest {
          ends_with_input = false;
 };
 
-void add_batch_options(CLI::App& app, Request& request)
+void add_batch_options(CLI::App& app, BatchRequest& request)
 {
     app.add_option("INPUTS", request.inputs, "mesh files, and folders to search with all their folders")->required();
     app.add_option("--output", request.folder,
@@ -121,7 +121,7 @@ void add_batch_options(CLI::App& app, Request& request)
 }
 
 /// @throws CLI::ValidationError options of another domain
-void check_domain(const CLI::App& app, const Request& request)
+void check_domain(const CLI::App& app, const BatchRequest& request)
 {
     for (const OptionRow* row : domain_rows())
         if (app.count(row->flag()) > 0 && !row->is_of(request.domain))
@@ -133,7 +133,7 @@ void check_domain(const CLI::App& app, const Request& request)
 }
 
 /// The settings that a map depends on beside the mesh.
-nlohmann::ordered_json recipe_options(const Request& request)
+nlohmann::ordered_json recipe_options(const BatchRequest& request)
 {
     if (request.domain == disk_domain) return uniformize_report(request.options, request.cut);
     nlohmann::ordered_json report{{"domain", request.domain}};
@@ -144,7 +144,7 @@ nlohmann::ordered_json recipe_options(const Request& request)
 }
 
 /// A map's options as given, for the processes that make it.
-std::vector<std::string> given_words(const Request& request, bool with_threads)
+std::vector<std::string> given_words(const BatchRequest& request, bool with_threads)
 {
     std::vector<std::string> words;
     for (const auto& [name, word] : request.of_domain)
@@ -163,7 +163,7 @@ std::vector<std::string> given_words(const Request& request, bool with_threads)
     return words;
 }
 
-std::vector<std::string> map_command(const Request& request, const std::string& own_program,
+std::vector<std::string> map_command(const BatchRequest& request, const std::string& own_program,
                                      const batch::BatchFile& file, const batch::Scratch& scratch)
 {
     std::vector<std::string> words{own_program, request.domain == disk_domain ? "uniformize" : request.domain,
@@ -178,8 +178,8 @@ std::vector<std::string> map_command(const Request& request, const std::string& 
     return words;
 }
 
-std::vector<std::string> blend_command(const Request& request, const std::string& script, const batch::BatchFile& file,
-                                       const batch::Scratch& scratch)
+std::vector<std::string> blend_command(const BatchRequest& request, const std::string& script,
+                                       const batch::BatchFile& file, const batch::Scratch& scratch)
 {
     std::vector<std::string> words{request.blender,
                                    "-b",
@@ -200,7 +200,7 @@ std::vector<std::string> blend_command(const Request& request, const std::string
     return words;
 }
 
-batch::FileList files_of(const Request& request)
+batch::FileList files_of(const BatchRequest& request)
 {
     batch::ListOptions options;
     options.base = batch::path_of(request.base);
@@ -228,7 +228,7 @@ void print_list(const batch::FileList& list)
     print(text);
 }
 
-batch::BatchOptions batch_options(const Request& request, const fs::path& output)
+batch::BatchOptions batch_options(const BatchRequest& request, const fs::path& output)
 {
     batch::BatchOptions options;
     options.output = output;
@@ -260,7 +260,7 @@ std::string result_line(const batch::BatchCount& count, std::size_t total, const
     return one_line(line) + "\n";
 }
 
-int run(const Request& request)
+int run_batch(const BatchRequest& request)
 {
     if (request.ends_with_input) end_with_input();
     if (!request.quiet) require_standard_output();
@@ -294,7 +294,7 @@ int run(const Request& request)
 
 Subcommand add_batch(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<BatchRequest>();
     CLI::App* options = app.add_subcommand("batch", "map many files, each by a process of its own; go on after a stop");
     add_batch_options(*options, *request);
     const std::size_t before = options->get_options().size();
@@ -305,7 +305,7 @@ Subcommand add_batch(CLI::App& app)
         check_uniformize_options(*options, request->options, request->cut);
         check_domain(*options, *request);
     });
-    return {options, [request] { return run(*request); }};
+    return {options, [request] { return run_batch(*request); }};
 }
 
 }  // namespace koebe::cli

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* to_standard_output = "-";
 
-struct Request : FamilyRequest {
+struct CompareRequest : FamilyRequest {
     std::string first, second, json;
     std::string loops = "match";
     bool any_outer = false, with_json = false;
@@ -48,7 +48,7 @@ LoopMatch by_length(const ShapeInput& a, const ShapeInput& b)
     return match;
 }
 
-int run_family(const Request& request, const CancelToken& token)
+int run_family(const CompareRequest& request, const CancelToken& token)
 {
     require_writable_files(request.files(), false);
     std::vector<std::string> paths{request.first};
@@ -64,7 +64,7 @@ int run_family(const Request& request, const CancelToken& token)
     return write_table(family, distance_table(family), request.csv, token);
 }
 
-int run(const Request& request)
+int run_compare(const CompareRequest& request)
 {
     const CancelToken token = cancel_on_signal();
     if (!request.csv.empty()) return run_family(request, token);
@@ -97,7 +97,7 @@ int run(const Request& request)
 }
 
 /// Sorts the words: in `--json A B` the word after --json is the first mesh.
-void settle_words(Request& request, const CLI::Option& json)
+void settle_words(CompareRequest& request, const CLI::Option& json)
 {
     request.with_json = json.count() > 0;
     if (request.second.empty() && !request.json.empty()) {
@@ -122,7 +122,7 @@ void settle_words(Request& request, const CLI::Option& json)
 
 Subcommand add_compare(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<CompareRequest>();
     CLI::App* options = app.add_subcommand("compare", "how far apart the conformal modules of two surfaces are");
     options->add_option("A", request->first,
                         "surface with holes: OBJ, OFF, PLY or STL; or a folder of them, with --csv");
@@ -144,7 +144,7 @@ Subcommand add_compare(CLI::App& app)
             ->type_name("[FILE]");
     add_options(*options, "shapes", request->options);
     options->callback([request, json] { settle_words(*request, *json); });
-    return {options, [request] { return run(*request); }};
+    return {options, [request] { return run_compare(*request); }};
 }
 
 }  // namespace koebe::cli

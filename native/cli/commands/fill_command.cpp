@@ -23,7 +23,7 @@
 namespace koebe::cli {
 namespace {
 
-struct Request {
+struct FillRequest {
     std::string input, output, outer = "longest";
     WrittenFormat format = WrittenFormat::obj;
     std::vector<Index> loops;
@@ -67,7 +67,7 @@ PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
 }
 
 /// The ranks of the loops to fill.
-std::vector<Index> chosen_loops(const Request& request, const Vertices& vertices, const Surface& surface)
+std::vector<Index> chosen_loops(const FillRequest& request, const Vertices& vertices, const Surface& surface)
 {
     require_ranks(request.loops, surface.loops.size());
     if (!request.loops.empty()) return request.loops;
@@ -79,7 +79,7 @@ std::vector<Index> chosen_loops(const Request& request, const Vertices& vertices
     return ranks;
 }
 
-PatchedPolygons fill(const Request& request, const MeshInput& input)
+PatchedPolygons fill(const FillRequest& request, const MeshInput& input)
 {
     return with_filed_faces(input, [&] {
         const Vertices& vertices = input.polygons.vertices;
@@ -89,8 +89,8 @@ PatchedPolygons fill(const Request& request, const MeshInput& input)
     });
 }
 
-std::string result_line(const Request& request, const MeshInput& input, const PatchedPolygons& filled, double seconds,
-                        const std::vector<Warning>& warnings)
+std::string result_line(const FillRequest& request, const MeshInput& input, const PatchedPolygons& filled,
+                        double seconds, const std::vector<Warning>& warnings)
 {
     const std::set<Index> patches(filled.patch.begin(), filled.patch.end());
     const std::size_t loops = patches.size() - patches.count(-1);
@@ -101,7 +101,7 @@ std::string result_line(const Request& request, const MeshInput& input, const Pa
            counted(static_cast<std::size_t>(added), "face") + " added, " + time + warning_count(warnings) + "\n";
 }
 
-int run(const Request& request)
+int run_fill(const FillRequest& request)
 {
     const auto begin = std::chrono::steady_clock::now();
     const CancelToken token = cancel_on_signal();
@@ -128,7 +128,7 @@ int run(const Request& request)
     return done;
 }
 
-void check(Request& request)
+void check(FillRequest& request)
 {
     request.format = required_format(request.output);
     require_different_files(request.files(), {}, !request.quiet);
@@ -138,7 +138,7 @@ void check(Request& request)
 
 Subcommand add_fill(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<FillRequest>();
     CLI::App* options = app.add_subcommand("fill", "fill the holes of a surface: all loops but the outer one");
     options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL")->required();
     options
@@ -162,7 +162,7 @@ Subcommand add_fill(CLI::App& app)
     outer->excludes(all);
     options->add_flag("--quiet", request->quiet, "no result line");
     options->callback([request] { check(*request); });
-    return {options, [request] { return run(*request); }};
+    return {options, [request] { return run_fill(*request); }};
 }
 
 }  // namespace koebe::cli

@@ -49,7 +49,7 @@ void write_further_pages(const FlattenRequest& request, std::vector<AtomicFile>&
     }
 }
 
-std::string first_words(const FlattenResult& result)
+std::string flatten_words(const FlattenResult& result)
 {
     const Page& page = result.pattern.page;
     return counted(result.pieces.size(), "piece") + " on " +
@@ -69,7 +69,7 @@ int run_flatten(const FlattenRequest& request)
         kind.write_more = [&](std::vector<AtomicFile>& files, const FlattenResult& result) {
             write_further_pages(request, files, result);
         };
-    kind.first_words = first_words;
+    kind.first_words = flatten_words;
     return run_map_of(request, kind);
 }
 

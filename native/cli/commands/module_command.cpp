@@ -21,7 +21,7 @@
 namespace koebe::cli {
 namespace {
 
-struct Request : FamilyRequest {
+struct ModuleRequest : FamilyRequest {
     std::string input;
     std::vector<std::string> loops{"length"};
     bool any_outer = false;
@@ -43,7 +43,7 @@ std::vector<int> order_of_ranks(const ShapeInput& shape, const std::vector<std::
     return order;
 }
 
-std::vector<int> chosen_order(const ShapeInput& shape, const Request& request)
+std::vector<int> chosen_order(const ShapeInput& shape, const ModuleRequest& request)
 {
     if (request.loops == std::vector<std::string>{"canonical"})
         return canonical_order(shape.circles, request.any_outer);
@@ -53,7 +53,7 @@ std::vector<int> chosen_order(const ShapeInput& shape, const Request& request)
     return order;
 }
 
-int run_family(const Request& request, const CancelToken& token)
+int run_family(const ModuleRequest& request, const CancelToken& token)
 {
     require_writable_files(request.files(), false);
     const ShapeFamily family = read_family(
@@ -62,7 +62,7 @@ int run_family(const Request& request, const CancelToken& token)
     return write_table(family, module_table(family), request.csv, token);
 }
 
-int run(const Request& request)
+int run_module(const ModuleRequest& request)
 {
     const CancelToken token = cancel_on_signal();
     if (!request.csv.empty()) return run_family(request, token);
@@ -73,7 +73,7 @@ int run(const Request& request)
 }
 
 /// @throws CLI::ValidationError a word that is neither a rank nor one of the two words, alone
-void require_loop_words(const Request& request)
+void require_loop_words(const ModuleRequest& request)
 {
     const bool word = request.loops.size() == 1 && (request.loops[0] == "length" || request.loops[0] == "canonical");
     for (const std::string& rank : word ? std::vector<std::string>{} : request.loops)
@@ -91,7 +91,7 @@ void require_loop_words(const Request& request)
 
 Subcommand add_module(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<ModuleRequest>();
     CLI::App* options = app.add_subcommand("module", "the conformal module of a surface with holes, as JSON");
     options
         ->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL; or a folder of them, with --csv")
@@ -109,7 +109,7 @@ Subcommand add_module(CLI::App& app)
     options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
     add_options(*options, "shapes", request->options);
     options->callback([request] { require_loop_words(*request); });
-    return {options, [request] { return run(*request); }};
+    return {options, [request] { return run_module(*request); }};
 }
 
 }  // namespace koebe::cli

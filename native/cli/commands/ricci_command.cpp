@@ -12,11 +12,11 @@
 namespace koebe::cli {
 namespace {
 
-struct Request : MapRequest {
+struct RicciRequest : MapRequest {
     std::string packing = "inversive", target = "inscribed", triangulation = "delaunay";
 };
 
-RicciOptions ricci_options(const Request& request)
+RicciOptions ricci_options(const RicciRequest& request)
 {
     return {.common = request.options,
             .packing = request.packing == "acute" ? Packing::acute : Packing::inversive,
@@ -28,7 +28,7 @@ RicciOptions ricci_options(const Request& request)
 
 Subcommand add_ricci(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<RicciRequest>();
     request->entries = {{"method", "ricci"}, {"engine", "circle_packing"}};
     CLI::App* options = app.add_subcommand("ricci", "as uniformize, but by the discrete Ricci flow, for comparison");
     add_mesh_arguments(*options, *request);

@@ -26,13 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request : MapRequest {
+struct SequenceRequest : MapRequest {
     std::string folder, extension = "obj";
     std::vector<std::string> inputs;
 };
 
 /// The request of one file.
-MapRequest request_of(const Request& all, const std::string& file)
+MapRequest request_of(const SequenceRequest& all, const std::string& file)
 {
     MapRequest one = all;
     const fs::path target = fs::path(all.folder) / fs::path(file).stem();
@@ -43,7 +43,7 @@ MapRequest request_of(const Request& all, const std::string& file)
     return one;
 }
 
-void check_files(const Request& all)
+void check_files(const SequenceRequest& all)
 {
     std::map<std::string, std::string> file_of;
     for (const std::string& file : all.inputs) {
@@ -67,7 +67,7 @@ void make_folder(const std::string& folder)
 /// Maps the files one after another, on the surface of the first one that can be mapped.
 class Sequence {
 public:
-    explicit Sequence(const Request& all) : all_(all), token_(cancel_on_signal()) {}
+    explicit Sequence(const SequenceRequest& all) : all_(all), token_(cancel_on_signal()) {}
 
     int run()
     {
@@ -132,7 +132,7 @@ private:
         Triangulation triangulation;
     };
 
-    const Request& all_;
+    const SequenceRequest& all_;
     CancelToken token_;
     std::optional<SurfaceSolver> surface_;
     First first_;
@@ -142,7 +142,7 @@ private:
 
 Subcommand add_sequence(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<SequenceRequest>();
     CLI::App* options =
         app.add_subcommand("sequence", "map many files of one surface whose vertices move, each laid over the first");
     options->add_option("FILES", request->inputs, "meshes with the same faces, in the order of the sequence")

@@ -11,12 +11,12 @@
 namespace koebe::cli {
 namespace {
 
-using Request = CornerMapRequest<TileOptions>;
+using TileRequest = CornerMapRequest<TileOptions>;
 using TileFunction = TileResult (*)(const Vertices&, const Triangles&, const TileOptions&, ExecutionContext&);
 
 constexpr const char* picture = "write a picture of the tile and its copies there";
 
-std::string first_words(const TileResult& result)
+std::string tile_words(const TileResult& result)
 {
     const bool torus = result.periods.size() > 1;
     std::string words = counted(result.loops.size(), "loop") + ", modulus ";
@@ -24,11 +24,11 @@ std::string first_words(const TileResult& result)
     return words + formatted("%.5g", result.modulus.imag()) + "i";
 }
 
-int run(const Request& request, TileFunction map)
+int run_tile(const TileRequest& request, TileFunction map)
 {
     auto kind = corner_map_kind(request, request.chosen, map);
     kind.draw = [](const MeshInput&, const TileResult& result) { return tile_svg(result); };
-    kind.first_words = first_words;
+    kind.first_words = tile_words;
     return run_map_of(request, kind);
 }
 
@@ -39,7 +39,7 @@ Subcommand add_torus(CLI::App& app)
     return add_corner_map<TileOptions>(app,
                                        {"torus", "map a surface with one handle to a flat torus, its holes round",
                                         "surface of genus 1, with or without holes", picture},
-                                       [](const Request& request) { return run(request, torus_map); });
+                                       [](const TileRequest& request) { return run_tile(request, torus_map); });
 }
 
 Subcommand add_ring(CLI::App& app)
@@ -47,7 +47,7 @@ Subcommand add_ring(CLI::App& app)
     return add_corner_map<TileOptions>(app,
                                        {"ring", "map a surface with two loops or more to an unrolled cylinder",
                                         "surface of genus 0 with two loops or more", picture},
-                                       [](const Request& request) { return run(request, ring_map); });
+                                       [](const TileRequest& request) { return run_tile(request, ring_map); });
 }
 
 }  // namespace koebe::cli

@@ -27,7 +27,7 @@
 namespace koebe::cli {
 namespace {
 
-struct Request {
+struct TransferRequest {
     std::string first, second, output, json, landmarks;
     WrittenFormat format = WrittenFormat::obj;
     bool aligned_only = false, quiet = false;
@@ -42,7 +42,7 @@ struct MappedInput {
     bool converged = false;
 };
 
-MappedInput read_and_map(const std::string& path, const Request& request, const CancelToken& token)
+MappedInput read_and_map(const std::string& path, const TransferRequest& request, const CancelToken& token)
 {
     MappedInput input{read_mesh_input(path, token), {}, false};
     ProgressLine progress(request.quiet);
@@ -56,7 +56,7 @@ MappedInput read_and_map(const std::string& path, const Request& request, const 
     return input;
 }
 
-nlohmann::ordered_json report(const Request& request, const MappedInput& a, const MappedInput& b,
+nlohmann::ordered_json report(const TransferRequest& request, const MappedInput& a, const MappedInput& b,
                               const Correspondence& found, std::size_t landmark_count,
                               const std::vector<Warning>& warnings)
 {
@@ -87,8 +87,8 @@ nlohmann::ordered_json report(const Request& request, const MappedInput& a, cons
             {"places", std::move(places)}};
 }
 
-std::string result_line(const Request& request, const MappedInput& a, const MappedInput& b, const Correspondence& found,
-                        const std::vector<Warning>& warnings)
+std::string result_line(const TransferRequest& request, const MappedInput& a, const MappedInput& b,
+                        const Correspondence& found, const std::vector<Warning>& warnings)
 {
     double worst = 0.0;
     for (std::size_t k = 1; k < found.alignment.misses.size(); ++k)
@@ -101,7 +101,7 @@ std::string result_line(const Request& request, const MappedInput& a, const Mapp
            warning_count(warnings) + "\n";
 }
 
-int run(const Request& request)
+int run_transfer(const TransferRequest& request)
 {
     const CancelToken token = cancel_on_signal();
     require_writable_files(request.files(), !request.quiet);
@@ -140,7 +140,7 @@ int run(const Request& request)
 
 Subcommand add_transfer(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<TransferRequest>();
     CLI::App* options =
         app.add_subcommand("transfer", "the points of surface A on surface B, through the two circle domains");
     options->add_option("A", request->first, "surface with holes: OBJ, OFF, PLY or STL")->required();
@@ -166,7 +166,7 @@ Subcommand add_transfer(CLI::App& app)
         require_different_files(request->files(), {request->first, request->second, request->landmarks},
                                 !request->quiet);
     });
-    return {options, [request] { return run(*request); }};
+    return {options, [request] { return run_transfer(*request); }};
 }
 
 }  // namespace koebe::cli

@@ -15,7 +15,7 @@
 namespace koebe::cli {
 namespace {
 
-struct Request : MapRequest {
+struct UniformizeRequest : MapRequest {
     bool cut = false;
     std::string importance;
     bool ends_with_input = false;
@@ -25,7 +25,7 @@ struct Request : MapRequest {
 
 Subcommand add_uniformize(CLI::App& app)
 {
-    auto request = std::make_shared<Request>();
+    auto request = std::make_shared<UniformizeRequest>();
     CLI::App* options = app.add_subcommand("uniformize", "map a surface with holes to a circle domain");
     add_mesh_arguments(*options, *request);
     add_uniformize_options(*options, request->options, request->cut);
