@@ -323,6 +323,7 @@ CapacityReport capacities_here(const Vertices& vertices, const Triangles& triang
                                ExecutionContext& context)
 {
     fix_product_blocks();
+    const ThreadShare threads(options.threads);
     validate_arrays(vertices, triangles);
     const Surface input = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
     const int loop_count = static_cast<int>(input.loops.size());

@@ -20,12 +20,14 @@ struct Condenser {
 struct CapacityOptions {
     std::optional<double> width;  ///< refine until no enclosure is wider; none: only the mesh's own faces
     int max_faces = 1000000;      ///< refine to this many triangles at most
+    int threads = 0;              ///< 0: all cores. Any number gives the same bounds
 
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
         visit("width", &CapacityOptions::width);
         visit("max_faces", &CapacityOptions::max_faces);
+        visit("threads", &CapacityOptions::threads);
     }
 };
 
