@@ -1,6 +1,7 @@
 #include "certified/capacities.h"
 
 #include "certified/bisected_surface.h"
+#include "certified/quadratic_functions.h"
 #include "core/errors.h"
 #include "execution/detachable_run.h"
 #include "execution/memory_limit.h"
@@ -102,17 +103,18 @@ VectorXd rounded_fluxes(VectorXd flux, const std::vector<int>& held)
 /// Both bounds on one triangulation, for condensers that hold the same loops.
 class Level {
 public:
-    Level(const BisectedSurface& surface, const EdgeLengths& weights, const SparseMatrix& laplacian,
-          std::vector<int> held)
+    Level(const BisectedSurface& surface, const QuadraticFunctions& functions, const EdgeLengths& weights,
+          const SparseMatrix& energy, std::vector<int> held)
         : surface_(surface),
+          functions_(functions),
           weights_(weights),
-          laplacian_(laplacian),
+          energy_(energy),
           held_(std::move(held)),
-          fixed_(surface.vertex_count(), 0),
+          fixed_(functions.size(), 0),
           tree_(surface),
           collapse_(make_collapse()),
-          potential_(laplacian, fixed_),
-          conjugate_(pinned(collapse_.transpose() * laplacian * collapse_))
+          potential_(energy, fixed_),
+          conjugate_(pinned(collapse_.transpose() * energy * collapse_))
     {
     }
 
@@ -121,10 +123,10 @@ public:
     {
         const MatrixXd values = loop_values(all);
         MatrixXd u = potential_.solve(values);
-        for (Index v = 0; v < surface_.vertex_count(); ++v)
-            if (fixed_[v]) u.row(v) = values.row(v);
-        const MatrixXd source = laplacian_ * u;
-        MatrixXd load(surface_.vertex_count(), u.cols());
+        for (Index i = 0; i < functions_.size(); ++i)
+            if (fixed_[i]) u.row(i) = values.row(i);
+        const MatrixXd source = energy_ * u;
+        MatrixXd load(functions_.size(), u.cols());
         std::vector<OneForm> carried;
         std::vector<double> total;
         for (Eigen::Index c = 0; c < u.cols(); ++c) {
@@ -135,7 +137,7 @@ public:
             total.push_back(0.0);
             for (const int k : all[c].high) total.back() += flux[k];
             carried.push_back(tree_.carry(flux));
-            load.col(c) = divergence(surface_.triangles(), weights_, carried.back(), surface_.vertex_count());
+            load.col(c) = functions_.load(weights_, carried.back());
         }
         const MatrixXd g = collapse_ * conjugate_.solve(collapse_.transpose() * load);
         std::vector<Interval> bounds;
@@ -147,29 +149,36 @@ public:
     }
 
 private:
-    /// One number for all vertices of a loop through which nothing flows. Marks the vertices that are held.
+    /// A function that is constant on each loop through which nothing flows, from one number for such a loop and the
+    /// coefficients elsewhere. Marks the coefficients on loops that are held.
     SparseMatrix make_collapse()
     {
         std::vector<Index> of_loop(surface_.loop_count(), -1);
         std::vector<Eigen::Triplet<double, Index>> entries;
         Index count = 0;
-        for (Index v = 0; v < surface_.vertex_count(); ++v) {
-            const int loop = surface_.loop_of()[v];
-            fixed_[v] = static_cast<char>(loop >= 0 && std::ranges::binary_search(held_, loop));
-            const bool free = loop >= 0 && !fixed_[v];
-            if (!free)
-                entries.emplace_back(v, count++, 1.0);
-            else {
-                if (of_loop[loop] < 0) of_loop[loop] = count++;
-                entries.emplace_back(v, of_loop[loop], 1.0);
-            }
+        std::vector<char> vanishes(functions_.size(), 0);
+        for (Index h = 0; h < static_cast<Index>(surface_.twin().size()); ++h) {
+            if (surface_.twin()[h] != no_twin) continue;
+            const bool held = is_held(surface_.loop_of()[origin(surface_.triangles(), h)]);
+            (held ? fixed_ : vanishes)[functions_.edge(h)] = 1;
         }
-        SparseMatrix collapse(surface_.vertex_count(), count);
+        for (Index i = 0; i < functions_.size(); ++i) {
+            const int loop = i < surface_.vertex_count() ? surface_.loop_of()[i] : -1;
+            if (vanishes[i]) continue;
+            if (loop >= 0 && is_held(loop)) fixed_[i] = 1;
+            const bool shared = loop >= 0 && !fixed_[i];
+            if (!shared || of_loop[loop] < 0) ++count;
+            if (shared && of_loop[loop] < 0) of_loop[loop] = count - 1;
+            entries.emplace_back(i, shared ? of_loop[loop] : count - 1, 1.0);
+        }
+        SparseMatrix collapse(functions_.size(), count);
         collapse.setFromTriplets(entries.begin(), entries.end());
         return collapse;
     }
 
-    /// Loads sum to 0, so that a diagonal added at one row changes nothing but the constant.
+    bool is_held(int loop) const { return std::ranges::binary_search(held_, loop); }
+
+    /// Loads sum to 0 over the vertices, so that a diagonal added at one changes nothing but the constant.
     static SparseMatrix pinned(SparseMatrix matrix)
     {
         matrix.coeffRef(0, 0) *= 2.0;
@@ -178,7 +187,7 @@ private:
 
     MatrixXd loop_values(const std::vector<Condenser>& all) const
     {
-        MatrixXd values = MatrixXd::Zero(surface_.vertex_count(), static_cast<Eigen::Index>(all.size()));
+        MatrixXd values = MatrixXd::Zero(functions_.size(), static_cast<Eigen::Index>(all.size()));
         for (std::size_t c = 0; c < all.size(); ++c)
             for (Index v = 0; v < surface_.vertex_count(); ++v)
                 if (std::ranges::find(all[c].high, surface_.loop_of()[v]) != all[c].high.end())
@@ -194,27 +203,27 @@ private:
         std::vector<std::pair<Interval, Interval>> sums((count + summands - 1) / summands);
         in_pieces(count, summands, [&](std::size_t begin, std::size_t end) {
             std::pair<Interval, Interval> sum;
-            for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
-                const auto corner = surface_.triangles().row(f);
-                const Interval u1 = Interval(u[corner[1]]) - u[corner[0]], u2 = Interval(u[corner[2]]) - u[corner[0]];
-                const Interval g1 = Interval(g[corner[1]]) - g[corner[0]] + carried[3 * f];
-                const Interval g2 = Interval(g[corner[2]]) - g[corner[0]] - carried[3 * f + 2];
-                const Interval of_u = surface_.energy(f, u1, u2), of_flux = surface_.energy(f, g1, g2);
-                sum.first = sum.first + of_u;
-                sum.second = sum.second + of_flux;
-                // |grad u - flux|^2; the flux is the gradient's image by 90 degrees.
-                gap[f] += std::max(of_u.upper + of_flux.upper - (u1.upper * g2.upper - u2.upper * g1.upper), 0.0);
-            }
+            for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
+                for (int m = 0; m < 3; ++m) {
+                    const auto [u1, u2] = functions_.covector(u, nullptr, f, m);
+                    const auto [g1, g2] = functions_.covector(g, &carried, f, m);
+                    const Interval of_u = surface_.energy(f, u1, u2), of_flux = surface_.energy(f, g1, g2);
+                    sum.first = sum.first + of_u;
+                    sum.second = sum.second + of_flux;
+                    // |grad u - flux|^2; the flux is dg + carried, turned by 90 degrees.
+                    gap[f] += std::max(of_u.upper + of_flux.upper - (u1.upper * g2.upper - u2.upper * g1.upper), 0.0);
+                }
             sums[begin / summands] = sum;
         });
         std::pair<Interval, Interval> sum;
         for (const auto& [of_u, of_flux] : sums) sum = {sum.first + of_u, sum.second + of_flux};
-        return sum;
+        return {sum.first / 3.0, sum.second / 3.0};
     }
 
     const BisectedSurface& surface_;
+    const QuadraticFunctions& functions_;
     const EdgeLengths& weights_;
-    const SparseMatrix& laplacian_;
+    const SparseMatrix& energy_;
     std::vector<int> held_;
     std::vector<char> fixed_;
     FluxTree tree_;
@@ -296,11 +305,12 @@ VectorXd enclose_all(const BisectedSurface& surface, const std::vector<Condenser
     std::map<std::vector<int>, std::vector<std::size_t>> alike;
     for (std::size_t c = 0; c < condensers.size(); ++c) alike[held_loops(condensers[c])].push_back(c);
     const EdgeLengths weights = half_cotangents(surface.lengths());
-    const SparseMatrix laplacian = cotan_laplacian(surface.triangles(), weights, surface.vertex_count());
+    const QuadraticFunctions functions(surface);
+    const SparseMatrix energy = functions.energy_matrix(weights);
     VectorXd gap = VectorXd::Zero(surface.face_count());
     for (const auto& [held, numbers] : alike) {
         context.checkpoint();
-        const Level level(surface, weights, laplacian, held);
+        const Level level(surface, functions, weights, energy, held);
         for (std::size_t begin = 0; begin < numbers.size(); begin += at_once) {
             context.checkpoint();
             std::vector<Condenser> some;
@@ -313,9 +323,12 @@ VectorXd enclose_all(const BisectedSurface& surface, const std::vector<Condenser
     return gap;
 }
 
+/// Bytes for two factors; quadratic functions have as many coefficients as linear ones on four times the faces.
+double memory_for(double faces) { return 2.0 * memory_for_faces(static_cast<std::ptrdiff_t>(4.0 * faces)); }
+
 bool has_room(double faces, const CapacityOptions& options)
 {
-    return faces <= options.max_faces && 2.0 * memory_for_faces(static_cast<std::ptrdiff_t>(faces)) <= available_memory();
+    return faces <= options.max_faces && memory_for(faces) <= available_memory();
 }
 
 CapacityReport capacities_here(const Vertices& vertices, const Triangles& triangles,
@@ -329,7 +342,7 @@ CapacityReport capacities_here(const Vertices& vertices, const Triangles& triang
     const int loop_count = static_cast<int>(input.loops.size());
     const std::vector<Condenser> chosen = condensers.empty() ? loop_condensers(loop_count) : condensers;
     for (const Condenser& condenser : chosen) require_condenser(condenser, loop_count);
-    require_memory_for_faces(2 * static_cast<std::ptrdiff_t>(triangles.rows()));
+    require_memory(memory_for(static_cast<double>(triangles.rows())), "the bounds on a mesh of so many faces");
     BisectedSurface surface(vertices, input);
     Enclosures enclosures(chosen, loop_count);
     CapacityReport& report = enclosures.report();
