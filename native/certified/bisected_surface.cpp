@@ -9,7 +9,8 @@
 namespace koebe {
 namespace {
 
-// Two cuts add one binary digit to a corner's coordinates, which have 52. Faces below are cut only with their neighbours.
+// Two cuts add one binary digit to a corner's coordinates, which have 52. Faces below are cut only with their
+// neighbours.
 constexpr int deepest = 80;
 
 /// x times a power of two.
@@ -59,7 +60,8 @@ BisectedSurface::BisectedSurface(const Vertices& vertices, const Surface& surfac
 
     // A power of two: the largest coordinate comes near 1, so that no square is out of range.
     double largest = 0.0;
-    for (const Index v : surface.triangles.reshaped()) largest = std::max(largest, vertices.row(v).cwiseAbs().maxCoeff());
+    for (const Index v : surface.triangles.reshaped())
+        largest = std::max(largest, vertices.row(v).cwiseAbs().maxCoeff());
     const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
     const Vertices near_one = vertices.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
     std::vector<Index> flat;

@@ -19,11 +19,11 @@
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index at_once = 8;       // condensers
-constexpr std::size_t summands = 1024;    // short sums round less
-constexpr double share_to_cut = 0.6;      // of the gap (Doerfler 1996)
-constexpr double least_progress = 0.02;   // of the width; below it rounding is all that is left
-constexpr double growth_reserve = 2.0;    // cut faces become four, and their neighbours are cut too
+constexpr Eigen::Index at_once = 8;      // condensers
+constexpr std::size_t summands = 1024;   // short sums round less
+constexpr double share_to_cut = 0.6;     // of the gap (Doerfler 1996)
+constexpr double least_progress = 0.02;  // of the width; below it rounding is all that is left
+constexpr double growth_reserve = 2.0;   // cut faces become four, and their neighbours are cut too
 
 /// Which loops are held, ascending: condensers that hold the same loops share their factors.
 std::vector<int> held_loops(const Condenser& condenser)
@@ -299,8 +299,8 @@ std::vector<char> largest_gaps(const VectorXd& gap)
 }
 
 /// Encloses all capacities on one triangulation. @return (F) each triangle's part of the gap
-VectorXd enclose_all(const BisectedSurface& surface, const std::vector<Condenser>& condensers,
-                     Enclosures& enclosures, ExecutionContext& context)
+VectorXd enclose_all(const BisectedSurface& surface, const std::vector<Condenser>& condensers, Enclosures& enclosures,
+                     ExecutionContext& context)
 {
     std::map<std::vector<int>, std::vector<std::size_t>> alike;
     for (std::size_t c = 0; c < condensers.size(); ++c) alike[held_loops(condensers[c])].push_back(c);
@@ -384,9 +384,8 @@ CapacityReport certified_capacities(const Vertices& vertices, const Triangles& t
                                     const std::vector<Condenser>& condensers, const CapacityOptions& options,
                                     ExecutionContext& context)
 {
-    return run_detachable<CapacityReport>(context, [=](ExecutionContext& own) {
-        return capacities_here(vertices, triangles, condensers, options, own);
-    });
+    return run_detachable<CapacityReport>(
+        context, [=](ExecutionContext& own) { return capacities_here(vertices, triangles, condensers, options, own); });
 }
 
 }  // namespace koebe

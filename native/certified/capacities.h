@@ -19,7 +19,7 @@ struct Condenser {
 
 struct CapacityOptions {
     std::optional<double> width;  ///< refine until no enclosure is wider; none: only the mesh's own faces
-    int max_faces = 1000000;      ///< refine to this many triangles at most
+    int max_faces = 300000;       ///< refine to this many triangles at most
     int threads = 0;              ///< 0: all cores. Any number gives the same bounds
 
     template <typename Visit>
@@ -54,8 +54,8 @@ KOEBE_API std::vector<Condenser> loop_condensers(int loop_count);
 
 /// Encloses the capacities of the polyhedral surface, flat faces with exactly these vertices.
 ///
-/// Upper bound: the energy of a piecewise linear u with the condenser's values on the loops. Lower bound: Phi^2 over the
-/// energy of a piecewise linear flux without sources, Phi the flux into the loops at 1 (Dirichlet's and Thomson's
+/// Upper bound: the energy of a piecewise linear u with the condenser's values on the loops. Lower bound: Phi^2 over
+/// the energy of a piecewise linear flux without sources, Phi the flux into the loops at 1 (Dirichlet's and Thomson's
 /// principles). Any such u and flux give bounds, so an error of the linear solver widens the enclosure, but cannot make
 /// it wrong. The flux is dg + c: g is a function on the vertices, constant on each loop through which nothing flows;
 /// c is constant on each face's sides, with the loops' fluxes, along a tree of faces, in multiples of one power of two.

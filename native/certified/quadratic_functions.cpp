@@ -74,8 +74,7 @@ VectorXd QuadraticFunctions::load(const EdgeLengths& half_cotangents, const OneF
         const auto at = coefficients(f);
         for (const auto& middle : derivatives)
             for (int k = 0; k < 3; ++k)
-                for (int i = 0; i < 6; ++i)
-                    load[at[i]] -= half_cotangents(f, k) / 3.0 * form[3 * f + k] * middle[k][i];
+                for (int i = 0; i < 6; ++i) load[at[i]] -= half_cotangents(f, k) / 3.0 * form[3 * f + k] * middle[k][i];
     }
     return load;
 }
