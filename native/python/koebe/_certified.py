@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 class CertifiedModuli:
     """Enclosures of numbers of a polyhedral surface: the exact number is not below the first, nor above the second.
 
-    capacities      (N, 2) float64: the least Dirichlet energy of a function on the surface that is 0 on some loops and 1
-                    on others; without unit
+    capacities      (N, 2) float64: the least Dirichlet energy of a function on the surface that is 0 on some loops and
+                    1 on others; without unit
     condensers      list of N pairs: the loops at 0 and the loops at 1, numbered as in boundary_loops
     modulus         pair, or None if the surface has not two loops: 1 / capacity, the conformal cylinder's height over
                     its girth
