@@ -258,6 +258,7 @@ public:
         if (!(std::isfinite(bounds.lower) && std::isfinite(bounds.upper)))
             throw SolverError("rounding leaves no bound of a capacity: faces are too thin");
         known = {std::max(known.lower, bounds.lower), std::min(known.upper, bounds.upper)};
+        if (known.lower > known.upper) throw SolverError("bounds of a capacity contradict each other");
     }
 
     void end_level(Index faces)

@@ -182,6 +182,13 @@ def test_no_flux_runs_through_the_other_loops():
     assert held.capacities[:, 0].min() > square_in_square() + 0.3
 
 
+def test_a_ring_with_radial_slits_has_the_certified_modulus():
+    surface = ring_with_slit(np.random.default_rng(3))
+    found = koebe.certified_moduli(*surface, width=1e-4, between=[([0], [2])])
+    height = koebe.ring_map(*surface, holes="radial").modulus.imag
+    assert height == pytest.approx(1 / found.capacities[0].mean(), rel=5e-3)
+
+
 def test_the_width_falls_with_the_square_of_the_number_of_faces():
     """Quadratic functions, and faces cut where the corners need it."""
     runs = [koebe.certified_moduli(*ring(), width=width) for width in (1e-2, 1e-4, 1e-6)]
