@@ -4,6 +4,7 @@
 // The library never prints. Errors derive from koebe::KoebeError (core/errors.h).
 #pragma once
 
+#include "certified/capacities.h"
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
 #include "core/errors.h"

@@ -2,12 +2,15 @@
 #include "array_conversion.h"
 #include "bindings.h"
 #include "native_call.h"
+#include "option_binding.h"
 #include "report_object.h"
 
+#include "certified/capacities.h"
 #include "circles/circle_fit.h"
 #include "linear/dense_spd.h"
 #include "opened/disk_packing.h"
 #include "pipeline/uniformize.h"
+#include "report/capacity_json.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
@@ -47,6 +50,17 @@ void bind_shapes(py::module_& m)
         return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); },
                         true);
     });
+    bind_options<CapacityOptions>(m, "CapacityOptions");
+    m.def("certified_capacities",
+          [](const Vertices& vertices, const Triangles& triangles,
+             const std::vector<std::pair<std::vector<int>, std::vector<int>>>& between, const CapacityOptions& options,
+             const py::object& progress, const CancelToken& cancel) {
+              std::vector<Condenser> condensers;
+              for (const auto& [low, high] : between) condensers.push_back({low, high});
+              return to_object(to_json(without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return certified_capacities(vertices, triangles, condensers, options, context);
+              })));
+          });
     m.def("module_names", &module_names);
     m.def("module_error", &module_error);
     m.def("refined_circles", [](const MappedSurface& surface, const UniformizeOptions& options) {

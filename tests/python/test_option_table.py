@@ -23,6 +23,7 @@ MAPS = {  # function, TypedDict, struct
     "schottky": (koebe.schottky_map, _signatures.SchottkyOptions, _koebe.SchottkyOptions),
     "parts": (koebe.parts, _signatures.PartsOptions, _koebe.PartsOptions),
     "flatten": (koebe.flatten, _signatures.FlattenOptions, _koebe.FlattenOptions),
+    "certified": (koebe.certified_moduli, _signatures.CertifiedOptions, _koebe.CapacityOptions),
     "lift": (koebe.lift, _signatures.LiftOptions, _koebe.LiftOptions),
 }
 COMMANDS = {"uniformize", "sequence", "ring", "torus", "sphere", "schottky", "parts", "flatten", "lift", "ricci"}
@@ -31,7 +32,7 @@ TYPES = {
     "loop": "str | int", "steps": "collections.abc.Sequence[collections.abc.Sequence[int]] | None",
     "weights": "typing.Any", "page": "str",
 }  # fmt: skip
-BESIDE = {"progress", "cancel", "polygon", "slits"}  # arguments that are no options
+BESIDE = {"progress", "cancel", "polygon", "slits", "between"}  # arguments that are no options
 
 
 def rows_in(front, of):

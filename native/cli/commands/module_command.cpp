@@ -2,14 +2,18 @@
 #include "cli/commands/shape_family.h"
 #include "cli/commands/shape_input.h"
 #include "cli/commands/subcommand.h"
+#include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
 #include "cli/options/option_table.h"
 #include "cli/options/validators.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
+#include "cli/process/progress_line.h"
 #include "cli/process/standard_streams.h"
 
+#include "certified/capacities.h"
+#include "report/capacity_json.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
 
@@ -25,6 +29,9 @@ struct ModuleRequest : FamilyRequest {
     std::string input;
     std::vector<std::string> loops{"length"};
     bool any_outer = false;
+    bool certified = false;
+    std::vector<std::string> between;
+    CapacityOptions bounds;  // its threads are those of `options`
 
     std::vector<OutputFile> files() const { return {{"--csv", csv}}; }
 };
@@ -62,11 +69,53 @@ int run_family(const ModuleRequest& request, const CancelToken& token)
     return write_table(family, module_table(family), request.csv, token);
 }
 
+/// Loops at 0 and at 1, written as "0,2/1".
+Condenser condenser_of(const std::string& words)
+{
+    Condenser condenser;
+    const auto read = [&](const std::string& list, std::vector<int>& loops) {
+        for (const std::string& word : CLI::detail::split(list, ',')) {
+            if (std::string complaint = whole_number(0)(word); !complaint.empty())
+                throw CLI::ValidationError("--between", complaint);
+            loops.push_back(std::stoi(word));
+        }
+    };
+    const std::size_t slash = words.find('/');
+    if (slash == std::string::npos)
+        throw CLI::ValidationError("--between", "loops at 0 and loops at 1 need a / between them");
+    read(words.substr(0, slash), condenser.low);
+    read(words.substr(slash + 1), condenser.high);
+    return condenser;
+}
+
+int run_certified(const ModuleRequest& request, const CancelToken& token)
+{
+    const MeshInput input = read_mesh_input(request.input, token, {.keep_file = false});
+    ProgressLine progress(false);
+    ExecutionContext context(progress.callback(), token);
+    std::vector<Condenser> condensers;
+    for (const std::string& words : request.between) condensers.push_back(condenser_of(words));
+    CapacityOptions bounds = request.bounds;
+    bounds.threads = request.options.threads;
+    const CapacityReport report = with_filed_faces(input, [&] {
+        return certified_capacities(input.polygons.vertices, input.triangulation.triangles, condensers, bounds,
+                                    context);
+    });
+    nlohmann::ordered_json json = to_json(report);
+    json["input"] = std::filesystem::path(request.input).filename().string();
+    std::vector<Warning> warnings;
+    add_input_warnings(input, warnings);
+    json["warnings"] = to_json(warnings);
+    print(json_text(json));
+    return report.converged ? done : not_converged;
+}
+
 int run_module(const ModuleRequest& request)
 {
     const CancelToken token = cancel_on_signal();
     if (!request.csv.empty()) return run_family(request, token);
     require_standard_output();
+    if (request.certified) return run_certified(request, token);
     const ShapeInput shape = read_shape(request.input, request.options, token);
     print(json_text(module_json(shape, chosen_order(shape, request))));
     return shape.converged ? done : not_converged;
@@ -83,8 +132,28 @@ void require_loop_words(const ModuleRequest& request)
         throw CLI::ValidationError("--any-outer", "needs --loops canonical");
     if (request.csv.empty() && std::filesystem::is_directory(request.input))
         throw CLI::ValidationError("IN", "is a folder, which needs --csv FILE");
+    for (const std::string& words : request.between) condenser_of(words);
     require_csv(request);
     require_different_files(request.files(), {request.input}, false);
+}
+
+/// Adds --certified and its options. No map is made with it, so that options of the map are wrong usage.
+void add_certified_options(CLI::App& app, ModuleRequest& request)
+{
+    std::vector<CLI::Option*> of_map = app.get_options();
+    CLI::Option* certified = app.add_flag("--certified", request.certified,
+                                          "bounds that are proved, of capacities between loops; for a ring of its "
+                                          "modulus and r_1 too");
+    for (CLI::Option* option : of_map)
+        if (const std::string name = option->get_name(); name != "IN" && name != "--help" && name != "--threads")
+            certified->excludes(option);
+    add_value(app, *find_row("certified", "width"), request.bounds.width)->needs(certified);
+    add_value(app, *find_row("certified", "max_faces"), request.bounds.max_faces)->needs(certified);
+    app.add_option("--between", request.between,
+                   "with --certified: loops at 0 / loops at 1, for example 0,2/1; no flux runs through the other "
+                   "loops. Else each loop against all others, then each pair")
+        ->type_name("LOOPS/LOOPS")
+        ->needs(certified);
 }
 
 }  // namespace
@@ -108,6 +177,7 @@ Subcommand add_module(CLI::App& app)
                        "the mesh makes, each from a map of a finer mesh");
     options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
     add_options(*options, "shapes", request->options);
+    add_certified_options(*options, *request);
     options->callback([request] { require_loop_words(*request); });
     return {options, [request] { return run_module(*request); }};
 }

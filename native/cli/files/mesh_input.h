@@ -47,6 +47,9 @@ auto with_filed_faces(const MeshInput& input, Compute&& compute)
     } catch (const TopologyError& error) {
         if (error.kind() != TopologyKind::disconnected) throw;
         throw TopologyError(error.kind(), error.what(), filed_faces(input.triangulation, error.elements()));
+    } catch (const InputError& error) {
+        if (error.elements_of() != ElementKind::faces) throw;
+        throw InputError(error.what(), ElementKind::faces, filed_faces(input.triangulation, error.elements()));
     }
 }
 

@@ -14,6 +14,7 @@ from ._api import (
     uniformize,
 )
 from ._batch import batch
+from ._certified import CertifiedModuli, certified_moduli
 from ._cut_result import CutResult
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
@@ -47,6 +48,7 @@ __all__ = [
     "CIRCLE_TOLERANCE",
     "CancelToken",
     "Cancelled",
+    "CertifiedModuli",
     "Correspondence",
     "CutResult",
     "DomainAlignment",
@@ -78,6 +80,7 @@ __all__ = [
     "batch",
     "boundary_loops",
     "canonical_order",
+    "certified_moduli",
     "conformal_module",
     "disk_map",
     "disk_to_uv",

@@ -123,3 +123,12 @@ class LiftOptions(RunOptions, total=False):
     perforate: bool
     height: float | None
     thickness: float | None
+
+
+class CertifiedOptions(RunOptions, total=False):
+    """Options of `certified_moduli`."""
+
+    width: float | None
+    max_faces: int
+    threads: int
+    between: Any

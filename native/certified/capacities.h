@@ -1,0 +1,74 @@
+// Capacities of a surface between its boundary loops, and what follows from them, enclosed with proof.
+#pragma once
+
+#include "certified/interval.h"
+#include "core/api.h"
+#include "core/types.h"
+#include "execution/execution.h"
+
+#include <optional>
+#include <vector>
+
+namespace koebe {
+
+/// Loops held at 0 and loops held at 1. No flux runs through the other loops. Loops are numbered by their lowest
+/// vertices, as Surface::loops.
+struct Condenser {
+    std::vector<int> low, high;
+};
+
+struct CapacityOptions {
+    std::optional<double> width;  ///< refine until no enclosure is wider; none: only the mesh's own faces
+    int max_faces = 300000;       ///< refine to this many triangles at most
+    int threads = 0;              ///< 0: all cores. Any number gives the same bounds
+
+    template <typename Visit>
+    static void each_option(Visit&& visit)
+    {
+        visit("width", &CapacityOptions::width);
+        visit("max_faces", &CapacityOptions::max_faces);
+        visit("threads", &CapacityOptions::threads);
+    }
+};
+
+struct Capacity {
+    Condenser condenser;
+    Interval value;  ///< the least Dirichlet energy between 0 and 1, dimensionless
+};
+
+struct CapacityReport {
+    std::vector<Capacity> capacities;
+    /// Of a surface with two loops whose one capacity is C: 1 / C, the height of the conformal cylinder over its girth,
+    /// and exp(-2 pi / C), the inner radius of the round ring in the unit disk.
+    std::optional<Interval> modulus, inner_radius;
+    Index faces = 0;        ///< of the finest triangulation
+    int levels = 0;         ///< triangulations that were solved on
+    double width = 0.0;     ///< of the widest enclosure
+    bool converged = true;  ///< false: an enclosure is wider than wanted, but it still holds its number
+};
+
+/// The condensers that give a surface's conformal invariants, all loops held: each loop against the others, then each
+/// pair, without those that a condenser before has with 0 and 1 exchanged. Their capacities give the matrix of fluxes
+/// C_jk between loops, which has as many numbers: C_jj, and (capacity of j and k - C_jj - C_kk) / 2.
+KOEBE_API std::vector<Condenser> loop_condensers(int loop_count);
+
+/// Encloses the capacities of the polyhedral surface, flat faces with exactly these vertices.
+///
+/// Upper bound: the energy of a piecewise linear u with the condenser's values on the loops. Lower bound: Phi^2 over
+/// the energy of a piecewise linear flux without sources, Phi the flux into the loops at 1 (Dirichlet's and Thomson's
+/// principles). Any such u and flux give bounds, so an error of the linear solver widens the enclosure, but cannot make
+/// it wrong. The flux is dg + c: g is a function on the vertices, constant on each loop through which nothing flows;
+/// c is constant on each face's sides, with the loops' fluxes, along a tree of faces, in multiples of one power of two.
+/// So it has no sources exactly. Energies are summed in intervals (interval.h) on exact places (bisected_surface.h).
+///
+/// Until the width is reached, the triangles with most of the gap are cut in four: the gap of the bounds is the sum of
+/// the triangles' |grad u - flux|^2 (Prager and Synge 1947).
+///
+/// @param condensers by default those of loop_condensers
+/// @throws InputError a condenser without loops at 0 or at 1, a loop twice or one that does not exist (listed); faces
+/// without area (listed); TopologyError as require_bordered_genus_zero; SolverError; Cancelled
+KOEBE_API CapacityReport certified_capacities(const Vertices& vertices, const Triangles& triangles,
+                                              const std::vector<Condenser>& condensers, const CapacityOptions& options,
+                                              ExecutionContext& context);
+
+}  // namespace koebe
