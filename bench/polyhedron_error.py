@@ -16,7 +16,7 @@ import random_surfaces
 import table_surfaces
 
 FACES = 16000
-CUTS = 2  # the finest mesh has 4 ** CUTS times as many faces
+CUTS = 3  # the finest mesh has 4 ** CUTS times as many faces
 DRAWN = 4  # holes of a random domain
 MODES, SAMPLES = 24, 200  # of the first variation: powers about each centre, points on each circle
 
