@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How exact are the circles of a polyhedron itself? Domains whose circles are known are lifted to surfaces. The faces of
-each mesh are then cut in four, in their own planes, again and again: the same polyhedron on finer and finer meshes.
+"""How exact are the circles of a polyhedron itself? Domains whose circles are known are lifted to surfaces. The faces
+of each mesh are then cut in four, in their own planes, again and again: the same polyhedron on finer and finer meshes.
 
     bench/doc_figures.py measure polyhedron
 
@@ -11,6 +11,7 @@ instead of arcs move the rim inwards, by a twelfth of its geodesic curvature tim
 
 from functools import cache
 
+import mesh_regions
 import numpy as np
 import random_surfaces
 import table_surfaces
@@ -65,14 +66,14 @@ LIFTS = {
 
 
 @cache
-def meshed(circles):
+def meshed(circles, faces=FACES):
     """Complex points (V), the circles' first, triangles (F, 3), and the number of points on each circle."""
     area = np.pi * (2.0 - sum(r**2 for _, r in circles))
-    h = np.sqrt(4.0 * area / (np.sqrt(3.0) * FACES))
+    h = np.sqrt(4.0 * area / (np.sqrt(3.0) * faces))
     counts = [max(8, round(2.0 * np.pi * r / h)) for _, r in circles]
     rims = [c + r * np.exp(2j * np.pi * np.arange(n) / n) for (c, r), n in zip(circles, counts)]
     polygons = [np.column_stack([rim.real, rim.imag]) for rim in rims]
-    points, triangles = table_surfaces.planar_mesh(polygons, (FACES + sum(counts)) // 2)
+    points, triangles = table_surfaces.planar_mesh(polygons, (faces + sum(counts)) // 2)
     return points @ [1.0, 1j], triangles, counts
 
 
@@ -89,22 +90,41 @@ def relative(found, circles):
     return inversive_distances(found) / inversive_distances(circles) - 1.0
 
 
-def circles_found(koebe, points, triangles, counts, **options):
+def circles_found(koebe, points, triangles, counts):
     """In the order of the domain's circles, which the first vertex of each tells."""
-    result = koebe.uniformize(points, triangles, tolerance=1e-9, **options)
+    result = koebe.uniformize(points, triangles, tolerance=1e-9)
     rank = {int(v): k for k, loop in enumerate(result.loops) for v in loop}
     ranks = [rank[int(first)] for first in np.cumsum([0, *counts[:-1]])]
     return [(complex(*result.centers[k]), float(result.radii[k])) for k in ranks]
 
 
-def refined_errors(koebe, lift, circles):
-    """Relative errors of the inversive distances (CUTS + 1, pairs): on the mesh, and with its faces cut again."""
-    plane_points, triangles, counts = meshed(circles)
+def rims_refined(points, triangles):
+    """Each face with one edge on the boundary cut in two, by the middle of that edge: points, triangles."""
+    on_rim = {tuple(edge) for edge in mesh_regions.boundary_edges(triangles).tolist()}
+    added, faces = [], []
+    for a, b, c in triangles.tolist():
+        start = next(((u, v, w) for u, v, w in ((a, b, c), (b, c, a), (c, a, b)) if (u, v) in on_rim), None)
+        if start is None:
+            faces.append((a, b, c))
+            continue
+        u, v, w = start
+        middle = len(points) + len(added)
+        added.append((points[u] + points[v]) / 2.0)
+        faces += [(u, middle, w), (middle, v, w)]
+    return np.vstack([points, added]), np.array(faces, np.int32)
+
+
+def refined_errors(koebe, lift, circles, faces=FACES, cuts=CUTS):
+    """Relative errors of the inversive distances (cuts + 2, pairs): on the mesh, with finer rims, with its faces cut
+    again and again."""
+    plane_points, triangles, counts = meshed(circles, faces)
     points, errors = LIFTS[lift][0](plane_points), []
-    for cut in range(CUTS + 1):
+    finer = rims_refined(points, triangles)
+    for cut in range(cuts + 1):
         if cut:
             points, triangles = random_surfaces.cut_in_four(points, triangles)
         errors.append(relative(circles_found(koebe, points, triangles, counts), circles))
+    errors.insert(1, relative(circles_found(koebe, *finer, counts), circles))
     return np.array(errors)
 
 
@@ -131,9 +151,9 @@ def first_variation(circles, inward):
     return [circles[0]] + [(c + complex(a, b), r + s) for (c, r), (a, b, s) in zip(circles[1:], change)]
 
 
-def predicted_errors(lift, circles):
+def predicted_errors(lift, circles, faces=FACES):
     """Of the polyhedron, from its rims alone: chords for arcs."""
-    counts, turn = meshed(circles)[2], np.exp(2j * np.pi * np.arange(SAMPLES) / SAMPLES)
+    counts, turn = meshed(circles, faces)[2], np.exp(2j * np.pi * np.arange(SAMPLES) / SAMPLES)
     inward = []
     for (center, radius), count in zip(circles, counts):
         curvature = 1.0 / radius + (turn * LIFTS[lift][1](center + radius * turn)).real
@@ -144,18 +164,23 @@ def predicted_errors(lift, circles):
 # ---------------------------------------------------------------- table
 
 
-DOMAINS = {"the five circles": FIVE_CIRCLES, "drawn, 1": drawn_circles(1), "drawn, 2": drawn_circles(2)}
+DOMAINS = {"five circles": FIVE_CIRCLES, "drawn circles": drawn_circles(1)}
 ROWS = [f"{domain}, {lift}" for domain in DOMAINS for lift in LIFTS]
-HEAD = ["circles, lift", "as given", "faces in 4", "in 16", "in 64", "the polyhedron", "from its rims", "given / polyhedron"]
+HEAD = [
+    "domain, surface", "faces as given", "rim faces in 2", "each in 4", "in 16", "in 64",
+    "limit: the polyhedron", "first variation",
+]  # fmt: skip
+
+
+def polyhedron_limit(errors):
+    """For ever finer meshes on the same faces: the error of a mesh goes with h^2."""
+    return errors[-1] + (errors[-1] - errors[-2]) / 3.0
 
 
 def cells(koebe, row):
+    """Each error is the largest of all pairs of circles."""
     domain, lift = row.rsplit(", ", 1)
-    errors = refined_errors(koebe, lift, DOMAINS[domain])
-    limit = errors[-1] + (errors[-1] - errors[-2]) / 3.0
-    worst = [abs(error).max() for error in (*errors, limit)]
-    return [
-        *(f"{error:.1e}" for error in worst),
-        f"{abs(predicted_errors(lift, DOMAINS[domain])).max():.1e}",
-        f"1/{worst[-1] / worst[0]:.0f}",
-    ]
+    circles = DOMAINS[domain]
+    errors = refined_errors(koebe, lift, circles)
+    limit = polyhedron_limit(errors)
+    return [f"{abs(error).max():.1e}" for error in (*errors, limit, predicted_errors(lift, circles))]
