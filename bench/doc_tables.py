@@ -19,6 +19,7 @@ from pathlib import Path
 import convergence
 import domain_figures
 import exact_surfaces
+import polyhedron_error
 import predicted_rates
 import print_choices
 import promises
@@ -345,6 +346,7 @@ TABLES = {
         lambda row: [convergence.RATES, table_surfaces.MESHER],
     ),
     "twin": of_package(domain_figures.TWIN_HEAD, list(domain_figures.TWINS), domain_figures.twin_cells),
+    "polyhedron": of_package(polyhedron_error.HEAD, polyhedron_error.ROWS, polyhedron_error.cells),
     "choices": of_package(print_choices.HEAD, list(print_choices.CHOICES), print_choices.cells),
     "heads": of_package(two_heads.HEAD, list(two_heads.HEADS), two_heads.cells),
     "limits": Table(

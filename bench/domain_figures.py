@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The paper's figures of surfaces and their circle domains, as SVG from real runs: 1 (15 holes), 8 (a surface and its
-filled twin), 14 (the Schwarz reflection) and 15 (the Schottky picture)."""
+filled twin), 11 and 12 (5 and 9 holes, on surfaces of the printed sizes), 14 (the Schwarz reflection) and 15 (the
+Schottky picture)."""
 
 import mesh_regions
 import numpy as np
@@ -9,6 +10,7 @@ import strips
 import table_surfaces
 from process_figures import TILE, mask
 from strips import gamma
+from table_one import ROWS
 from table_surfaces import Curve
 
 # Paper and tile of a domain, and of its copies by the number of reflections: red, green, blue; then as the domain.
@@ -18,6 +20,7 @@ LEVELS = (
     ("#dcebdc", "#3f8f5f"),
     ("#d9e4f2", "#35639f"),
 )
+FROM_BELOW = -20.0  # degrees: no part of the chin turns away
 SMALLEST = 0.7  # units of the picture: tiles in a copy whose circle is smaller than ten times this are not drawn
 # A face with large holes, so that there is something to see in their reflections.
 WIDE = [
@@ -27,13 +30,13 @@ WIDE = [
 ]
 
 
-def domain_of(koebe, points, triangles, **options):
+def domain_of(koebe, points, triangles, tile=TILE, **options):
     """The circle domain, upright: the result, its image (V, 2), its circles (center, radius) and the mesh to draw."""
     result = koebe.uniformize(points, triangles, balance="area", **options)
     upright = strips.turned_like(result.uv, strips.seen(points)[:, :2])
     turn = complex(*upright[0]) / complex(*result.uv[0])
     circles = [(complex(*center) * turn, radius) for center, radius in zip(result.centers, result.radii)]
-    mesh = strips.Mesh(triangles, result.loops, upright, TILE)
+    mesh = strips.Mesh(triangles, result.loops, upright, tile)
     return result, upright, circles, mesh
 
 
@@ -46,6 +49,20 @@ def figure_1(koebe, size=360.0, vertices=9000, boundary=900):
     frames = [
         strips.surface_frame("a face with 15 holes", mesh, points, size, ranks),
         strips.image_frame(f"its circle domain; mean angle error {error:.1f}°", mesh, upright, size, ranks),
+    ]
+    return strips.strip(frames, 2)
+
+
+def of_printed_size(koebe, row, size=420.0):
+    """A face with as many holes, vertices and faces as a row of Table 1 prints, and its circle domain."""
+    points, triangles = table_surfaces.read_obj(table_surfaces.file_of(row))
+    result, upright, _, mesh = domain_of(koebe, points, triangles, 0.75 * TILE)
+    ranks, error = range(len(result.loops)), result.angle_error_deg["mean"]
+    surface = f"a face with {len(ranks) - 1} holes\n{len(points):,} vertices, {len(triangles):,} faces"
+    domain = f"its circle domain\nmean angle error {error:.2f}°"
+    frames = [
+        strips.surface_frame(surface, mesh, points, size, ranks, tilt=FROM_BELOW),
+        strips.image_frame(domain, mesh, upright, size, ranks),
     ]
     return strips.strip(frames, 2)
 
@@ -237,6 +254,8 @@ def figure_15(koebe, size=600.0, half=1.45, vertices=process_figures.VERTICES, b
 FIGURES = {
     "fig_1_fifteen_holes": figure_1,
     "fig_8_filled_twin": figure_8,
+    "fig_11_five_holes": lambda koebe: of_printed_size(koebe, ROWS["Fig. 11"]),
+    "fig_12_nine_holes": lambda koebe: of_printed_size(koebe, ROWS["Fig. 12"]),
     "fig_14_schwarz_reflection": figure_14,
     "fig_15_schottky": figure_15,
 }

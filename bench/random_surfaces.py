@@ -278,6 +278,16 @@ def ears(rng):
     return np.array(points, float), np.array(faces)
 
 
+def cut_in_four(points, faces):
+    """Each face by the middles of its edges: points and faces."""
+    edges = np.sort(np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    edges, index = np.unique(edges, axis=0, return_inverse=True)
+    x, y, z = len(points) + index.reshape(3, -1)
+    points = np.concatenate([points, points[edges].mean(axis=1)])
+    a, b, c = faces.T
+    return points, np.concatenate([np.column_stack(part) for part in ((a, x, z), (x, b, y), (z, y, c), (x, y, z))])
+
+
 def refined(rng):
     """A grid with holes, each face cut in four once or twice."""
     part = bordered_part(*grid(rng))
@@ -285,12 +295,7 @@ def refined(rng):
         return grid(rng)
     points, faces = part
     for _ in range(rng.integers(1, 3)):
-        edges = np.sort(np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
-        edges, index = np.unique(edges, axis=0, return_inverse=True)
-        x, y, z = len(points) + index.reshape(3, -1)
-        points = np.concatenate([points, points[edges].mean(axis=1)])
-        a, b, c = faces.T
-        faces = np.concatenate([np.column_stack(part) for part in ((a, x, z), (x, b, y), (z, y, c), (x, y, z))])
+        points, faces = cut_in_four(points, faces)
     return points, faces if rng.random() < 0.5 else faces[rng.random(len(faces)) > 0.05]
 
 

@@ -139,6 +139,13 @@ def write_obj(path, points, triangles):
     path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
+def read_obj(path):
+    """Points (V, 3) and triangles (F, 3) of a file that write_obj wrote."""
+    words = [line.split() for line in path.read_text(encoding="ascii").splitlines()]
+    points = np.array([line[1:] for line in words if line[0] == "v"], float)
+    return points, np.array([line[1:] for line in words if line[0] == "f"], np.int32) - 1
+
+
 def file_of(row, folder=FOLDER):
     """The surface for a row of Table 1, made unless it is there and newer than what makes it."""
     path = folder / f"{row.figure.lower().replace('. ', '_')}.obj"
