@@ -52,8 +52,8 @@ def parse():
 def unwrapped(obj, evenness, darts):
     """Map the object; returns the result and each face's part."""
     module = guide_picture.addon_module
-    options, choice = module("maps.options").Options(checker=False), module("maps.options").PartsChoice(evenness=evenness, darts=darts)
-    job = module("jobs.parts_job").PartsJob([obj], options, choice)
+    choice = module("maps.options").PartsChoice(evenness=evenness, darts=darts)
+    job = module("jobs.parts_job").PartsJob([obj], module("maps.options").Options(checker=False), choice)
     job.compute()
     job.write()
     outcome = job.outcomes[0]

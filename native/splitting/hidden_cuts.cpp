@@ -24,7 +24,7 @@ constexpr double strength = 0.5;    // log of the factor on an edge's length, fo
 constexpr double most_deviation = 1.5;  // standard deviations that count
 constexpr double worthwhile = 0.98;     // weighted length of a border, over that before
 constexpr double small_price = 0.1;     // of a part's price: most that hiding a cut may cost
-constexpr double longest = 1.02;        // length of a border, over its length before
+constexpr double longest = 1.02;        // length of a border, over its length before; longer where it is shown
 
 /// Distance of each face from the border, from middle to middle; the nearest first. @param label (F) 0 and 1
 std::vector<double> border_distance(const PartMesh& both, const std::vector<int>& label)
@@ -106,7 +106,9 @@ VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::
 }
 
 struct BorderCost {
-    double length = 0.0, seen = 0.0;  // seen: with the factors
+    double length = 0.0;
+    double shown = 0.0;  // longer where the surface is shown (cut_cost)
+    double seen = 0.0;   // and on ridges
 };
 
 BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, const VectorXd& factor)
@@ -115,11 +117,11 @@ BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, cons
     for (Index h = 0; h < static_cast<Index>(both.surface.twin.size()); ++h) {
         const Index t = both.surface.twin[h];
         if (t == no_twin || t < h || label[face_of(t)] == label[face_of(h)]) continue;
-        const double length = (both.vertices.row(origin(both.surface.triangles, h)) -
-                               both.vertices.row(target(both.surface.triangles, h)))
-                                  .norm();
-        cost.length += length;
-        cost.seen += factor[h] * length;
+        cost.length += (both.vertices.row(origin(both.surface.triangles, h)) -
+                        both.vertices.row(target(both.surface.triangles, h)))
+                           .norm();
+        cost.shown += cut_cost(both, h);
+        cost.seen += factor[h] * cut_cost(both, h);
     }
     return cost;
 }
@@ -160,7 +162,7 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
     const std::vector<int> cut = minimum_cut(both, sides, factor);
     if (cut.empty() || cut == label) return {};
     const BorderCost before = border_cost(both, label, factor), after = border_cost(both, cut, factor);
-    if (!(after.seen < worthwhile * before.seen) || after.length > longest * before.length) return {};
+    if (!(after.seen < worthwhile * before.seen) || after.shown > longest * before.shown) return {};
     Index pieces = 0;
     connected_pieces(both, cut, pieces);
     if (pieces != 2) return {};
