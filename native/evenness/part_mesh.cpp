@@ -56,12 +56,6 @@ double price_of_edge(const std::vector<double>& shown, Index a, Index b)
     return shown.empty() ? 1.0 : 1.0 + (price_if_shown - 1.0) * 0.5 * (shown[a] + shown[b]);
 }
 
-double cut_cost(const PartMesh& part, Index h)
-{
-    const Index a = origin(part.surface.triangles, h), b = target(part.surface.triangles, h);
-    return length_of(part.vertices.row(a) - part.vertices.row(b)) * price_of_edge(part.shown, a, b);
-}
-
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
 {
     std::sort(faces.begin(), faces.end());

@@ -49,9 +49,6 @@ struct PartMesh {
     double area = 0.0;
 };
 
-/// The length of a half-edge, times price_of_edge: decides where a cut lies.
-double cut_cost(const PartMesh& part, Index h);
-
 /// @param faces connected by edges @throws TopologyError as require_bordered_genus_zero: a closed surface
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces);
 

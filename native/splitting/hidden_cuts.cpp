@@ -82,7 +82,7 @@ double band_width(const PartMesh& both, const std::vector<int>& label, const std
     return width;
 }
 
-/// Factors on the lengths of edges (3F), those outside the band 1.
+/// Factors on the lengths of edges (3F), by their curvature and by what is shown. Outside the band curvature counts not.
 VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::vector<char>& in_band)
 {
     const Triangles& triangles = both.surface.triangles;
@@ -96,19 +96,21 @@ VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::
             squares += of_edge(h) * of_edge(h);
             count += 1.0;
         }
-    VectorXd factor = VectorXd::Ones(triangles.size());
+    VectorXd factor(triangles.size());
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+        factor[h] = price_of_edge(both.shown, origin(triangles, h), target(triangles, h));
     if (count == 0.0) return factor;
     const double mean = sum / count, deviation = std::sqrt(std::max(squares / count - mean * mean, 0.0));
     if (!(deviation > 0.0)) return factor;
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
-        factor[h] = std::exp(strength * std::clamp((of_edge(h) - mean) / deviation, -most_deviation, most_deviation));
+        factor[h] *= std::exp(strength * std::clamp((of_edge(h) - mean) / deviation, -most_deviation, most_deviation));
     return factor;
 }
 
 struct BorderCost {
     double length = 0.0;
-    double shown = 0.0;  // longer where the surface is shown (cut_cost)
-    double seen = 0.0;   // and on ridges
+    double shown = 0.0;  // longer where the surface is shown
+    double seen = 0.0;   // with the factors
 };
 
 BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, const VectorXd& factor)
@@ -117,11 +119,11 @@ BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, cons
     for (Index h = 0; h < static_cast<Index>(both.surface.twin.size()); ++h) {
         const Index t = both.surface.twin[h];
         if (t == no_twin || t < h || label[face_of(t)] == label[face_of(h)]) continue;
-        cost.length += (both.vertices.row(origin(both.surface.triangles, h)) -
-                        both.vertices.row(target(both.surface.triangles, h)))
-                           .norm();
-        cost.shown += cut_cost(both, h);
-        cost.seen += factor[h] * cut_cost(both, h);
+        const Index a = origin(both.surface.triangles, h), b = target(both.surface.triangles, h);
+        const double length = (both.vertices.row(a) - both.vertices.row(b)).norm();
+        cost.length += length;
+        cost.shown += length * price_of_edge(both.shown, a, b);
+        cost.seen += length * factor[h];
     }
     return cost;
 }
