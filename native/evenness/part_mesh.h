@@ -26,7 +26,6 @@ constexpr double price_if_shown = 8.0;  ///< a cut where `shown` is 1 counts as 
 /// The factor on the length of an edge in the cost of cuts. @param shown (V) as in CutSurface
 double price_of_edge(const std::vector<double>& shown, Index a, Index b);
 
-
 /// (F) areas of faces. @param vertices (V, 3), not so large that squares overflow
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles);
 

@@ -192,7 +192,8 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
             dart.gain = (round ? share_if_round : 1.0) * compliance * pulled * pulled;
             const Index start = dart.vertices.back();
             const bool is_longer = std::ranges::count(flat.tips, start) > 0;
-            dart.cost = price * (dart.cost + (is_longer ? 0.0 : price_of_one * price_of_edge(flat.shown, start, start)));
+            dart.cost =
+                price * (dart.cost + (is_longer ? 0.0 : price_of_one * price_of_edge(flat.shown, start, start)));
             const double surplus = dart.gain - dart.cost;
             if (surplus > 0.0) found.emplace_back(surplus, std::move(dart));
         }

@@ -25,7 +25,7 @@ struct PartsOptions : MapOptions {
     /// Edges, as pairs of vertices. A tube is opened along them if they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
     /// (V) from 0 to 1: cuts and darts keep away from vertices of weight 1, where they count as price_if_shown times as
-    /// long. Cuts through handles do not obey. Empty: nowhere.
+    /// long. This places borders (hidden_cuts.h), slits and darts. Cuts through handles do not obey. Empty: nowhere.
     std::vector<double> show = {};
     /// true: rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges,
     /// and angles are better.

@@ -82,7 +82,8 @@ double band_width(const PartMesh& both, const std::vector<int>& label, const std
     return width;
 }
 
-/// Factors on the lengths of edges (3F), by their curvature and by what is shown. Outside the band curvature counts not.
+/// Factors on the lengths of edges (3F), by their curvature and by what is shown. Outside the band curvature counts
+/// not.
 VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::vector<char>& in_band)
 {
     const Triangles& triangles = both.surface.triangles;

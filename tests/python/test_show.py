@@ -63,7 +63,7 @@ def test_cuts_keep_away_from_the_half_that_is_shown(model, sign):
 
 def test_a_tube_is_opened_on_its_back():
     show = front(VERTICES, axis=0)
-    plain, turned = koebe.parts(VERTICES, TRIANGLES), koebe.parts(VERTICES, TRIANGLES, show=show)
+    plain, turned = (koebe.parts(VERTICES, TRIANGLES, darts=0.0, show=one) for one in (None, show))
     assert cut_share(plain, VERTICES, TRIANGLES, show)[1] > 0.5
     ring = np.pi  # a cut round the finger has half of its length on each side
     length, share = cut_share(turned, VERTICES, TRIANGLES, show)

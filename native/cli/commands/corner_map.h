@@ -3,8 +3,8 @@
 
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
-#include "cli/options/option_table.h"
 #include "cli/files/weights_file.h"
+#include "cli/options/option_table.h"
 #include "cli/process/end_with_input.h"
 #include "io/corner_uvs.h"
 
