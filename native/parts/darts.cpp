@@ -51,7 +51,8 @@ SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {})
     return mesh;
 }
 
-/// The path from a vertex to the boundary. @return nothing if the vertex is on it, or if there is no path
+/// The path from a vertex to the boundary. Its cost is a length, longer where the surface is shown. @return nothing if
+/// the vertex is on it, or if there is no path
 Dart shortest_dart(const FlatPart& flat, const PathTree& tree, Index tip)
 {
     const Triangles& triangles = flat.surface.triangles;
