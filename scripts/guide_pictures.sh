@@ -2,7 +2,7 @@
 # The guide's pictures.
 # Usage: scripts/guide_pictures.sh window     cut out of those that `make test-gui` leaves in out/gui
 #        scripts/guide_pictures.sh film       the film at the top, filmed in a window on a screen of its own
-#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and mug in parts, a torus tile, a sphere
+#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand, mug and character in parts, a torus tile, a sphere
 set -euo pipefail
 cd "$(dirname "$0")/.."
 images=docs/images
@@ -32,6 +32,8 @@ drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
     draw mug parts_picture.py --output "$images/guide_parts_mug.jpg" --size 1000x500
+    draw character parts_picture.py --output "$images/parts_mirror_before.jpg" --size 1000x500 --darts 0 --one-off
+    draw character parts_picture.py --output "$images/parts_mirror_after.jpg" --size 1000x500
     draw mug tile_picture.py "$images/guide_tile.jpg"  # which takes nothing of the file
     draw closed_head sphere_picture.py "$images/guide_sphere.jpg"
     ;;

@@ -6,6 +6,8 @@
     --report FILE      the figures, as JSON
     --blend FILE       the file with the UVs
     --evenness X       the panel's slider, 0 to 1 (0.5)
+    --darts D          the panel's darts, 0 to 1 (0.2)
+    --one-off          first move one vertex by a thousandth of the model's size: then it is not its own mirror image
     --size 1600x800    width and height in pixels; OUT may be a .jpg
     --samples N        Cycles samples per pixel (32)
 
@@ -40,16 +42,18 @@ def parse():
     parser.add_argument("--report", type=Path)
     parser.add_argument("--blend", type=Path)
     parser.add_argument("--evenness", type=float, default=0.5)
+    parser.add_argument("--darts", type=float, default=0.2)
+    parser.add_argument("--one-off", action="store_true")
     parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(1600, 800))
     parser.add_argument("--samples", type=int, default=32)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 
-def unwrapped(obj, evenness):
+def unwrapped(obj, evenness, darts):
     """Map the object; returns the result and each face's part."""
     module = guide_picture.addon_module
-    options, choice = module("maps.options").Options(checker=False), module("maps.options").PartsChoice(evenness)
-    job = module("jobs.parts_job").PartsJob([obj], options, choice)
+    choice = module("maps.options").PartsChoice(evenness=evenness, darts=darts)
+    job = module("jobs.parts_job").PartsJob([obj], module("maps.options").Options(checker=False), choice)
     job.compute()
     job.write()
     outcome = job.outcomes[0]
@@ -98,7 +102,9 @@ def draw(obj, part, options):
 def main():
     options = parse()
     obj = next(obj for obj in bpy.context.scene.objects if obj.type == "MESH")
-    result, part = unwrapped(obj, options.evenness)
+    if options.one_off:
+        obj.data.vertices[0].co.z += 1e-3 * max(obj.dimensions)
+    result, part = unwrapped(obj, options.evenness, options.darts)
     if options.report:
         options.report.write_text(json.dumps(figures(result), indent=1) + "\n", encoding="utf-8")
     if options.blend:

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run on Blender objects that cuts them into even parts: read, compute, write."""
 
+import dataclasses
+from typing import Any
+
 import bpy
 
-from ..blender import map_writing, seams
+from ..blender import map_writing, mesh_reading, seams
 from ..blender.errors import TransferError
+from ..blender.mesh_object import MeshObject
 from ..blender.transaction import Transaction
 from ..maps.options import PartsChoice
 from ..maps.outcomes import Progress, Task
 from ..maps.parts import PartsOutcome, cut_into_parts
+from ..maps.surface import Surface
 from .choice_job import ChoiceJob
 
 
@@ -16,6 +21,15 @@ class PartsJob(ChoiceJob):
     """Has parts as outcomes. On request marks their cuts as seams."""
 
     choice: PartsChoice
+
+    def __init__(self, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        if self.choice.show and all(task.show is None for task in self.tasks):
+            raise TransferError(f"Show is the vertex group {self.choice.show!r}, but no object has this group")
+
+    def _task(self, obj: MeshObject, surface: Surface) -> Task:
+        show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None
+        return dataclasses.replace(super()._task(obj, surface), show=show)
 
     def _map(self, task: Task, progress: Progress | None) -> PartsOutcome:
         return cut_into_parts(self.koebe, task, self.choice, progress, self.cancel_token)

@@ -139,9 +139,9 @@ def cut_into_parts(
     slits = tube_slits(surface, cut_into_islands(surface))
     with failing_alone(koebe, [one]):
         if slits.any():
-            _map(koebe, one, surface, slits, arguments, progress, cancel)
+            _map(koebe, one, surface, slits, task.show, arguments, progress, cancel)
         if not slits.any() or (inner_seams(surface) & ~one.cuts).any():
-            _map(koebe, one, surface, np.zeros_like(slits), arguments, progress, cancel)
+            _map(koebe, one, surface, np.zeros_like(slits), task.show, arguments, progress, cancel)
     return PartsOutcome(task, [one])
 
 
@@ -150,6 +150,7 @@ def _map(
     one: PartsIsland,
     surface: Surface,
     slits: np.ndarray,
+    show: np.ndarray | None,
     arguments: dict[str, Any],
     progress: Progress | None,
     cancel: Any,
@@ -169,7 +170,8 @@ def _map(
     one.numbers = Numbers(surface.triangle_face[chosen], np.concatenate(sources))
     result = koebe.parts(
         np.concatenate(positions), vertex_of_corner[corners], polygon=one.numbers.triangle_face,
-        slits=vertex_of_corner[ends], progress=progress, cancel=cancel, **arguments,
+        slits=vertex_of_corner[ends], show=None if show is None else show[one.numbers.source_vertex],
+        progress=progress, cancel=cancel, **arguments,
     )  # fmt: skip
     if result.lost_area > arguments["most_lost"]:
         one.result = result

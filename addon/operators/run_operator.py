@@ -10,6 +10,7 @@ from ..blender.errors import TransferError
 from ..blender.targets import target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
+from ..maps.option_table import ROWS
 from ..maps.options import OptionError
 from ..maps.wording import failure_line, few, lines
 from ..solver.errors import NativeError
@@ -48,7 +49,7 @@ def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bp
     row = layout.row()
     row.active = is_used(options, name)
     obj = context.active_object
-    if name == "importance" and obj is not None and obj.type == "MESH":
+    if ROWS[name].kind == "weights" and obj is not None and obj.type == "MESH":
         row.prop_search(options, name, obj, "vertex_groups")
     else:
         row.prop(options, name)

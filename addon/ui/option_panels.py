@@ -7,6 +7,7 @@ import bpy
 
 from ..blender.targets import target_objects
 from ..maps.domains import DOMAINS
+from ..maps.option_table import ROWS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.option_presets import UV_OT_koebe_reset
@@ -34,26 +35,26 @@ class DiskPanel(ClosedPanel):
         column, settings = self.aligned_layout().column(), settings_of(context)
         for name in ("cut", "outer", "center", "point", "balance"):
             draw_option(column, settings, name, context)
-        draw_importance(column, settings, context)
+        draw_weights(column, settings, "importance", context)
         for name in ("loops", "tube", "upright", "symmetry", "polish"):
             draw_option(column, settings, name, context)
 
 
-def draw_importance(column: bpy.types.UILayout, settings: KoebeSettings, context: bpy.types.Context) -> None:
-    """Draw the vertex group, and under it the button to Weight Paint, or back."""
+def draw_weights(column: bpy.types.UILayout, settings: KoebeSettings, option: str, context: bpy.types.Context) -> None:
+    """Draw the vertex group of an option, and under it the button to Weight Paint, or back."""
     obj: Any = context.active_object
     row = column.row()
     row.use_property_split = False
-    row.active = is_used(settings, "importance")
-    split = row.split(factor=0.44)  # a little more room than Blender gives to names, as this one needs it
+    row.active = is_used(settings, option)
+    split = row.split(factor=0.44)  # a little more room than Blender gives to names, as Importance needs it
     name = split.row()
     name.alignment = "RIGHT"
-    name.label(text="Importance")
+    name.label(text=ROWS[option].blender["label"])
     if obj is None or obj.type != "MESH":
-        split.prop(settings, "importance", text="")
+        split.prop(settings, option, text="")
         return
     value = split.column(align=True)
-    value.prop_search(settings, "importance", obj, "vertex_groups", text="")
+    value.prop_search(settings, option, obj, "vertex_groups", text="")
     painting = obj.mode == "WEIGHT_PAINT"
     text = "Stop Painting" if painting else "Paint It"
     value.operator("paint.weight_paint_toggle", text=text, depress=painting)
@@ -66,7 +67,9 @@ class PartsPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("darts", "seams", "write_seams"):
+        column.prop(settings, "darts")
+        draw_weights(column, settings, "show", context)
+        for name in ("seams", "write_seams"):
             column.prop(settings, name)
 
 

@@ -51,6 +51,11 @@ CutSurface cut_surface(const Vertices& vertices, Surface surface, std::vector<In
     return whole;
 }
 
+double price_of_edge(const std::vector<double>& shown, Index a, Index b)
+{
+    return shown.empty() ? 1.0 : 1.0 + (price_if_shown - 1.0) * 0.5 * (shown[a] + shown[b]);
+}
+
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
 {
     std::sort(faces.begin(), faces.end());
@@ -93,6 +98,8 @@ PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
     if (!whole.slit.empty())
         for (const Index f : faces)
             for (Index h = 3 * f; h < 3 * f + 3; ++h) part.slit.push_back(whole.slit[h]);
+    if (!whole.shown.empty())
+        for (const Index v : part.original) part.shown.push_back(whole.shown[v]);
     part.border.assign(part.original.size(), 0);
     for (Index h = 0; h < static_cast<Index>(own.size()); ++h) {
         const Index of_whole = 3 * faces[h / 3] + h % 3;
@@ -116,6 +123,7 @@ PartMesh some_or_all(const CutSurface& whole, std::vector<Index> faces)
     all.surface = whole.surface;
     all.areas = whole.areas;
     all.polygon = whole.polygon;
+    all.shown = whole.shown;
     all.area = all.areas.sum();
     return all;
 }

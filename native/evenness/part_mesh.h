@@ -18,7 +18,13 @@ struct CutSurface {
     std::vector<Index> polygon;  ///< (F) faces with the same number are not cut apart; empty: all may be
     std::vector<char> slit;      ///< (3F) 1 where tubes should be opened; empty: no wish
     std::vector<char> seam;      ///< (3F) 1 on a boundary that is a cut; empty: no boundary is
+    std::vector<double> shown;   ///< (V) from 0 to 1: how much cuts are to keep away; empty: nowhere
 };
+
+constexpr double price_if_shown = 8.0;  ///< a cut where `shown` is 1 counts as this many times as long
+
+/// The factor on the length of an edge in the cost of cuts. @param shown (V) as in CutSurface
+double price_of_edge(const std::vector<double>& shown, Index a, Index b);
 
 /// (F) areas of faces. @param vertices (V, 3), not so large that squares overflow
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles);
@@ -37,6 +43,7 @@ struct PartMesh {
     VectorXd areas;              ///< (F) in the unit of the whole
     std::vector<Index> polygon;  ///< (F) as in CutSurface
     std::vector<char> slit;      ///< (3F) as in CutSurface
+    std::vector<double> shown;   ///< (V) as in CutSurface
     std::vector<char> border;    ///< (V) 1 on the boundary of the input itself, where nothing was cut
     double area = 0.0;
 };

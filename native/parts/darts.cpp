@@ -29,7 +29,8 @@ constexpr double first_gap = 0.05;  // between the sides of a dart, over the lea
 
 Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
-SeamedMesh seamed(const FlatPart& flat)
+/// @param shown as in FlatPart: makes edges longer; empty: lengths on the surface
+SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {})
 {
     const Triangles& triangles = flat.surface.triangles;
     SeamedMesh mesh;
@@ -42,7 +43,7 @@ SeamedMesh seamed(const FlatPart& flat)
     const Index count = mesh.halfedge_count();
     for (Index h = 0; h < count; ++h) {
         const Index a = origin(triangles, h), b = target(triangles, h), t = mesh.twin[h];
-        mesh.length.push_back((flat.vertices.row(a) - flat.vertices.row(b)).norm());
+        mesh.length.push_back((flat.vertices.row(a) - flat.vertices.row(b)).norm() * price_of_edge(shown, a, b));
         const bool within =
             t != no_twin && !flat.polygon.empty() && flat.polygon[face_of(h)] == flat.polygon[face_of(t)];
         mesh.whole.push_back(t == no_twin || within);
@@ -50,18 +51,28 @@ SeamedMesh seamed(const FlatPart& flat)
     return mesh;
 }
 
-/// The path from a vertex to the boundary. @return nothing if the vertex is on it, or if there is no path
-Dart shortest_dart(const Triangles& triangles, const PathTree& tree, Index tip)
+/// The path from a vertex to the boundary. Its cost is a length, longer where the surface is shown. @return nothing if
+/// the vertex is on it, or if there is no path
+Dart shortest_dart(const FlatPart& flat, const PathTree& tree, Index tip)
 {
+    const Triangles& triangles = flat.surface.triangles;
     Dart dart;
     dart.halfedges = tree.path(tip);
-    dart.length = tree.distance[tip];
+    dart.cost = tree.distance[tip];
     dart.vertices.push_back(tip);
     for (const Index h : dart.halfedges) {
         const Index a = origin(triangles, h), b = target(triangles, h);
         dart.vertices.push_back(a == dart.vertices.back() ? b : a);
+        dart.length += (flat.vertices.row(a) - flat.vertices.row(b)).norm();
     }
     return dart;
+}
+
+/// (V) distances on the surface from vertices, infinite where no path leads.
+VectorXd distances(const FlatPart& flat, const std::vector<Index>& sources)
+{
+    const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
+    return Eigen::Map<const VectorXd>(tree.distance.data(), flat.surface.vertex_count);
 }
 
 /// By how much the two sides of a path are pulled apart.
@@ -157,7 +168,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
 {
     const Triangles& triangles = flat.surface.triangles;
     const std::vector<char> outside = boundary_mask(flat.surface);
-    const EdgeGraph graph(seamed(flat), 1.0);
+    const EdgeGraph graph(seamed(flat, flat.shown), 1.0);
     const Tension tension(flat, forces);
     const double t = area_weight(even), compliance = 2.0 * (1.0 + t) / (8.0 * t);
     std::vector<std::pair<double, Dart>> found;
@@ -168,11 +179,11 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
             if (outside[v] && (flat.held[v] != 0) == round) sources.push_back(v);
         if (sources.empty()) continue;
         const PathTree tree = shortest_paths(graph, sources);
-        if (round) from_round = Eigen::Map<const VectorXd>(tree.distance.data(), from_round.size());
+        if (round) from_round = distances(flat, sources);
         for (Index v = 0; v < flat.surface.vertex_count; ++v) {
             if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
                 continue;
-            Dart dart = shortest_dart(triangles, tree, v);
+            Dart dart = shortest_dart(flat, tree, v);
             if (std::ranges::any_of(dart.vertices.begin(), std::prev(dart.vertices.end()), [&](Index w) {
                     return outside[w] != 0 || (!round && from_round[w] < clear_of_round);
                 }))
@@ -180,8 +191,10 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
             const double pulled = tension.along(dart);
             if (!(pulled > 0.0)) continue;
             dart.gain = (round ? share_if_round : 1.0) * compliance * pulled * pulled;
-            const bool is_longer = std::ranges::count(flat.tips, dart.vertices.back()) > 0;
-            dart.cost = price * (dart.length + (is_longer ? 0.0 : price_of_one));
+            const Index start = dart.vertices.back();
+            const bool is_longer = std::ranges::count(flat.tips, start) > 0;
+            dart.cost =
+                price * (dart.cost + (is_longer ? 0.0 : price_of_one * price_of_edge(flat.shown, start, start)));
             const double surplus = dart.gain - dart.cost;
             if (surplus > 0.0) found.emplace_back(surplus, std::move(dart));
         }
@@ -213,12 +226,12 @@ std::vector<Dart> shortest_darts(const FlatPart& flat, const std::vector<Index>&
 {
     std::vector<Index> sources;
     for (const VertexLoop& loop : flat.surface.loops) sources.insert(sources.end(), loop.begin(), loop.end());
-    const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
+    const PathTree tree = shortest_paths(EdgeGraph(seamed(flat, flat.shown), 1.0), sources);
     std::vector<char> taken(static_cast<std::size_t>(flat.surface.vertex_count), 0);
     std::vector<Dart> darts;
     for (const Index tip : tips) {
         if (tree.parent[tip] == tip) continue;
-        Dart dart = shortest_dart(flat.surface.triangles, tree, tip);
+        Dart dart = shortest_dart(flat, tree, tip);
         if (dart.halfedges.empty() || std::ranges::any_of(dart.vertices, [&](Index v) { return taken[v]; })) continue;
         for (const Index v : dart.vertices) taken[v] = 1;
         darts.push_back(std::move(dart));
@@ -259,6 +272,7 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
     for (std::size_t i = kept.size(); i < source.size(); ++i) {
         after.original.push_back(flat.original[source[i]]);
         after.held.push_back(flat.held[source[i]]);
+        if (!flat.shown.empty()) after.shown.push_back(flat.shown[source[i]]);
         if (!flat.image.empty()) after.image.push_back(flat.image[source[i]]);
     }
     std::vector<Index> second(kept.size(), -1);

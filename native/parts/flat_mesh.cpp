@@ -199,23 +199,28 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
         for (const Index f : piece.source_face) polygon.push_back(options.polygon[f]);
     const bool is_large = piece.triangles.rows() > large;
     const Vertices own = vertices(piece.source_vertex, Eigen::all);
+    std::vector<double> shown;
+    if (!options.show.empty())
+        for (const Index v : piece.source_vertex) shown.push_back(options.show[v]);
     std::optional<CutSurface> closed = closed_surface(piece, own, polygon);
     std::vector<std::vector<Index>> first;
+    if (closed) closed->shown = shown;
     if (closed && !is_large) first = halves(*closed);
     const bool stays_closed = closed && (is_large || !first.empty());
     const auto opened = [&] { return cut_surface(own, piece.triangles, polygon); };
     CutSurface whole = stays_closed ? *std::exchange(closed, std::nullopt) : opened();
     whole.slit = chosen_slits(piece, options.slits);
     whole.seam = seams.of(piece);
+    whole.shown = shown;
     SplitEffort effort;
     const SplitOptions prices = prices_for(whole.areas.sum(), options.price, threads);
     std::vector<PartPointer> parts = is_large ? parts_by_coarse_surface(whole, prices, context, effort)
                                               : even_parts(whole, std::move(first), prices, context, effort);
     if (parts.empty()) {  // no curve cuts it in two
-        std::vector<char> slit = std::move(whole.slit), seam = std::move(whole.seam);
-        whole = opened();
-        whole.slit = std::move(slit);
-        whole.seam = std::move(seam);
+        const CutSurface before = std::exchange(whole, opened());
+        whole.slit = before.slit;
+        whole.seam = before.seam;
+        whole.shown = shown;
         parts = parts_by_coarse_surface(whole, prices, context, effort);
     }
     const Mirror mirror = is_large ? Mirror{} : find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
@@ -246,6 +251,8 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
         if (!mirror.vertex.empty())
             for (const Index v : part.original) part.image.push_back(piece.source_vertex[mirror.vertex[v]]);
         for (Index& v : part.original) v = piece.source_vertex[v];
+        if (!options.show.empty())
+            for (const Index v : part.original) part.shown.push_back(options.show[v]);
         for (VertexLoop& loop : part.loops)
             for (Index& v : loop) v = piece.source_vertex[v];
     }

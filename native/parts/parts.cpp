@@ -2,6 +2,7 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
+#include "core/vertex_weights.h"
 #include "evenness/part_mesh.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
@@ -174,7 +175,9 @@ void name_parts(const CanonicalMesh& mesh, PartsResult& result)
 PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                      ExecutionContext& context)
 {
+    require_weights("a weight to show", options.show, static_cast<Index>(vertices.rows()));
     const auto compute_here = [](const CanonicalMesh& mesh, PartsOptions& here, ExecutionContext& own) {
+        here.show = mesh.of_vertices(here.show);
         for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
         return compute(mesh.vertices, mesh.triangles, here, own);
     };

@@ -60,7 +60,8 @@ std::vector<char> slit_edges(const Part& part, double& slit_length)
             const Complex a = part.map.strip[v], b = part.map.strip[w];
             const double share = !part.mesh.slit.empty() && part.mesh.slit[h] ? chosen_share : 1.0;
             const double along = std::abs(b.real() - a.real()), across = std::abs(turn(a.imag(), b.imag()));
-            const double length = length_of(part.mesh.vertices.row(w) - part.mesh.vertices.row(v));
+            const double length =
+                length_of(part.mesh.vertices.row(w) - part.mesh.vertices.row(v)) * price_of_edge(part.mesh.shown, v, w);
             const double whole = std::hypot(along, across);
             const double crooked = whole > 0.0 ? (along + price_of_turning * across) / whole : 1.0;
             const double cost = d + share * crooked * length;

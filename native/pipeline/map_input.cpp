@@ -3,6 +3,7 @@
 #include "canonical/canonical_form.h"
 #include "canonical/canonical_position.h"
 #include "core/errors.h"
+#include "core/vertex_weights.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
@@ -89,15 +90,7 @@ void require_importance(const UniformizeOptions& options, Index vertex_count)
 {
     if (options.importance.empty()) return;
     if (options.balance != Balance::area) throw InputError("importance needs balance area: it weighs the balance");
-    if (options.importance.size() != static_cast<std::size_t>(vertex_count))
-        throw InputError("there must be an importance for each vertex: " + std::to_string(vertex_count) + ", not " +
-                         std::to_string(options.importance.size()));
-    std::vector<Index> bad;
-    for (Index v = 0; v < vertex_count; ++v)
-        if (!(options.importance[v] >= 0.0 && options.importance[v] <= 1.0)) bad.push_back(v);
-    if (!bad.empty())
-        throw InputError(std::to_string(bad.size()) + " vertices have an importance that is not from 0 to 1",
-                         ElementKind::vertices, bad);
+    require_weights("an importance", options.importance, vertex_count);
 }
 
 MapInput prepare_input(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)

@@ -24,7 +24,7 @@ constexpr double strength = 0.5;    // log of the factor on an edge's length, fo
 constexpr double most_deviation = 1.5;  // standard deviations that count
 constexpr double worthwhile = 0.98;     // weighted length of a border, over that before
 constexpr double small_price = 0.1;     // of a part's price: most that hiding a cut may cost
-constexpr double longest = 1.02;        // length of a border, over its length before
+constexpr double longest = 1.02;        // length of a border, over its length before; longer where it is shown
 
 /// Distance of each face from the border, from middle to middle; the nearest first. @param label (F) 0 and 1
 std::vector<double> border_distance(const PartMesh& both, const std::vector<int>& label)
@@ -82,7 +82,8 @@ double band_width(const PartMesh& both, const std::vector<int>& label, const std
     return width;
 }
 
-/// Factors on the lengths of edges (3F), those outside the band 1.
+/// Factors on the lengths of edges (3F), by their curvature and by what is shown. Outside the band curvature counts
+/// not.
 VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::vector<char>& in_band)
 {
     const Triangles& triangles = both.surface.triangles;
@@ -96,17 +97,21 @@ VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::
             squares += of_edge(h) * of_edge(h);
             count += 1.0;
         }
-    VectorXd factor = VectorXd::Ones(triangles.size());
+    VectorXd factor(triangles.size());
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+        factor[h] = price_of_edge(both.shown, origin(triangles, h), target(triangles, h));
     if (count == 0.0) return factor;
     const double mean = sum / count, deviation = std::sqrt(std::max(squares / count - mean * mean, 0.0));
     if (!(deviation > 0.0)) return factor;
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
-        factor[h] = std::exp(strength * std::clamp((of_edge(h) - mean) / deviation, -most_deviation, most_deviation));
+        factor[h] *= std::exp(strength * std::clamp((of_edge(h) - mean) / deviation, -most_deviation, most_deviation));
     return factor;
 }
 
 struct BorderCost {
-    double length = 0.0, seen = 0.0;  // seen: with the factors
+    double length = 0.0;
+    double shown = 0.0;  // longer where the surface is shown
+    double seen = 0.0;   // with the factors
 };
 
 BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, const VectorXd& factor)
@@ -115,11 +120,11 @@ BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, cons
     for (Index h = 0; h < static_cast<Index>(both.surface.twin.size()); ++h) {
         const Index t = both.surface.twin[h];
         if (t == no_twin || t < h || label[face_of(t)] == label[face_of(h)]) continue;
-        const double length = (both.vertices.row(origin(both.surface.triangles, h)) -
-                               both.vertices.row(target(both.surface.triangles, h)))
-                                  .norm();
+        const Index a = origin(both.surface.triangles, h), b = target(both.surface.triangles, h);
+        const double length = (both.vertices.row(a) - both.vertices.row(b)).norm();
         cost.length += length;
-        cost.seen += factor[h] * length;
+        cost.shown += length * price_of_edge(both.shown, a, b);
+        cost.seen += length * factor[h];
     }
     return cost;
 }
@@ -160,7 +165,7 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
     const std::vector<int> cut = minimum_cut(both, sides, factor);
     if (cut.empty() || cut == label) return {};
     const BorderCost before = border_cost(both, label, factor), after = border_cost(both, cut, factor);
-    if (!(after.seen < worthwhile * before.seen) || after.length > longest * before.length) return {};
+    if (!(after.seen < worthwhile * before.seen) || after.shown > longest * before.shown) return {};
     Index pieces = 0;
     connected_pieces(both, cut, pieces);
     if (pieces != 2) return {};

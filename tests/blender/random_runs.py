@@ -209,7 +209,8 @@ class RandomRun:
                     "point": one(["auto", "auto", "cursor", "active"])}  # fmt: skip
         if name == "uv.koebe_parts":
             return {"layer": layer, "checker": one([True, False]), "evenness": one([0.0, 0.5, 1.0]),
-                    "seams": one(["add", "only"]), "write_seams": one([True, False])}  # fmt: skip
+                    "seams": one(["add", "only"]), "write_seams": one([True, False]),
+                    "show": one(["", "", "Weight"])}  # fmt: skip
         if name in ("uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky"):
             own = {
                 "uv.koebe_torus": {"fit": one(["inside", "period", "square"])},

@@ -259,3 +259,39 @@ def test_the_cuts_can_be_selected():
     assert bpy.ops.uv.koebe_select_cuts() == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
     assert np.flatnonzero(scenes.read(obj.data.edges, "select", bool)).tolist() == cuts_of(obj).tolist()
+
+
+def weight_group(obj, chosen):
+    """A vertex group Front of these vertices."""
+    obj.vertex_groups.new(name="Front").add([int(v) for v in chosen], 1.0, "REPLACE")
+
+
+def cut_edges_in(obj, vertices):
+    """The number of seams whose two vertices are among these, and of all seams."""
+    seams = [edge for edge in obj.data.edges if edge.use_seam]
+    return sum(all(v in vertices for v in edge.vertices) for edge in seams), len(seams)
+
+
+@pytest.mark.alike
+def test_cuts_keep_away_from_the_group_that_is_shown():
+    obj = MODELS["monkey"]()
+    front = {v.index for v in obj.data.vertices if v.co.y < 0.0}
+    weight_group(obj, front)
+    scenes.select(obj)
+    shares = []
+    for show in ("", "Front"):
+        assert unwrap(write_seams=True, show=show, checker=False) == {"FINISHED"}
+        shown, total = cut_edges_in(obj, front)
+        shares.append(shown / total)
+        for edge in obj.data.edges:
+            edge.use_seam = False
+    assert shares[1] < 0.8 * shares[0]
+
+
+def test_a_group_to_show_that_nobody_has_is_refused():
+    obj = MODELS["sphere"]()
+    scenes.select(obj)
+    state = scenes.mesh_state(obj.data)
+    with pytest.raises(RuntimeError, match="Show is the vertex group 'Nothing', but no object has this group"):
+        unwrap(show="Nothing")
+    assert scenes.mesh_state(obj.data) == state

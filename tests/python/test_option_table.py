@@ -218,7 +218,7 @@ def test_the_addon_hands_every_option_to_the_solver(addon):
     options = addon("maps.options")
     chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(),
               **{name: domain.choice() for name, domain in addon("maps.domains").DOMAINS.items()}}  # fmt: skip
-    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance"}
+    by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "show"}
     engine = {row["name"] for row in TABLE if "with" in row}
     for of, choice in chosen.items():
         assert {*choice.solver_arguments()} == {*rows_in("python", of)} - by_island - engine, of

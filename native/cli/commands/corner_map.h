@@ -3,12 +3,14 @@
 
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
+#include "cli/files/weights_file.h"
 #include "cli/options/option_table.h"
 #include "cli/process/end_with_input.h"
 #include "io/corner_uvs.h"
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace koebe::cli {
@@ -63,6 +65,7 @@ MapKind<Result> piece_map_kind(const MapRequest& request, const Options& chosen,
 template <typename Options>
 struct CornerMapRequest : MapRequest {
     Options chosen;
+    std::string show;  ///< file with the weights of PartsOptions::show
     bool ends_with_input = false;
 };
 
@@ -85,6 +88,11 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
     CLI::App* options = app.add_subcommand(help.name, help.does);
     add_mesh_arguments(*options, *request, help.surface, help.uvs);
     add_options(*options, help.name, request->chosen);
+    constexpr bool has_show = requires { request->chosen.show; };
+    if constexpr (has_show) {
+        const OptionRow& row = *find_row(help.name, "show");
+        options->add_option(row.flag(), request->show, std::string(row.does))->type_name("FILE");
+    }
     if (help.sphere != nullptr) options->add_option("--sphere", request->sphere, help.sphere)->type_name("FILE");
     add_report_options(*options, *request, help.picture);
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
@@ -92,9 +100,14 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
         check_map_files(*request);
         if (!request->sphere.empty()) required_format(request->sphere);
         request->entries["options"] = option_report(name, request->chosen);
+        if (request->show.empty()) return;
+        require_different_files(map_files(*request), {request->input, request->show}, !request->quiet);
+        request->entries["options"]["show"] = true;
     });
     return {options, [request, run] {
                 if (request->ends_with_input) end_with_input();
+                if constexpr (has_show)
+                    if (!request->show.empty()) request->chosen.show = read_weights(request->show, "a weight to show");
                 return run(*request);
             }};
 }

@@ -2,7 +2,7 @@
 #include "cli/commands/cut_map_command.h"
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
-#include "cli/files/importance_file.h"
+#include "cli/files/weights_file.h"
 #include "cli/options/option_table.h"
 #include "cli/options/uniformize_options.h"
 #include "cli/process/end_with_input.h"
@@ -45,7 +45,8 @@ Subcommand add_uniformize(CLI::App& app)
     });
     return {options, [request] {
                 if (request->ends_with_input) end_with_input();
-                if (!request->importance.empty()) request->options.importance = read_importance(request->importance);
+                if (!request->importance.empty())
+                    request->options.importance = read_weights(request->importance, "an importance");
                 if (request->cut) return run_cut_map(*request);
                 return run_map(*request, [&](const auto& vertices, const auto& triangles, ExecutionContext& context) {
                     require_schedule_of_loops(triangles, static_cast<Index>(vertices.rows()), request->options);

@@ -10,7 +10,7 @@ from ._cut_result import CutResult
 from ._input import is_surface, polygons_of, surface_of
 from ._native import _koebe
 from ._option_table import rows
-from ._options import callback, choice, filled, flag, takes, token, whole
+from ._options import callback, choice, filled, flag, takes, token, vertex_weights, whole
 from ._result import UniformizeResult, with_origin
 from ._signatures import UniformizeOptions
 from .errors import InputError, OptionError, SolverError, TopologyError
@@ -103,13 +103,7 @@ def importance_of(values: Any, balance: str, count: int) -> np.ndarray:
         return np.zeros(0)
     if balance != "area":
         raise OptionError("importance needs balance='area': it weighs the balance")
-    array = np.asarray(values)
-    if array.shape != (count,) or array.dtype.kind not in "fiu":
-        raise InputError(f"importance must be ({count},) real numbers, not {array.shape} {array.dtype}")
-    wrong = np.flatnonzero(~((array >= 0) & (array <= 1)))
-    if len(wrong):
-        raise InputError(f"{len(wrong)} vertices have an importance not from 0 to 1", wrong.tolist(), "vertices")
-    return array.astype(np.float64)
+    return vertex_weights("importance", values, count)
 
 
 def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[np.ndarray]:

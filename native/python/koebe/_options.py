@@ -76,6 +76,19 @@ def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, d
     return native, said
 
 
+def vertex_weights(name: str, values: Any, count: int) -> np.ndarray:
+    """(V,) a weight in [0, 1] for each vertex, or empty."""
+    if values is None:
+        return np.zeros(0)
+    array = np.asarray(values)
+    if array.shape != (count,) or array.dtype.kind not in "fiu":
+        raise InputError(f"{name} must be ({count},) real numbers, not {array.shape} {array.dtype}")
+    wrong = np.flatnonzero(~((array >= 0) & (array <= 1)))
+    if len(wrong):
+        raise InputError(f"{len(wrong)} vertices have {name} not from 0 to 1", wrong.tolist(), "vertices")
+    return array.astype(np.float64)
+
+
 def _checked(row: Row, value: Any) -> Any:
     """The checked value of an option of any kind, as reports have it."""
     if value is None and row.default is None and row.kind in ("number", "vertex"):

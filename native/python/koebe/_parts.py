@@ -7,7 +7,7 @@ import numpy as np
 
 from ._input import polygons_of, surface_of
 from ._native import _koebe
-from ._options import callback, filled, takes, token
+from ._options import callback, filled, takes, token, vertex_weights
 from ._result import MapReport, Source, Warning
 from ._signatures import PartsOptions
 from .errors import InputError
@@ -97,6 +97,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles, degenerate=options.cut)
     options.polygon = polygons_of(given["polygon"], source)
+    options.show = vertex_weights("show", given["show"], len(source.vertices))
     if given["slits"] is not None:
         options.slits = _edges(given["slits"], len(source.vertices)).tolist()
     native = _koebe.parts(source.vertices, source.triangles, options, progress, cancel)

@@ -93,6 +93,7 @@ class PartsOptions(MapOptions, RunOptions, total=False):
     even: float | None
     loops: str
     darts: float
+    show: Any
     price: float | None
     cut: bool
     round_cuts: bool
