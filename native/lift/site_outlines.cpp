@@ -140,7 +140,7 @@ private:
         });
     }
 
-    static std::vector<Complex> without_short_sides(std::vector<Complex> polygon, double least)
+    static std::vector<Complex> without_short_sides(const std::vector<Complex>& polygon, double least)
     {
         std::vector<Complex> kept;
         for (const Complex z : polygon)
