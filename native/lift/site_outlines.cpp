@@ -125,7 +125,7 @@ public:
             if (side > 0.0) polygon = clipped(polygon, site.place + side / length * way, way);
         });
         if (!(room > 0.5 * least_share * site.size) || polygon.size() < 3) return {};
-        return rounded_corners(without_short_sides(std::move(polygon), 0.02 * site.size));
+        return rounded_corners(without_short_sides(polygon, 0.02 * site.size));
     }
 
 private:

@@ -11,17 +11,19 @@ namespace koebe::cli {
 std::vector<double> read_weights(const std::string& path, const std::string& name)
 {
     const std::string text = read_words(path);
-    const std::string rule = ": " + name + " is a number from 0 to 1";
+    const auto refused = [&](const std::string& what) {
+        return InputError(path + what + ": " + name + " is a number from 0 to 1");
+    };
     std::vector<double> weights;
     io::TextLines lines(text);
     for (int line = 1; lines.next_line(); ++line)
         for (std::string_view word = lines.next_word(); !word.empty(); word = lines.next_word()) {
             double number = 0.0;
             if (!io::to_number(word, number) || !(number >= 0.0 && number <= 1.0))
-                throw InputError(path + ", line " + std::to_string(line) + rule);
+                throw refused(", line " + std::to_string(line));
             weights.push_back(number);
         }
-    if (weights.empty()) throw InputError(path + " is empty" + rule);
+    if (weights.empty()) throw refused(" is empty");
     return weights;
 }
 
