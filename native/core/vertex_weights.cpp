@@ -1,6 +1,5 @@
 #include "core/vertex_weights.h"
 
-#include "core/counted.h"
 #include "core/errors.h"
 
 namespace koebe {
