@@ -89,8 +89,7 @@ public:
     PartRelaxation(const PartRelaxation&) = delete;
     PartRelaxation& operator=(const PartRelaxation&) = delete;
 
-    /// @return the parts that could not be moved
-    std::vector<std::size_t> relax(double even, const EvenEffort& effort)
+    void relax(double even, const EvenEffort& effort)
     {
         std::vector<char> moved(parts_.size(), 0);
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
@@ -98,24 +97,24 @@ public:
             const FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round};
             moved[k] = make_even(surface, even, packed_side, own, effort).moved;
         });
-        std::vector<std::size_t> left;
+        left_.clear();
         for (std::size_t k = 0; k < moved.size(); ++k)
-            if (!moved[k]) left.push_back(k);
-        return left;
+            if (!moved[k]) left_.push_back(k);
     }
 
-    /// @return the parts that could not be moved
-    std::vector<std::size_t> relax_with_darts(double even, const EvenEffort& effort)
+    /// The parts that could not be moved.
+    const std::vector<std::size_t>& left() const { return left_; }
+
+    void relax_with_darts(double even, const EvenEffort& effort)
     {
-        std::vector<std::size_t> left = relax(even, effort);
-        if (!(options_.darts > 0.0)) return left;
+        relax(even, effort);
+        if (!(options_.darts > 0.0)) return;
         const std::vector<HeldPart> uncut = parts_;
         cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
-        if (std::ranges::none_of(parts_, has_darts)) return left;
+        if (std::ranges::none_of(parts_, has_darts)) return;
         relax(even, effort);
         for (std::size_t k = 0; k < parts_.size(); ++k)
             if (has_darts(parts_[k]) && !survives_storing(parts_[k].flat)) parts_[k] = uncut[k];
-        return left;
     }
 
     /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
@@ -160,6 +159,7 @@ private:
 
     std::vector<FlatPart>& flats_;
     std::vector<HeldPart> parts_;
+    std::vector<std::size_t> left_;
     EvenOptions options_;
     ExecutionContext& context_;
 };
@@ -169,9 +169,10 @@ private:
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
 {
     PartRelaxation parts(flats, options, context);
-    if (!options.even) return {parts.relax_freely(), {}};
-    if (*options.even == 0.0) return {};
-    return {*options.even, parts.relax_with_darts(*options.even, {})};
+    if (options.even == 0.0) return {};
+    if (options.even) parts.relax_with_darts(*options.even, {});
+    const double even = options.even ? *options.even : parts.relax_freely();
+    return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
 }
 
 }  // namespace koebe

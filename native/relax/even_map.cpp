@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "foldover/face_energy.h"
 #include "foldover/patch_shapes.h"
+#include "foldover/turn_upright.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
@@ -54,20 +55,23 @@ public:
                 ExecutionContext& context)
         : flat_(flat), weight_(area_weight(even)), extent_(extent), effort_(effort), context_(context)
     {
-        std::vector<Index> all(static_cast<std::size_t>(flat.triangles.rows()));
-        std::iota(all.begin(), all.end(), 0);
-        shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
         ride();
-        if (!apart(flat.points, 0.0)) shortest_ = shortest_drawn * extent;
-        for (const int grid : grids)
-            if (grid_ == 0 && apart_on_grid(flat.points, grid)) grid_ = grid;
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
         track_of_.assign(mobility_.size(), -1);
+        std::vector<char> rides(mobility_.size(), 0);
         for (std::size_t k = 0; k < flat.round.size(); ++k)
             for (const Index v : flat.round[k].vertices) {
                 mobility_[v] = Mobility::riding;
                 track_of_[v] = static_cast<int>(k);
+                rides[v] = 1;
             }
+        if (!flat.periods) turn_upright(flat.vertices, flat.triangles, flat.loops, rides, flat.points, context);
+        std::vector<Index> all(static_cast<std::size_t>(flat.triangles.rows()));
+        std::iota(all.begin(), all.end(), 0);
+        shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
+        if (!apart(flat.points, 0.0)) shortest_ = shortest_drawn * extent;
+        for (const int grid : grids)
+            if (grid_ == 0 && apart_on_grid(flat.points, grid)) grid_ = grid;
         // Otherwise the whole map could move, so one vertex stays.
         if (const auto free = std::ranges::find(mobility_, Mobility::free); free != mobility_.end())
             *free = Mobility::held;

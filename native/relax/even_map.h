@@ -59,7 +59,8 @@ struct EvenMap {
 /// makes loops cross. If a step would make loops cross, the void around the map and in its holes is triangulated and
 /// takes part: its faces want to keep their shapes (Jiang, Schaefer and Panozzo 2017).
 ///
-/// A map that is not one to one to begin with is left as it is.
+/// Faces that are not upright are turned back first (foldover/turn_upright.h). A map that is not one to one even then
+/// is not relaxed.
 /// @param extent side of the square in which the points are stored as 32-bit floats, in the unit of the points
 /// @throws Cancelled
 EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,

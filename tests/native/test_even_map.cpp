@@ -1,4 +1,5 @@
 #include "circles/circle_fit.h"
+#include "foldover/turn_upright.h"
 #include "mesh/topology.h"
 #include "planar/boundary_crossings.h"
 #include "relax/even_map.h"
@@ -181,15 +182,55 @@ TEST(EvenMap, a_strip_that_would_lie_over_itself_does_not)
     EXPECT_TRUE(crossing_boundary_edges(surface.loops, points, 0.0).empty());
 }
 
-TEST(EvenMap, a_map_with_a_face_turned_over_stays_as_it_is)
+TEST(EvenMap, a_few_faces_turned_over_are_turned_back_first)
 {
     const Strip strip(
-        6, 6, [](double u, double v) { return Complex(u, v); }, as_it_is, [](Complex z) { return 2.0 * z; });
+        6, 6, [](double u, double v) { return Complex(u, v); }, as_it_is, [](Complex z) { return std::exp(z); });
+    for (const Complex off : {Complex(5.0, 5.0), Complex(0.0, 0.7)}) {
+        PlanarPoints points = strip.mapped;
+        points.row(24) += Eigen::RowVector2d(off.real(), off.imag());
+        ASSERT_LT(least_area(strip.surface.triangles, points), 0.0);
+        std::vector<RoundLoop> round;
+        ExecutionContext context;
+        EXPECT_TRUE(make_even(strip.view(points, round), 1.0, 10.0, context).moved);
+        EXPECT_LT(worst_stretch(strip.vertices, strip.surface.triangles, points), 1e-6);
+    }
+}
+
+TEST(EvenMap, a_map_that_crosses_itself_stays_as_it_is)
+{
+    const Strip strip(
+        40, 4, [](double u, double v) { return Complex(8.0 * u, v); }, as_it_is,
+        [](Complex z) { return (3.0 - z.imag()) * std::polar(1.0, z.real()); });
     PlanarPoints points = strip.mapped;
-    points.row(24) << 5.0, 5.0;
+    ASSERT_GT(least_area(strip.surface.triangles, points), 0.0);
     const PlanarPoints before = points;
     std::vector<RoundLoop> round;
     ExecutionContext context;
     EXPECT_FALSE(make_even(strip.view(points, round), 0.5, 10.0, context).moved);
+    EXPECT_EQ(points, before);
+}
+
+TEST(TurnUpright, moves_only_what_is_near_and_not_fixed)
+{
+    const Strip strip(
+        30, 30, [](double u, double v) { return Complex(u, v); }, as_it_is, [](Complex z) { return 2.0 * z; });
+    const Index fallen = 15 * 31 + 15;
+    std::vector<char> fixed(static_cast<std::size_t>(strip.mapped.rows()), 0);
+    PlanarPoints points = strip.mapped;
+    points.row(fallen) << 1.2, 1.0;
+    const PlanarPoints before = points;
+    ASSERT_LT(least_area(strip.surface.triangles, points), 0.0);
+    ExecutionContext context;
+    const auto turn = [&] {
+        return turn_upright(strip.vertices, strip.surface.triangles, strip.surface.loops, fixed, points, context);
+    };
+    ASSERT_TRUE(turn());
+    EXPECT_GT(least_area(strip.surface.triangles, points), 0.0);
+    for (Index v = 0; v < static_cast<Index>(points.rows()); ++v)
+        if (std::max(std::abs(v / 31 - 15), std::abs(v % 31 - 15)) > 18) EXPECT_EQ(points.row(v), before.row(v));
+    fixed.assign(fixed.size(), 1);
+    points = before;
+    EXPECT_FALSE(turn());
     EXPECT_EQ(points, before);
 }
