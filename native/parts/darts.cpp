@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "cut/edge_graph.h"
+#include "parts/tension.h"
 #include "planar/planar_predicates.h"
 #include "relax/even_map.h"
 
@@ -29,28 +30,6 @@ constexpr double first_gap = 0.05;  // between the sides of a dart, over the lea
 
 Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
-/// @param shown as in FlatPart: makes edges longer; empty: lengths on the surface
-SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {})
-{
-    const Triangles& triangles = flat.surface.triangles;
-    SeamedMesh mesh;
-    mesh.corners = mesh.fans = triangles;
-    mesh.face.resize(static_cast<std::size_t>(triangles.rows()));
-    std::iota(mesh.face.begin(), mesh.face.end(), 0);
-    mesh.turned.assign(mesh.face.size(), 0);
-    mesh.twin = flat.surface.twin;
-    mesh.fan_count = flat.surface.vertex_count;
-    const Index count = mesh.halfedge_count();
-    for (Index h = 0; h < count; ++h) {
-        const Index a = origin(triangles, h), b = target(triangles, h), t = mesh.twin[h];
-        mesh.length.push_back((flat.vertices.row(a) - flat.vertices.row(b)).norm() * price_of_edge(shown, a, b));
-        const bool within =
-            t != no_twin && !flat.polygon.empty() && flat.polygon[face_of(h)] == flat.polygon[face_of(t)];
-        mesh.whole.push_back(t == no_twin || within);
-    }
-    return mesh;
-}
-
 /// The path from a vertex to the boundary. Its cost is a length, longer where the surface is shown. @return nothing if
 /// the vertex is on it, or if there is no path
 Dart shortest_dart(const FlatPart& flat, const PathTree& tree, Index tip)
@@ -68,75 +47,22 @@ Dart shortest_dart(const FlatPart& flat, const PathTree& tree, Index tip)
     return dart;
 }
 
+/// The force that pulls the two sides of a dart apart.
+double pull_apart(const Tension& tension, const Dart& dart)
+{
+    double sum = 0.0;
+    const std::vector<Index>& path = dart.vertices;
+    for (std::size_t i = 1; i < path.size(); ++i)
+        sum += tension.at(path[i], path[i - 1], i + 1 < path.size() ? path[i + 1] : -1).imag();
+    return sum;
+}
+
 /// (V) distances on the surface from vertices, infinite where no path leads.
 VectorXd distances(const FlatPart& flat, const std::vector<Index>& sources)
 {
     const PathTree tree = shortest_paths(EdgeGraph(seamed(flat), 1.0), sources);
     return Eigen::Map<const VectorXd>(tree.distance.data(), flat.surface.vertex_count);
 }
-
-/// By how much the two sides of a path are pulled apart.
-class Tension {
-public:
-    Tension(const FlatPart& flat, const EvenForces& forces)
-        : flat_(flat),
-          forces_(forces),
-          whole_(VectorXcd::Zero(flat.points.rows())),
-          leaving_(flat.points.rows(), no_twin)
-    {
-        const Triangles& triangles = flat.surface.triangles;
-        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
-            whole_[origin(triangles, h)] += forces.pull[face_of(h)][h % 3];
-            leaving_[origin(triangles, h)] = h;
-        }
-    }
-
-    double along(const Dart& dart) const
-    {
-        double sum = 0.0;
-        const std::vector<Index>& path = dart.vertices;
-        for (std::size_t i = 1; i < path.size(); ++i) {
-            const Index before = i + 1 < path.size() ? path[i + 1] : -1;
-            const Complex left = pull_of_left(path[i], path[i - 1], before);
-            const Complex way = place(flat_.points, path[i - 1]) - place(flat_.points, before >= 0 ? before : path[i]);
-            const double length = distance(way, 0.0);
-            if (length > 0.0) sum += dot(2.0 * left - whole_[path[i]], Complex(0.0, 1.0) * way / length);
-        }
-        return 0.5 * sum;
-    }
-
-private:
-    /// The force of the faces from the edge to one neighbour, counter-clockwise to another neighbour or the boundary.
-    Complex pull_of_left(Index v, Index from, Index to) const
-    {
-        const Triangles& triangles = flat_.surface.triangles;
-        Complex sum = 0.0;
-        Index h = leaving_[v];
-        const Index first = h;
-        while (target(triangles, h) != from) {  // clockwise, and from the boundary on from its other end
-            const Index t = flat_.surface.twin[h];
-            h = t == no_twin ? last_counter_clockwise(h) : next_halfedge(t);
-            if (h == first) return 0.5 * whole_[v];
-        }
-        while (true) {
-            sum += forces_.pull[face_of(h)][h % 3];
-            const Index back = previous_halfedge(h);
-            if (origin(triangles, back) == to || flat_.surface.twin[back] == no_twin) return sum;
-            h = flat_.surface.twin[back];
-            if (target(triangles, h) == from) return sum;
-        }
-    }
-    Index last_counter_clockwise(Index h) const
-    {
-        while (flat_.surface.twin[previous_halfedge(h)] != no_twin) h = flat_.surface.twin[previous_halfedge(h)];
-        return h;
-    }
-
-    const FlatPart& flat_;
-    const EvenForces& forces_;
-    VectorXcd whole_;             // (V) of all faces round a vertex
-    std::vector<Index> leaving_;  // (V) a half-edge from each vertex
-};
 
 /// A vertex between its neighbours on the boundary, the surface on the left, moved into the surface.
 Complex drawn_in(const PlanarPoints& points, Index before, Index v, Index after, double by)
@@ -188,7 +114,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
                     return outside[w] != 0 || (!round && from_round[w] < clear_of_round);
                 }))
                 continue;
-            const double pulled = tension.along(dart);
+            const double pulled = pull_apart(tension, dart);
             if (!(pulled > 0.0)) continue;
             dart.gain = (round ? share_if_round : 1.0) * compliance * pulled * pulled;
             const Index start = dart.vertices.back();
@@ -266,7 +192,10 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
     } catch (const TopologyError&) {
         return {};
     }
-    if (after.surface.loops.size() != flat.surface.loops.size()) return {};
+    const std::vector<char> outside = boundary_mask(flat.surface);
+    const auto joins = [&](const Dart& dart) { return outside[dart.vertices.front()] != 0; };
+    const std::size_t joined = static_cast<std::size_t>(std::ranges::count_if(darts, joins));
+    if (after.surface.loops.size() + joined != flat.surface.loops.size()) return {};
     after.points = flat.points(source, Eigen::all);
     after.vertices = flat.vertices(source, Eigen::all);
     for (std::size_t i = kept.size(); i < source.size(); ++i) {
@@ -285,7 +214,7 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
     const VectorXd heights = least_heights(after);
     std::vector<char> moves(source.size(), 0);
     for (const Dart& dart : darts)
-        for (std::size_t i = 1; i < dart.vertices.size(); ++i) {
+        for (std::size_t i = joins(dart) ? 0 : 1; i < dart.vertices.size(); ++i) {
             const Index v = dart.vertices[i];
             moves[v] = 1;
             if (second[v] >= 0) moves[second[v]] = 1;
@@ -302,8 +231,8 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
         if (!lies_one_to_one(after, after.points)) continue;
         for (const Dart& dart : darts) {
             std::erase(after.tips, dart.vertices.back());
-            after.tips.push_back(dart.vertices.front());
-            after.dart_length += dart.length;
+            if (!joins(dart)) after.tips.push_back(dart.vertices.front());
+            (joins(dart) ? after.slit : after.dart_length) += dart.length;
         }
         flat = std::move(after);
         return source;

@@ -3,6 +3,7 @@
 #include "circles/circle_fit.h"
 #include "execution/side_by_side.h"
 #include "parts/dart_rounds.h"
+#include "parts/through_rounds.h"
 #include "relax/even_map.h"
 
 #include <algorithm>
@@ -84,6 +85,7 @@ public:
     }
     ~PartRelaxation()
     {
+        flats_.resize(parts_.size());
         for (std::size_t k = 0; k < parts_.size(); ++k) flats_[k] = std::move(parts_[k].flat);
     }
     PartRelaxation(const PartRelaxation&) = delete;
@@ -109,12 +111,10 @@ public:
     {
         relax(even, effort);
         if (!(options_.darts > 0.0)) return;
-        const std::vector<HeldPart> uncut = parts_;
+        const bool joined = cut_through(even, {});
         cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
-        if (std::ranges::none_of(parts_, has_darts)) return;
-        relax(even, effort);
-        for (std::size_t k = 0; k < parts_.size(); ++k)
-            if (has_darts(parts_[k]) && !survives_storing(parts_[k].flat)) parts_[k] = uncut[k];
+        if (joined || std::ranges::any_of(parts_, has_darts)) relax_cut(even, effort);
+        if (cut_through(even, options_.piece * dart_price(options_.darts))) relax_cut(even, effort);
     }
 
     /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
@@ -150,6 +150,24 @@ public:
     }
 
 private:
+    /// @param piece price of one more part, in energy; without a value no part is split @return whether any part was
+    /// cut
+    bool cut_through(double even, std::optional<double> piece)
+    {
+        if (options_.loops != LoopForm::free) return false;
+        const ThroughPrice price{dart_price(options_.darts), piece};
+        return cut_parts_through(parts_, even, price, options_.threads, context_);
+    }
+
+    /// Relaxes parts that are one to one as stored, and keeps them so.
+    void relax_cut(double even, const EvenEffort& effort)
+    {
+        const std::vector<HeldPart> before = parts_;
+        relax(even, effort);
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            if (!survives_storing(parts_[k].flat)) parts_[k] = before[k];
+    }
+
     double angles() const
     {
         double sum = 0.0;

@@ -319,14 +319,12 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     layout.handles_cut = opened.handles;
     for (FlatPiece& piece : flat_pieces(opened, layout.vertices, options, context)) {
         layout.maps += piece.maps / static_cast<double>(triangles.rows());
-        for (FlatPart& part : piece.parts) {
-            layout.slit_length += part.slit;
-            mesh.parts.push_back(std::move(part));
-        }
+        std::ranges::move(piece.parts, std::back_inserter(mesh.parts));
     }
     context.begin_stage("even", 0.8, 0.9);
     const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
-    const EvenOptions evening{options.even, round ? LoopForm::round : LoopForm::free, options.darts, options.threads};
+    const EvenOptions evening{options.even, round ? LoopForm::round : LoopForm::free, options.darts,
+                              options.price / SplitOptions{}.part_price, options.threads};
     const EvenParts even = make_parts_even(mesh.parts, evening, context);
     layout.even = even.even;
     for (const std::size_t k : even.left)
@@ -335,6 +333,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     for (const FlatPart& flat : mesh.parts) {
         layout.darts += static_cast<Index>(flat.tips.size());
         layout.dart_length += flat.dart_length;
+        layout.slit_length += flat.slit;
     }
     mesh.left_out = std::move(opened.left_out);
     return mesh;

@@ -1,0 +1,35 @@
+// The forces between the two sides of a path in a relaxed part: what a cut along the path would release.
+#pragma once
+
+#include "cut/seamed_mesh.h"
+#include "parts/flat_part.h"
+#include "relax/even_forces.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// A part's edges, to look for paths. Edges inside a polygon and on the boundary belong to no path.
+/// @param shown as in FlatPart: makes edges longer; empty: lengths on the surface
+SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {});
+
+class Tension {
+public:
+    Tension(const FlatPart& flat, const EvenForces& forces);
+
+    /// The force between the sides of a path at one of its vertices. Real part: how much the left side is pulled
+    /// forward against the right side. Imaginary part: how much both sides are pulled apart. Both stay the same if the
+    /// path is walked the other way.
+    /// @param from the vertex before @param to the vertex after; -1 at the boundary, where the path ends
+    Complex at(Index v, Index from, Index to) const;
+
+private:
+    Complex pull_of_left(Index v, Index from, Index to) const;
+
+    const FlatPart& flat_;
+    const EvenForces& forces_;
+    VectorXcd whole_;             // (V) of all faces round a vertex
+    std::vector<Index> leaving_;  // (V) a half-edge from each vertex
+};
+
+}  // namespace koebe

@@ -1,0 +1,316 @@
+#include "parts/through_cuts.h"
+
+#include "core/errors.h"
+#include "cut/edge_graph.h"
+#include "evenness/part_mesh.h"
+#include "parts/darts.h"
+#include "parts/tension.h"
+#include "relax/even_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double longest = 1.5;          // length of a cut, in roots of the surface's area
+constexpr double least_piece = 0.002;    // area of a piece, over the surface's
+constexpr double share_released = 0.25;  // of the bound
+constexpr std::size_t most_cuts = 2;
+constexpr double ends_apart = 0.25;  // distance between the ends of two cuts, over their length
+
+/// Sums along the shortest way from a vertex to the boundary, without the vertex itself.
+struct WayOut {
+    Complex force = 0.0;
+    double moment = 0.0;  // of the force apart, about the way's end
+    double swept = 0.0;   // twice the area between the way and the origin
+    Index end = -1;
+};
+
+class ThroughSearch {
+public:
+    ThroughSearch(const FlatPart& flat, double even, const ThroughPrice& price)
+        : flat_(flat),
+          price_(price),
+          compliance_(2.0 * (1.0 + area_weight(even)) / (8.0 * area_weight(even))),
+          forces_(even_forces(flat.vertices, flat.surface.triangles, flat.points, even)),
+          tension_(flat, forces_),
+          outside_(boundary_mask(flat.surface)),
+          mesh_(seamed(flat, flat.shown)),
+          ways_(outside_.size()),
+          loop_of_(outside_.size(), -1),
+          arc_(outside_.size(), 0.0)
+    {
+        measure_loops();
+        measure_ways();
+    }
+
+    std::vector<ThroughCut> best() const
+    {
+        const Index count = static_cast<Index>(flat_.surface.triangles.size());
+        std::vector<std::pair<double, Index>> found;  // surplus, half-edge in the middle
+        for (Index h = 0; h < count; ++h)
+            if (const double surplus = flat_.surface.twin[h] > h && !mesh_.whole[h] ? surplus_of(h) : 0.0;
+                surplus > 0.0)
+                found.emplace_back(surplus, h);
+        std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
+        std::vector<ThroughCut> cuts;
+        for (const auto& [surplus, h] : found) {
+            ThroughCut cut = path(h);
+            cut.forecast = surplus + cut.cost;
+            if (std::ranges::any_of(cuts, [&](const ThroughCut& other) { return are_near(cut, other); })) continue;
+            cuts.push_back(std::move(cut));
+            if (cuts.size() == most_cuts) break;
+        }
+        return cuts;
+    }
+
+private:
+    double swept(Index v, Index w) const
+    {
+        return flat_.points(v, 0) * flat_.points(w, 1) - flat_.points(v, 1) * flat_.points(w, 0);
+    }
+
+    void measure_loops()
+    {
+        for (const VertexLoop& loop : flat_.surface.loops) {
+            double sum = 0.0;
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                loop_of_[loop[i]] = static_cast<int>(enclosed_.size());
+                arc_[loop[i]] = sum;
+                sum += swept(loop[i], loop[(i + 1) % loop.size()]);
+            }
+            enclosed_.push_back(sum);
+            area_ += sum;
+        }
+    }
+
+    void measure_ways()
+    {
+        std::vector<Index> rim, order;
+        for (Index v = 0; v < flat_.surface.vertex_count; ++v)
+            if (outside_[v]) rim.push_back(v);
+        tree_ = shortest_paths(EdgeGraph(mesh_, 1.0), rim);
+        for (const Index v : rim) ways_[v].end = v;
+        for (Index v = 0; v < flat_.surface.vertex_count; ++v)
+            if (!outside_[v] && tree_.parent[v] != v) order.push_back(v);
+        std::ranges::stable_sort(order, {}, [&](Index v) { return tree_.distance[v]; });
+        for (const Index v : order) {
+            const Index u = tree_.parent[v];
+            const Complex force = tension_.at(u, v, next(u));
+            ways_[v] = ways_[u];
+            ways_[v].force += force;
+            ways_[v].moment += tree_.distance[u] * force.imag();
+            ways_[v].swept += swept(v, u);
+        }
+    }
+
+    /// The next vertex on the way to the boundary; -1 there.
+    Index next(Index v) const { return outside_[v] ? -1 : tree_.parent[v]; }
+
+    /// The forecast of the path through an edge, without its cost; 0 if there is no path.
+    double surplus_of(Index h) const
+    {
+        const Index a = origin(flat_.surface.triangles, h), b = target(flat_.surface.triangles, h);
+        const WayOut &from = ways_[a], &to = ways_[b];
+        if (from.end < 0 || to.end < 0 || from.end == to.end || next(a) == b || next(b) == a) return 0.0;
+        const double length = tree_.distance[a] + tree_.distance[b] + mesh_.length[h];
+        if (length > longest || is_too_small(a, b)) return 0.0;
+        const Complex at_a = tension_.at(a, b, next(a)), at_b = tension_.at(b, a, next(b));
+        const Complex force = from.force + at_a + at_b + to.force;
+        const double moment = from.moment + tree_.distance[a] * at_a.imag() + length * (to.force + at_b).imag() -
+                              to.moment - tree_.distance[b] * at_b.imag() - 0.5 * length * force.imag();
+        const double released =
+            share_released * compliance_ * (std::norm(force) + 12.0 * moment * moment / (length * length));
+        return std::min(released, forces_.energy.sum()) - price_.length * length - piece_price(from.end, to.end);
+    }
+
+    /// Of a cut between two vertices of the boundary, beside its length: between two loops it makes no piece.
+    double piece_price(Index from, Index to) const
+    {
+        return loop_of_[from] == loop_of_[to] ? price_.piece.value_or(std::numeric_limits<double>::infinity()) : 0.0;
+    }
+
+    /// Whether a cut between two places of one loop would leave too small a piece.
+    bool is_too_small(Index a, Index b) const
+    {
+        const WayOut &from = ways_[a], &to = ways_[b];
+        if (loop_of_[from.end] != loop_of_[to.end]) return false;
+        double round = swept(a, b) - from.swept + to.swept + arc_[from.end] - arc_[to.end];
+        if (arc_[from.end] < arc_[to.end]) round += enclosed_[loop_of_[from.end]];
+        return std::min(std::abs(round), std::abs(area_ - round)) < 2.0 * least_piece;
+    }
+
+    ThroughCut path(Index h) const
+    {
+        ThroughCut cut;
+        const auto walk = [&](Index v) {
+            for (cut.vertices.push_back(v); !outside_[v]; v = tree_.parent[v]) {
+                cut.halfedges.push_back(tree_.halfedge[v]);
+                cut.vertices.push_back(tree_.parent[v]);
+            }
+        };
+        walk(origin(flat_.surface.triangles, h));
+        std::ranges::reverse(cut.vertices);
+        std::ranges::reverse(cut.halfedges);
+        cut.halfedges.push_back(h);
+        walk(target(flat_.surface.triangles, h));
+        for (const Index e : cut.halfedges) cut.length += mesh_.length[e];
+        cut.cost = price_.length * cut.length + piece_price(cut.vertices.front(), cut.vertices.back());
+        return cut;
+    }
+
+    bool are_near(const ThroughCut& one, const ThroughCut& other) const
+    {
+        const auto between = [&](Index v, Index w) { return (flat_.vertices.row(v) - flat_.vertices.row(w)).norm(); };
+        const Index a = one.vertices.front(), b = one.vertices.back();
+        const Index c = other.vertices.front(), d = other.vertices.back();
+        return std::min(std::max(between(a, c), between(b, d)), std::max(between(a, d), between(b, c))) <
+               ends_apart * one.length;
+    }
+
+    const FlatPart& flat_;
+    ThroughPrice price_;
+    double compliance_;
+    EvenForces forces_;
+    Tension tension_;
+    std::vector<char> outside_;  // (V) 1 on the boundary
+    SeamedMesh mesh_;
+    PathTree tree_;
+    std::vector<WayOut> ways_;
+    std::vector<int> loop_of_;      // (V) -1 inside
+    std::vector<double> arc_;       // (V) twice the area swept along the loop before the vertex,
+    std::vector<double> enclosed_;  // and round each loop
+    double area_ = 0.0;             // twice the area of the part in the plane
+};
+
+/// The loops of a part before slits and darts were opened, as vertices of the whole. Empty where they meet at a vertex.
+std::vector<VertexLoop> closed_loops(const FlatPart& flat)
+{
+    std::set<std::pair<Index, Index>> edges;
+    for (const auto face : flat.surface.triangles.rowwise())
+        for (int k = 0; k < 3; ++k) edges.emplace(flat.original[face[k]], flat.original[face[(k + 1) % 3]]);
+    std::vector<std::pair<Index, Index>> rim;
+    for (const auto& [a, b] : edges)
+        if (!edges.contains({b, a})) rim.emplace_back(a, b);
+    std::vector<VertexLoop> loops;
+    std::vector<char> taken(rim.size(), 0);
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        if (i > 0 && rim[i].first == rim[i - 1].first) return {};
+        if (taken[i]) continue;
+        VertexLoop loop;
+        for (std::size_t j = i; !std::exchange(taken[j], 1);) {
+            loop.push_back(rim[j].first);
+            j = static_cast<std::size_t>(
+                std::ranges::lower_bound(rim, rim[j].second, {}, &std::pair<Index, Index>::first) - rim.begin());
+            if (j == rim.size()) return {};
+        }
+        loops.push_back(std::move(loop));
+    }
+    return loops;
+}
+
+void name_loops(FlatPart& flat)
+{
+    flat.loops = closed_loops(flat);
+    if (flat.loops.empty())
+        for (const VertexLoop& loop : flat.surface.loops) {
+            flat.loops.emplace_back();
+            for (const Index v : loop) flat.loops.back().push_back(flat.original[v]);
+        }
+    for (const VertexLoop& loop : flat.loops) {
+        const std::set<Index> named(loop.begin(), loop.end());
+        flat.rims.emplace_back();
+        for (const VertexLoop& rim : flat.surface.loops)
+            std::ranges::copy_if(rim, std::back_inserter(flat.rims.back()),
+                                 [&](Index v) { return named.contains(flat.original[v]); });
+    }
+}
+
+/// The part with some of its faces.
+std::optional<FlatPart> piece_of(const FlatPart& flat, const std::vector<Index>& faces)
+{
+    FlatPart piece;
+    std::vector<Index> own(static_cast<std::size_t>(flat.surface.vertex_count), -1), source;
+    Triangles triangles = flat.surface.triangles(faces, Eigen::all);
+    for (Index& corner : triangles.reshaped()) {
+        Index& number = own[corner];
+        if (number < 0) {
+            number = static_cast<Index>(source.size());
+            source.push_back(corner);
+        }
+        corner = number;
+    }
+    try {
+        piece.surface = require_bordered_genus_zero(triangles, static_cast<Index>(source.size()));
+    } catch (const TopologyError&) {
+        return {};
+    }
+    const auto take = [](const auto& from, auto& to, const std::vector<Index>& which) {
+        if (from.empty()) return;
+        for (const Index i : which) to.push_back(from[i]);
+    };
+    take(flat.faces, piece.faces, faces);
+    take(flat.polygon, piece.polygon, faces);
+    take(flat.original, piece.original, source);
+    take(flat.image, piece.image, source);
+    take(flat.held, piece.held, source);
+    take(flat.shown, piece.shown, source);
+    piece.vertices = flat.vertices(source, Eigen::all);
+    piece.points = flat.points(source, Eigen::all);
+    for (const Index tip : flat.tips)
+        if (own[tip] >= 0) piece.tips.push_back(own[tip]);
+    if (face_areas(piece.vertices, piece.surface.triangles).sum() < least_piece) return {};
+    name_loops(piece);
+    return piece;
+}
+
+/// The faces on the side of the first face, and the others. Both ascending.
+std::array<std::vector<Index>, 2> sides_of(const Surface& surface, const std::vector<Index>& halfedges)
+{
+    std::vector<char> cut(surface.twin.size(), 0), seen(static_cast<std::size_t>(surface.triangles.rows()), 0);
+    for (const Index h : halfedges) cut[h] = cut[surface.twin[h]] = 1;
+    std::array<std::vector<Index>, 2> sides{std::vector<Index>{0}};
+    seen[0] = 1;
+    for (std::size_t i = 0; i < sides[0].size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Index h = 3 * sides[0][i] + k, twin = surface.twin[h];
+            if (twin != no_twin && !cut[h] && !std::exchange(seen[face_of(twin)], 1)) sides[0].push_back(face_of(twin));
+        }
+    std::ranges::sort(sides[0]);
+    for (Index f = 0; f < static_cast<Index>(seen.size()); ++f)
+        if (!seen[f]) sides[1].push_back(f);
+    return sides;
+}
+
+}  // namespace
+
+std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price)
+{
+    return ThroughSearch(flat, even, price).best();
+}
+
+std::vector<FlatPart> cut_through(const FlatPart& flat, const ThroughCut& cut)
+{
+    const auto [side, other] = sides_of(flat.surface, cut.halfedges);
+    if (other.empty()) {
+        FlatPart joined = flat;
+        Dart slit{cut.vertices, cut.halfedges};
+        for (std::size_t i = 1; i < cut.vertices.size(); ++i)
+            slit.length += (flat.vertices.row(cut.vertices[i]) - flat.vertices.row(cut.vertices[i - 1])).norm();
+        if (!open_darts(joined, {slit})) return {};
+        return {std::move(joined)};
+    }
+    auto first = piece_of(flat, side), second = piece_of(flat, other);
+    if (!first || !second) return {};
+    first->slit = flat.slit;  // lengths are summed over all parts
+    first->dart_length = flat.dart_length;
+    return {std::move(*first), std::move(*second)};
+}
+
+}  // namespace koebe

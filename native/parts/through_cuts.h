@@ -1,0 +1,38 @@
+// Cuts through a relaxed part, from one place of its boundary to another.
+#pragma once
+
+#include "parts/flat_part.h"
+
+#include <optional>
+#include <vector>
+
+namespace koebe {
+
+/// What cuts cost, in energy.
+struct ThroughPrice {
+    double length = 0.0;          ///< of a cut as long as the root of the surface's area
+    std::optional<double> piece;  ///< of one more piece, beside its cut; without a value no part is split
+};
+
+/// A path along edges. It joins two loops of a part, or splits the part in two.
+struct ThroughCut {
+    std::vector<Index> vertices;   ///< from boundary to boundary
+    std::vector<Index> halfedges;  ///< each between two successive vertices, in either direction
+    double length = 0.0;           ///< in roots of the surface's area, more where the surface is shown
+    double forecast = 0.0;         ///< of the energy that it releases
+    double cost = 0.0;             ///< in energy
+};
+
+/// The through cuts that may pay, the most promising first, few, with ends apart. A cut releases at most about
+/// 2 (|F|^2 + 12 M^2 / L^2) / Y: both fibres of a beam that breaks. F is the force between the two sides summed along
+/// the path, M the moment about the middle of the path of the force that pulls them apart, L the length of the path,
+/// and Y the stiffness as for darts (darts.h). A quarter of it is forecast, as was measured.
+/// @param flat a part relaxed for this E
+std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price);
+
+/// Cuts a part through. One piece if the cut joins two loops: the sides of the cut are drawn a little apart. Two pieces
+/// if it splits the part.
+/// @return empty if the cut cannot be opened, or if a piece would be too small
+std::vector<FlatPart> cut_through(const FlatPart& flat, const ThroughCut& cut);
+
+}  // namespace koebe

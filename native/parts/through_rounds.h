@@ -1,0 +1,20 @@
+// Relaxed parts cut through, as long as that pays.
+#pragma once
+
+#include "execution/execution.h"
+#include "parts/dart_rounds.h"
+#include "parts/through_cuts.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// Cuts each part by its best through cut (through_cuts.h), relaxes the pieces, and goes on with them. A cut stays if
+/// it released more energy than it costs. On a surface that is its own mirror image cuts come in pairs: both are made,
+/// or neither. Parts with round loops stay as they are.
+/// @param parts relaxed for this E; new parts come last
+/// @return whether any cut was made
+bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,
+                       ExecutionContext& context);
+
+}  // namespace koebe
