@@ -45,7 +45,8 @@ def panel(place, uv, faces, level, caption, marks=()):
             parts.append(f'<path fill="{colour(value)}" stroke="#8892a6" stroke-width="0.3" d="{path}"/>')
     parts += ['<circle cx="{}" cy="{}" r="5" fill="{}"/>'.format(*at[vertex], MARK) for vertex in marks]
     for row, words in enumerate(caption):
-        parts.append(f'<text x="{SIZE / 2}" y="{SIZE + 10 + 19 * row}" text-anchor="middle" font-size="15">{words}</text>')
+        at_line = f'x="{SIZE / 2}" y="{SIZE + 10 + 19 * row}"'
+        parts.append(f'<text {at_line} text-anchor="middle" font-size="15">{words}</text>')
     return [*parts, "</g>"]
 
 
