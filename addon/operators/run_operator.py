@@ -55,7 +55,7 @@ def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bp
     if ROWS[name].kind == "weights" and obj is not None and obj.type == "MESH":
         row.prop_search(options, name, obj, "vertex_groups")
     else:
-        row.prop(options, name, text=LABELS.get(name, options.bl_rna.properties[name].name))
+        row.prop(options, name, text=LABELS.get(name, ROWS[name].blender["label"]))
 
 
 def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:

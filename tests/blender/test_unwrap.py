@@ -120,9 +120,8 @@ def test_the_redo_panel_has_eight_rows_at_most(addon):
 def test_the_redo_panel_is_short_and_its_labels_have_room(addon):
     """At most eight rows; beside a field there is room for fourteen letters in every version, for checkboxes more."""
     unwrap, run = (addon(f"operators.{name}") for name in ("unwrap", "run_operator"))
-    table = unwrap.UV_OT_koebe_unwrap.bl_rna.properties
     for shape, rows in unwrap.ROWS.items():
         assert len(("shape", *rows)) <= 8, shape
         for name in rows:
-            label = run.LABELS.get(name, table[name].name)
-            assert len(label) <= (20 if table[name].type == "BOOLEAN" else 14), label
+            label = run.LABELS.get(name, run.ROWS[name].blender["label"])
+            assert len(label) <= (20 if run.ROWS[name].kind == "flag" else 14), label
