@@ -154,7 +154,7 @@ def map_library(request: Request, sources: list[str]) -> int:
     if not bpy.app.binary_path:
         raise Stop(USAGE, "several files and folders need Blender's program: koebe batch --blender PROGRAM")
     if request.report is not None:
-        raise Stop(USAGE, "--report is of one file: the reports of several are beside the results")
+        raise Stop(USAGE, "--report works with one file: the reports of several files are beside the results")
     try:
         native_package.load()
         command = importlib.import_module("koebe._command").path()
@@ -176,7 +176,7 @@ def targets(request: Request, source: str) -> tuple[Target, Target | None]:
     """The files to write, of which the second may be None."""
     output = Target(request.output, scratch=request.ends_with_input)
     if output.direct:
-        raise Stop(USAGE, f"--output {request.output} is no file that can be replaced")
+        raise Stop(USAGE, f"--output {request.output} is not a file, so it cannot be replaced")
     if request.report is None:
         return output, None
     for other, what in ((source, "the input"), (output.path, "the output")):

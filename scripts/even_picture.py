@@ -27,13 +27,13 @@ def hill():
     return points, np.concatenate([np.stack([a, a + 1, b + 1], 1), np.stack([a, b + 1, b], 1)])
 
 
-def mapped(points, faces, even):
-    """Disk coordinates (V, 2), and the report."""
+def mapped(points, faces, *options):
+    """UVs (V, 2), and the report."""
     with tempfile.TemporaryDirectory() as folder:
         mesh, out, report = (Path(folder) / name for name in ("in.obj", "out.obj", "out.json"))
         lines = ["v {} {} {}".format(*p) for p in points] + ["f {} {} {}".format(*f) for f in faces + 1]
         mesh.write_text("\n".join(lines) + "\n", encoding="ascii")
-        command = [ROOT / "build" / "koebe", "uniformize", mesh, out, "--even", str(even), "--json", report, "--quiet"]
+        command = [ROOT / "build" / "koebe", "uniformize", mesh, out, *options, "--json", report, "--quiet"]
         subprocess.run(command, check=True)
         places = [line.split()[1:3] for line in out.read_text(encoding="ascii").splitlines() if line.startswith("vt ")]
         return np.array(places, float), json.loads(report.read_text(encoding="ascii"))
@@ -57,7 +57,7 @@ def main():
     points, faces = hill()
     svg = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {3 * SIZE} {SIZE + 40}" font-family="sans-serif">']
     for k, (even, words) in enumerate(DIAL):
-        uv, report = mapped(points, faces, even)
+        uv, report = mapped(points, faces, "--even", str(even))
         u, at = log_density(uv, points, faces), np.round(uv * (SIZE - 20) + 10, 1)
         svg.append(f'<g transform="translate({k * SIZE} 0)">')
         for level in LEVELS:

@@ -24,6 +24,9 @@ window)
     cut circles 44_disk_held_OBJECT 1057x772+0+28 800
     cut flat 51_flat_copy 588x420+225+178 560
     cut parts 62_hand_in_parts 1057x772+0+28 800
+    # without the row that names the folder of the tests
+    convert out/gui/15_preferences.png -crop 884x286+170+61 +repage -gravity North -chop 0x23+0+126 +repage \
+        -strip "$images/guide_install.png"
     ;;
 film)
     PATH=/usr/bin:$PATH xvfb-run -a -s '-screen 0 880x560x24' /usr/bin/python3 scripts/guide_film.py "$images/guide_film.gif"

@@ -73,7 +73,9 @@ def other_debian(suite: str, host: str, *prepare: str) -> tuple[Command, dict[st
     if not (folder / "complete").exists():
         run("apt-get", "install", "-y", "-q", "debootstrap")
         run("debootstrap", "--variant=minbase", "--include=ca-certificates", suite, folder)
-        shutil.copytree("/etc/ssl/certs", folder / "etc" / "ssl" / "certs", symlinks=False, dirs_exist_ok=True)
+        certificates = folder / "etc" / "ssl" / "certs"
+        shutil.rmtree(certificates)  # links with absolute names: seen from here they are this system's files
+        shutil.copytree("/etc/ssl/certs", certificates, symlinks=False)
         (folder / "etc" / "mtab").symlink_to("../proc/self/mounts")  # Blender asks for it, and complains on every start
         (folder / INSIDE[1:]).mkdir()
         run(*inside(folder, INSTALL))

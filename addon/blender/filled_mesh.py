@@ -79,7 +79,7 @@ class FillPlan:
 def _check_attributes(mesh: bpy.types.Mesh) -> None:
     for attribute in mesh.attributes:
         if attribute.data_type == "FLOAT4X4":
-            raise FillError(f"the attribute {attribute.name!r} holds matrices, with which Blender may end here")
+            raise FillError(f"the attribute {attribute.name!r} holds matrices: Blender may crash on them")
 
 
 def _check_new(one: Filling, taken: set[frozenset[int]]) -> None:

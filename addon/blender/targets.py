@@ -99,4 +99,4 @@ def reason(name: str, error: Exception) -> str:
     if bpy.data.objects.get((name, None)) is None:
         return f"{name}: {GONE}"
     traceback.print_exception(type(error), error, error.__traceback__)
-    return f"{name}: {type(error).__name__}, which nobody foresaw: {error}"
+    return f"{name}: an unexpected error: {type(error).__name__}: {error}"

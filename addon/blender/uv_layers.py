@@ -30,7 +30,7 @@ def check_layer(obj: MeshObject, layer_name: str) -> None:
         )
     if layer_name in mesh.attributes:
         raise TransferError(
-            f"{obj.name}: the attribute {layer_name!r} is no UV layer: choose another layer name"
+            f"{obj.name}: the attribute {layer_name!r} is not a UV layer: choose another layer name"
         )
 
 

@@ -51,7 +51,7 @@ def write(run: Transaction, obj: MeshObject, vectors: Vectors) -> None:
         _remove(mesh, name)
         made = _new(mesh, name, vectors.domain)
         if made is None or made.name != name:
-            raise TransferError(f"{obj.name}: Blender makes no attribute {name!r}: choose another layer name")
+            raise TransferError(f"{obj.name}: Blender cannot make the attribute {name!r}: choose another layer name")
         count = len(mesh.vertices if vectors.domain == "POINT" else mesh.loops)
         values = np.zeros((count, 3), dtype=np.float32)
     else:

@@ -146,7 +146,7 @@ def _refuse_others(of: str, asked: str, given: set[str]) -> None:
     known = {row.name for row in rows_of(of)} | {"parts" if of == "parts" else "domain"}
     for name in sorted(given - known):
         only_parts = name in ROWS and ROWS[name].maps == ["parts"]
-        raise Stop(USAGE, f"{flag(name)} needs --parts" if only_parts else f"{flag(name)} is not of {asked}")
+        raise Stop(USAGE, f"{flag(name)} needs --parts" if only_parts else f"{flag(name)} does not work with {asked}")
 
 
 def _known(kind: Any, values: dict[str, Any]) -> dict[str, Any]:
@@ -179,7 +179,7 @@ def _sequence_choice(own: dict[str, Any], given: set[str]) -> options.SequenceCh
         return None
     known = {row.name for row in rows_of("sequence")} | {*OF_SEQUENCES}
     for name in sorted(given - known):
-        raise Stop(USAGE, f"{flag(name)} is not of --sequence")
+        raise Stop(USAGE, f"{flag(name)} does not work with --sequence")
     try:
         found = None if frames is None else _frame_range(frames)
         return options.SequenceChoice(source, found, (target or "attribute").upper(), play is not False)

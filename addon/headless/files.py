@@ -60,7 +60,7 @@ class Target:
         if self.path.exists() and not os.access(self.path, os.W_OK):
             raise Stop(USAGE, f"{self.given} cannot be written: it is write-protected")
         if len(os.fsencode(folder)) + 50 > LONGEST_PATH:
-            raise Stop(USAGE, f"{self.given} cannot be written: Blender takes no paths as long as this")
+            raise Stop(USAGE, f"{self.given} cannot be written: the path is too long for Blender")
         with tempfile.TemporaryFile(dir=folder, prefix=PREFIX):
             pass
 

@@ -11,6 +11,7 @@ from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
 from ..maps.circle_domain import CircleDomain, CircleImage, read_domains
+from ..maps.distortion import texel_figures
 from ..maps.moebius import Moebius
 from ..maps.surface import next_corners
 from ..maps.wording import few
@@ -99,11 +100,11 @@ class MoebiusJob:
         )
         map_writing.write(run, plan)
 
-    def angle_error(self, image: CircleImage) -> float:
-        """Mean difference of the angles on the surface and in the UVs, degrees."""
+    def figures(self, image: CircleImage) -> dict[str, float]:
+        """The figures of an image by which an artist judges it, named as in the report."""
         island = image.domain.island
         report = self.koebe.distortion(island.vertices, island.triangles, image.uv.astype(np.float64))
-        return float(report["angle_error_deg"]["mean"])
+        return {"angle_error": float(report["angle_error_deg"]["mean"]), **texel_figures(island, image.uv)}
 
 
 def _active_layer(obj: MeshObject) -> str:

@@ -49,7 +49,7 @@ def map_automatically(
         return disk
     parts = cut_into_parts(koebe, task, choice, share_of(progress, 1, PARTS_WORK, PARTS_WORK + 1), cancel)
     if parts.failed and not disk.failed:
-        disk.chosen = "Automatic took Disk, as the surface could not be cut into parts"
+        disk.chosen = "Automatic took Disk, because the surface could not be cut into parts"
         return disk
     parts.chosen = f"Automatic took Parts: {reason}"
     return parts

@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from .surface import Surface
-from .triangles import areas, signed_areas
+from .surface import Island, Surface
+from .triangles import areas, density_ratio, signed_areas
 
 ANGLE, AREA = "angle", "area"
 
@@ -13,6 +13,12 @@ def both_areas(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray
     """Area in space and signed area in the UVs (C, 2) of each triangle (T,)."""
     in_space = areas(surface.positions, surface.corner_vertex[surface.triangle_corners])
     return in_space, signed_areas(uv, surface.triangle_corners)
+
+
+def texel_figures(island: Island, uv: np.ndarray) -> dict[str, float]:
+    """Evenness and coverage of an island with UVs (n, 2) at its vertices, named as in the report."""
+    in_plane = np.abs(signed_areas(uv, island.triangles))
+    return {"density": density_ratio(island.areas, in_plane), "coverage": float(in_plane.sum())}
 
 
 def texel_density(surface: Surface, uv: np.ndarray) -> float:

@@ -65,7 +65,7 @@ class FlatLayout:
     def describe(self) -> str:
         """How true to scale it is, in words."""
         low, high = (100.0 * share for share in self.lengths)
-        text = f"lengths are {low:.4g} % to {high:.4g} % of those on the surface (9 of 10 edges)"
+        text = f"lengths are {low:.4g} % to {high:.4g} % of lengths on the surface (9 of 10 edges)"
         return f"true to scale: {text}" if self.is_true else f"not true to scale: {text}"
 
 

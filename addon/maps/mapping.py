@@ -71,7 +71,7 @@ def judge_island(koebe: ModuleType, one: IslandOutcome, most_lost: float) -> Non
     """Judge the stored UVs of a mapped and placed island."""
     one.stored = judge(koebe, one.sheet.vertices, one.sheet.triangles, one.uv, turned_of(one.result))
     if one.stored.lost_area > most_lost:
-        one.lost = f"{lost_text(one.stored.lost_area)}. {SERVES['parts']} serves here"
+        one.lost = f"{lost_text(one.stored.lost_area)}. Use {SERVES['parts']}"
 
 
 class _Run:
@@ -298,7 +298,7 @@ def foreseen(koebe: ModuleType, error: Exception) -> Exception:
     if isinstance(error, (koebe.KoebeError, MapError)):
         return error
     traceback.print_exception(type(error), error, error.__traceback__)
-    unforeseen = MapError(f"{type(error).__name__}, which nobody foresaw: {error}")
+    unforeseen = MapError(f"an unexpected error: {type(error).__name__}: {error}")
     unforeseen.__cause__ = error
     return unforeseen
 

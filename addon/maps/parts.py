@@ -78,7 +78,7 @@ class PartsOutcome(Outcome):
         words = [
             f"{counted(len(kinds), 'part')} ({of_kind})",
             f"cuts {result.cut_length:.1f} times the root of the area",
-            f"texel density 1 : {density_text(result.density_ratio_5_95)} on nine tenths",
+            f"texel density 1 : {density_text(result.density_ratio_5_95)} on nine tenths of the area",
             f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
             counted(result.flipped, "flip"),
             f"{result.seconds:.2f} s",

@@ -38,7 +38,7 @@ class LostAreaError(MapError):
     kind = "lost_area"
 
     def __init__(self, share: float, elements: np.ndarray, *offer: str) -> None:
-        super().__init__(f"{lost_text(share)}. The layer stays as it was: {SERVES[offer[0]]} serves here")
+        super().__init__(f"{lost_text(share)}. The layer stays as it was: use {SERVES[offer[0]]}")
         self.elements, self.offer = elements, offer
 
 

@@ -128,7 +128,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         note_group(run, report_of(context))
         entry = moved_circles.entry_of(context, job.name, job.layer, domain)
         if entry is not None:
-            moved_circles.record(entry, image, job.angle_error(image))
+            moved_circles.record(entry, image, job.figures(image))
         return image
 
     def _say(self, job: MoebiusJob, image: CircleImage) -> set[str]:

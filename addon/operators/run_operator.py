@@ -44,6 +44,9 @@ def is_used(options: Any, name: str) -> bool:
     return name not in NEEDS or NEEDS[name](options)
 
 
+LABELS = {"evenness": "More Parts"}  # where a field beside it leaves no room for the whole label
+
+
 def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bpy.types.Context) -> None:
     """Draw a row for an option, grey if it does not matter."""
     row = layout.row()
@@ -52,7 +55,7 @@ def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bp
     if ROWS[name].kind == "weights" and obj is not None and obj.type == "MESH":
         row.prop_search(options, name, obj, "vertex_groups")
     else:
-        row.prop(options, name)
+        row.prop(options, name, text=LABELS.get(name, ROWS[name].blender["label"]))
 
 
 def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:

@@ -107,7 +107,7 @@ class UV_OT_koebe_select_warning(ReportOperator, bpy.types.Operator):
     """Select, in Edit Mode, the faces or vertices of this warning"""
 
     bl_idname = "uv.koebe_select_warning"
-    bl_label = "Select What It Speaks of"
+    bl_label = "Select What the Warning Means"
 
     warning: bpy.props.IntProperty(name="Warning", min=0, description="Number of the warning in the report")
 

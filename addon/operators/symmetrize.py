@@ -69,7 +69,7 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
             job.write(run, made.image)
             entry = moved_circles.entry_of(context, job.name, job.layer, made.image.domain)
             if entry is not None:
-                moved_circles.record(entry, made.image, job.angle_error(made.image), moved_circles.SYMMETRIC)
+                moved_circles.record(entry, made.image, job.figures(made.image), moved_circles.SYMMETRIC)
         return found
 
     def _say(self, done: list[Done], problems: list[str]) -> set[str]:

@@ -63,7 +63,7 @@ def _of_this_version(module: ModuleType) -> ModuleType:
     """The loaded module, for example after an update of the add-on in the same session."""
     version = getattr(module, "__version__", "unknown")
     if _checkout() is None and version != _fitting_wheel().version:
-        raise WheelError(module.__file__, f"is loaded, of version {version} and not this add-on's", "restart Blender")
+        raise WheelError(module.__file__, f"is loaded, of another version: {version}", "restart Blender")
     return module
 
 

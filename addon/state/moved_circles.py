@@ -11,7 +11,7 @@ import numpy as np
 from ..blender.mesh_reading import bring_up_to_date, read_layer
 from ..maps.circle_domain import CircleDomain, CircleImage
 from ..maps.moebius import Moebius
-from ..maps.wording import counted
+from ..maps.wording import MOST_UNEVEN, counted
 from .run_report import KoebeIslandReport, report_of
 
 MOVED, SYMMETRIC = "moved by hand", "made symmetric"
@@ -46,12 +46,14 @@ def show(entry: KoebeIslandReport, domain: CircleDomain, moved: Moebius) -> None
         _place(place, domain, center, radius)
 
 
-def record(entry: KoebeIslandReport, image: CircleImage, angle_error: float, what: str = MOVED) -> None:
-    """Update the entry with a written image. Its loops become the image's, in their order."""
+def record(entry: KoebeIslandReport, image: CircleImage, figures: dict[str, float], what: str = MOVED) -> None:
+    """Update the entry with a written image and its figures. Its loops become the image's, in their order."""
     domain = image.domain
     begin(entry, domain)
     before = {key: (loop.vertices, loop.roundness) for key, loop in zip(loop_keys(entry), entry.loops, strict=True)}
-    entry.angle_error, entry.flipped = angle_error, len(image.flipped)
+    for name, value in figures.items():
+        setattr(entry, name, value)
+    entry.flipped, entry.uneven = len(image.flipped), bool(image.too_small) or entry.density > MOST_UNEVEN
     entry.flipped_faces = json.dumps(np.unique(domain.island.triangle_face[image.flipped]).tolist())
     entry.moved = describe(image, what)
     for place, loop in zip(entry.loops, image.loops, strict=True):
@@ -90,7 +92,7 @@ def _key(uv: np.ndarray) -> str:
     return hashlib.sha256(np.ascontiguousarray(uv, dtype=np.float32).tobytes()).hexdigest()
 
 
-OF_ISLAND = ("angle_error", "flipped", "flipped_faces", "moved")
+OF_ISLAND = ("angle_error", "flipped", "flipped_faces", "moved", "density", "coverage", "uneven")
 OF_LOOP = ("vertices", "radius", "roundness", "uv_radius")
 
 
@@ -105,7 +107,7 @@ def _remember(entry: KoebeIslandReport, key: str) -> None:
 
 
 def _recall(entry: KoebeIslandReport, known: dict[str, Any]) -> None:
-    for name, value in zip(OF_ISLAND, known["island"], strict=True):
+    for name, value in zip(OF_ISLAND, known["island"], strict=False):  # files of earlier versions have fewer
         setattr(entry, name, value)
     for loop, values in zip(entry.loops, known["loops"], strict=True):
         *plain, loop.uv_center = values

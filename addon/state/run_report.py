@@ -20,6 +20,7 @@ from bpy.props import (
 from ..blender.noted_properties import note_group
 from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried
+from ..maps.distortion import texel_figures
 from ..maps.surface import Island
 from .registering import on_window_manager
 
@@ -138,6 +139,7 @@ def record_moved(
         if entry.object_name != name or entry.layer != layer or not entry.mapped:
             continue
         entry.angle_error, entry.flipped = placed.angle_error, len(placed.flipped)
+        _fill(entry, texel_figures(island, placed.uv))
         entry.flipped_faces = json.dumps(np.unique(island.triangle_face[placed.flipped]).tolist())
         for loop in entry.loops:
             rim = [number[v] for v in json.loads(loop.vertices) if v in number]

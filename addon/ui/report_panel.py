@@ -88,7 +88,8 @@ class ReportPanel(KoebePanel):
             for number, warning in enumerate(entry.warnings):
                 draw_warning(layout.box().column(align=True), number, warning)
         most = 0 if report.show_all else MOST_LINES
-        said = ("" if entry.mapped else entry.message, entry.note, entry.moved)
+        note = "" if entry.moved else entry.note  # which speaks of the map before
+        said = ("" if entry.mapped else entry.message, note, entry.moved)
         if max([draw_message(layout, text, most) for text in said]) > MOST_LINES:
             layout.prop(report, "show_all", toggle=True)
         if entry.mapped:

@@ -10,9 +10,9 @@
 
 namespace koebe {
 
-/// A triangulation of a polyhedral surface. Every triangle lies in a face of the input, at exact places: the corners'
-/// coordinates in the face are fractions with a power of two below. So nothing is rounded but the input's own metric,
-/// and that metric is known in intervals.
+/// A triangulation of a polyhedral surface. Every triangle lies in a face of the input, and its corners are exact:
+/// their coordinates in the face are fractions with a power of two below. Only the input's own metric is rounded, and
+/// intervals enclose it.
 ///
 /// Faces are cut in two by newest vertex bisection (Mitchell 1989), which makes four shapes of triangles at most from
 /// each face. The edge to cut is the one from corner 0 to corner 1.
@@ -37,7 +37,7 @@ public:
     /// corner 0.
     Interval energy(Index f, const Interval& to_corner_1, const Interval& to_corner_2) const;
 
-    /// Cuts the marked faces in four, and others as far as they must be so that edges match. @param marked (F)
+    /// Cuts the marked faces in four, and further faces until all edges match. @param marked (F)
     void refine(const std::vector<char>& marked);
 
 private:

@@ -48,25 +48,27 @@ struct CapacityReport {
 };
 
 /// The condensers that give a surface's conformal invariants, all loops held: each loop against the others, then each
-/// pair, without those that a condenser before has with 0 and 1 exchanged. Their capacities give the matrix of fluxes
-/// C_jk between loops, which has as many numbers: C_jj, and (capacity of j and k - C_jj - C_kk) / 2.
+/// pair against the others. A condenser is left out if an earlier one is the same with 0 and 1 exchanged. Their
+/// capacities give the matrix of fluxes C_jk between loops, which has as many numbers: C_jj, and C_jk = (capacity of j
+/// and k - C_jj - C_kk) / 2.
 KOEBE_API std::vector<Condenser> loop_condensers(int loop_count);
 
-/// Encloses the capacities of the polyhedral surface, flat faces with exactly these vertices.
+/// Encloses the capacities of the polyhedral surface: the flat faces with exactly these vertices.
 ///
-/// Upper bound: the energy of a piecewise linear u with the condenser's values on the loops. Lower bound: Phi^2 over
-/// the energy of a piecewise linear flux without sources, Phi the flux into the loops at 1 (Dirichlet's and Thomson's
-/// principles). Any such u and flux give bounds, so an error of the linear solver widens the enclosure, but cannot make
-/// it wrong. The flux is dg + c: g is a function on the vertices, constant on each loop through which nothing flows;
-/// c is constant on each face's sides, with the loops' fluxes, along a tree of faces, in multiples of one power of two.
-/// So it has no sources exactly. Energies are summed in intervals (interval.h) on exact places (bisected_surface.h).
+/// Upper bound: the energy of a function u with the condenser's values on the loops, quadratic on each triangle. Lower
+/// bound: Phi^2 over the energy of a flux without sources, where Phi is the flux into the loops at 1 (Dirichlet's and
+/// Thomson's principles). Any such u and any such flux give bounds. So an error of the linear solver makes the
+/// enclosure wider, but never wrong. The flux is dg + c. g is quadratic on each triangle, and constant on each loop
+/// through which nothing flows. c is constant on each triangle. It carries the fluxes of the loops along a tree of
+/// faces, in multiples of one power of two, so that it has no sources exactly. Energies are summed in intervals
+/// (interval.h) on exact places (bisected_surface.h).
 ///
-/// Until the width is reached, the triangles with most of the gap are cut in four: the gap of the bounds is the sum of
-/// the triangles' |grad u - flux|^2 (Prager and Synge 1947).
+/// Until the width is reached, the triangles with most of the gap are cut in four. The gap between the bounds is the
+/// integral of |grad u - flux|^2 over all triangles (Prager and Synge 1947).
 ///
 /// @param condensers by default those of loop_condensers
-/// @throws InputError a condenser without loops at 0 or at 1, a loop twice or one that does not exist (listed); faces
-/// without area (listed); TopologyError as require_bordered_genus_zero; SolverError; Cancelled
+/// @throws InputError a condenser without loops at 0 or at 1, a loop that is there twice or does not exist (listed);
+/// faces without area (listed); TopologyError as require_bordered_genus_zero; SolverError; Cancelled
 KOEBE_API CapacityReport certified_capacities(const Vertices& vertices, const Triangles& triangles,
                                               const std::vector<Condenser>& condensers, const CapacityOptions& options,
                                               ExecutionContext& context);

@@ -19,11 +19,11 @@ struct FlattenOptions {
     LengthUnit units = LengthUnit::mm;  ///< of the mesh
     std::string page = "A4";            ///< as page_named has it
     double allowance = 0.0;             ///< mm round each piece
-    /// Of a part, as in PartsOptions. None: a surface that is bent at few vertices is cut as little as can be if it
-    /// lies true to size then; else as parts are.
+    /// Of a part, as in PartsOptions. None: a surface that is bent at few vertices gets the shortest cuts, if they make
+    /// it lie true to size. Any other surface gets the cuts of parts.
     std::optional<double> price = {};
     double darts = 0.05;              ///< as in PartsOptions
-    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each is one by itself
+    std::vector<Index> polygon = {};  ///< (F) faces with one number stay together; empty: no faces do
     int threads = 0;                  ///< at most; 0: as many as the machine has
 
     template <typename Visit>
@@ -38,8 +38,8 @@ struct FlattenOptions {
     }
 };
 
-/// By how much lengths in a face differ from those on the surface, in per cent, in the direction where they differ
-/// most.
+/// By how much lengths in a face differ from lengths on the surface, in per cent, in the direction of the largest
+/// difference.
 struct Stretch {
     double mean = 0.0;  ///< over the area
     double max = 0.0;   ///< of all faces that are thick enough to have angles

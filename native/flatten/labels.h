@@ -11,7 +11,7 @@
 namespace koebe {
 
 /// Notches at the same points of the surface on all sides of a seam, each inside its piece, and the number of the seam.
-/// @param parts whose vertices (V, 3) are in a unit of `unit` mm
+/// @param parts whose vertices (V, 3) are in units of `unit` mm
 void mark_seams(const std::vector<Seam>& seams, const std::vector<FlatPart>& parts, PlacedPieces& placed);
 
 /// The number of each piece, where it has room.

@@ -20,7 +20,7 @@ struct Page {
 };
 
 /// @param name none, A0 to A4, letter, legal, tabloid, or WIDTHxHEIGHT in mm, each from 20 to 100,000
-/// @return none if it is nothing of these
+/// @return none if the name is none of these
 KOEBE_API std::optional<Page> page_named(const std::string& name);
 
 /// For an error's message.

@@ -28,7 +28,8 @@ private:
 /// @param face three vertices
 FlatTriangle laid_flat(const Vertices& vertices, const Eigen::RowVector3i& face);
 
-/// How much the lengths of a face differ from those on the surface at most. @param corners three rows, in the same unit
+/// How much the lengths of a face differ at most from the lengths on the surface. @param corners three rows, in the
+/// same unit
 double stretch_of(const FlatTriangle& flat, const Eigen::Matrix<double, 3, 2>& corners);
 
 /// Of all faces over their area, 0.01 for a per cent.

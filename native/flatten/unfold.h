@@ -1,4 +1,4 @@
-// Parts of surfaces that can be unfolded, as cones, rolled sheets and boxes.
+// Lays parts flat that can be unfolded: cones, rolled sheets, boxes.
 #pragma once
 
 #include "core/types.h"
@@ -10,10 +10,11 @@ namespace koebe {
 /// Whether the angles round nearly all inner vertices sum to a whole turn.
 bool is_bent_at_few_vertices(const Vertices& vertices, const Triangles& triangles);
 
-/// Cuts the shortest way to the rim from each inner vertex where that is not so.
+/// Cuts the shortest way to the rim from each inner vertex where they do not.
 void cut_to_bends(FlatPart& part);
 
-/// The part unfolded face by face, if it is one to one and less stretched so; then relaxed as long as that helps.
+/// Unfolds the part face by face, and takes the result if it is one to one and less stretched. Then relaxes it as long
+/// as that helps.
 void unfold(FlatPart& part, ExecutionContext& context);
 
 }  // namespace koebe

@@ -1,4 +1,4 @@
-// A surface with UVs for each corner, as a sheet on which one can walk: across its edges, also those where UVs are cut.
+// A surface with UVs for each corner, as a sheet: a path can cross every edge, also where the UVs are cut.
 #pragma once
 
 #include "core/types.h"
@@ -14,12 +14,12 @@ struct FlatSheet {
     Vertices vertices;
     Triangles triangles;      ///< all of one orientation
     std::vector<Complex> uv;  ///< (3F) of corners
-    double grid = 0.0;        ///< UVs are whole multiples of it; 0: they are not
+    double grid = 0.0;        ///< UVs are whole multiples of it; 0: there is no such number
     std::vector<Complex> periods = {};
 
     std::vector<Index> twin;    ///< (3F)
     std::vector<char> border;   ///< (3F) whether the walk ends at this half-edge
-    std::vector<Complex> step;  ///< (3F) what to add to a place in the face's chart for the chart of its twin
+    std::vector<Complex> step;  ///< (3F) added to a place in the face's chart it gives the place in its twin's chart
     std::vector<Index> sheet;   ///< (F) faces that can be reached from each other have one number
     std::vector<double> scale;  ///< (V) length on the surface over length in UVs
     Vertices normals;           ///< (V, 3) unit, weighted by angles

@@ -9,7 +9,7 @@
 
 namespace koebe {
 
-/// A pattern that repeats along a and b. With cells of size 1 between the middles of neighbours.
+/// A pattern that repeats along a and b. The middles of neighbouring cells are 1 apart.
 struct Lattice {
     Complex a, b;
     std::vector<std::vector<Complex>> shapes;  ///< of one cell, counter-clockwise, convex
@@ -28,13 +28,13 @@ struct LaidLattice {
 };
 
 /// @param periods of the domain: none, one along the real axis, or two
-/// @param size of a cell in the plane @param repeats round the one period; 0: as the size asks for
+/// @param size of a cell in the plane @param repeats round the one period; 0: it follows from the size
 /// @param low, high corners of the domain's bounding box, with one period between the rims
-/// @throws InputError repeats that the lattice does not allow, with the nearest that it allows; too many cells
+/// @throws InputError a number of repeats that does not fit the lattice (the message has the nearest); too many cells
 LaidLattice lay_lattice(const Lattice& lattice, const std::vector<Complex>& periods, double size, int repeats,
                         Complex low, Complex high);
 
-/// A convex polygon with its corners cut, thrice [Chaikin 1974].
+/// A convex polygon after three rounds in which all corners are cut off [Chaikin 1974].
 std::vector<Complex> rounded_corners(std::vector<Complex> polygon);
 
 }  // namespace koebe

@@ -24,7 +24,7 @@ struct OutlineStep {
 };
 
 enum class WalkEnd {
-    closed,   ///< the outline is in its nodes
+    closed,   ///< the path came back to its start: the steps are the whole outline
     border,   ///< it meets a hole, a rim, a cut that is no period, or a face without area in the UVs
     too_fine  ///< it is too small for the numbers' precision, or it meets itself
 };
@@ -34,9 +34,9 @@ struct OutlinePath {
     std::vector<OutlineStep> steps;
 };
 
-/// Follows an outline from its first point. Where it comes nearer to a vertex or an edge than a twentieth of its mean
-/// segment, and a tenth of the sheet's edge, it is led through this vertex or edge: no face becomes a sliver, and no
-/// vertex of the surface moves.
+/// Follows an outline from its first point. Where the outline comes very near to a vertex or an edge, it is moved onto
+/// the vertex or the edge. So no face becomes a sliver, and no vertex of the surface moves. Very near is a twentieth of
+/// the outline's mean segment, or a tenth of the sheet's edge if that is less.
 /// @param nodes new ones are appended
 OutlinePath walk_outline(const FlatSheet& sheet, const DrawnOutline& outline, std::vector<OutlineNode>& nodes);
 

@@ -25,7 +25,7 @@ struct Overlay {
     std::vector<Complex> uv;                ///< (3F)
     std::vector<Index> face;                ///< (F) the sheet's face of each
     std::vector<Index> region;              ///< (F) innermost outline that holds the face, or -1
-    std::vector<DrawnOutline> outlines;     ///< those that were drawn
+    std::vector<DrawnOutline> outlines;     ///< the outlines that were drawn
     std::vector<std::vector<Index>> loops;  ///< the vertices of each outline, in order
     LeftOut left_out;
 };

@@ -14,7 +14,7 @@ namespace koebe {
 struct PatternOptions {
     double size = 0.0;    ///< of a cell with its share of the bridge, in the unit of the vertices
     double bridge = 0.0;  ///< between two outlines
-    int repeats = 0;      ///< of a lattice round a ring; 0: as the size asks for
+    int repeats = 0;      ///< of a lattice round a ring; 0: it follows from the size
     std::uint64_t seed = 1;
 };
 

@@ -15,8 +15,8 @@ struct RaisedSheet {
     VectorXd height;            ///< (V) 0 on the ground
 };
 
-/// Doubles the vertices between raised faces and the ground, one at the height and one on the ground, and joins them by
-/// walls. Edges keep two faces each.
+/// Doubles the vertices between raised faces and the ground: one stays on the ground, and one is raised. Walls join the
+/// two. Every edge keeps two faces.
 /// @param uv (3F) of corners @param up (F) whether a face is raised
 RaisedSheet raise_faces(const Triangles& triangles, const std::vector<Complex>& uv, const std::vector<Index>& up,
                         Index vertex_count, double height);

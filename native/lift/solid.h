@@ -14,13 +14,13 @@ struct Solid {
 };
 
 /// Joins two sheets with the same loops to a solid. Every edge of the solid has two faces, in opposite directions.
-/// @param outside its first vertices are the inner side's, and its loops run through these alone
+/// @param outside its first vertices are the vertices of the inner side, and its loops have no other vertices
 Solid closed_solid(const Vertices& outside, const Triangles& outer_faces, const Vertices& inside,
                    const Triangles& inner_faces);
 
 /// The vertices moved along the normals, and the faces of `triangles` checked.
 /// @param normals (V, 3) unit @param by (V)
-/// @throws InputError a face would turn over, as the surface bends more tightly there (elements: faces)
+/// @throws InputError a face would turn over, because the surface bends too tightly there (elements: faces)
 Vertices moved_along(const Vertices& vertices, const Vertices& normals, const VectorXd& by, const Triangles& triangles);
 
 }  // namespace koebe

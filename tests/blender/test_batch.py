@@ -177,9 +177,9 @@ def test_parts_are_those_of_the_operator(batch, tmp_path):
     ("--sequence SHAPE_KEYS --play", "--play needs --sequence FRAMES"),
     ("--evenness 0.5", "--evenness needs --parts"),
     ("--parts --evenness 2", "--evenness: 2.0 is not a number from 0 to 1"),
-    ("--parts --tolerance 1e-3", "--tolerance is not of --parts"),
-    ("--parts --domain torus", "--domain is not of --parts"),
-    ("--parts --sequence FRAMES", "--parts is not of --sequence"),
+    ("--parts --tolerance 1e-3", "--tolerance does not work with --parts"),
+    ("--parts --domain torus", "--domain does not work with --parts"),
+    ("--parts --sequence FRAMES", "--parts does not work with --sequence"),
 ])  # fmt: skip
 def test_wrong_usage_names_flags_and_limits(addon, words, said):
     ends = addon("headless.exit_and_signals")
@@ -291,7 +291,7 @@ def test_what_is_lost_is_4_with_its_share_and_keeps_its_layer(batch, tmp_path):
     scenes.add_object("Limb", points, faces)
     done = batch("--output", "out.blend", "--report", "out.json", "--domain", "schottky")
     assert done.returncode == 4, done.stderr
-    assert "% of its area is lost" in done.stderr and "--parts serves here" in done.stderr
+    assert "% of its area is lost" in done.stderr and "use --parts" in done.stderr
     content = json.loads((tmp_path / "out.json").read_text())
     (entry,) = content["objects"]
     assert content["exit_code"] == 4 and entry["converged"] is False and entry["lost_area"] > 0.01

@@ -103,7 +103,7 @@ def test_a_folder_without_files_is_2(addon_name, koebe, tmp_path):
 
 def test_a_library_has_no_one_report(addon_name, library, tmp_path):
     code, printed, err = run(addon_name, tmp_path, library, "--output", tmp_path / "out", "--report", "r.json")
-    assert code == 2 and "--report is of one file" in err
+    assert code == 2 and "--report works with one file" in err
 
 
 def test_killed_half_way_it_is_resumed(addon_name, koebe, library, tmp_path):

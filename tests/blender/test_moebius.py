@@ -86,6 +86,24 @@ def test_a_hole_comes_into_the_middle_by_its_number_in_the_report():
 
 
 @pytest.mark.alike
+def test_the_report_tells_how_even_the_moved_map_is():
+    obj = mapped()
+    obj.data.calc_loop_triangles()
+    triangles = np.array([triangle.loops for triangle in obj.data.loop_triangles])
+    in_space = np.array([triangle.area for triangle in obj.data.loop_triangles])
+    for center in (0.0, 0.0), (0.5, 0.2), (-0.5, -0.2):
+        assert bpy.ops.uv.koebe_moebius(center=center) == {"FINISHED"}
+        a, b, c = uv_of(obj).astype(np.float64)[triangles].transpose(1, 2, 0)
+        in_uv = 0.5 * np.abs((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0])
+        order = np.argsort(in_uv / in_space)
+        low, high = np.searchsorted(in_space[order].cumsum() / in_space.sum(), (0.05, 0.95))
+        density = np.sqrt((in_uv / in_space)[order])
+        assert report().density == pytest.approx(density[high] / density[low], rel=1e-3)
+        assert report().coverage == pytest.approx(in_uv.sum(), rel=1e-5)
+    assert report().moved != ""
+
+
+@pytest.mark.alike
 def test_without_a_change_every_bit_stays():
     obj = mapped()
     before = uv_of(obj)
@@ -110,19 +128,25 @@ def test_in_edit_mode_with_another_island_left_alone():
     assert bpy.context.window_manager.koebe_uv.islands[1].moved != ""
 
 
+def told_of_circles():
+    """What the report tells of the circles, and how even the map is."""
+    loops = [[tuple(loop.uv_center), loop.uv_radius, loop.vertices] for loop in report().loops]
+    return report().density, report().coverage, loops
+
+
 def test_undo_and_redo_take_the_circles_along():
     mapped()
     bpy.ops.ed.undo_push(message="mapped")
-    told = [[tuple(loop.uv_center), loop.uv_radius, loop.vertices] for loop in report().loops]
+    told = told_of_circles()
     bpy.ops.uv.koebe_moebius("EXEC_DEFAULT", True, rim=2, center=(0.1, 0.0))
-    moved = [[tuple(loop.uv_center), loop.uv_radius, loop.vertices] for loop in report().loops]
+    moved = told_of_circles()
     assert moved != told
     for _ in range(3):
         bpy.ops.ed.undo()
-        assert [[tuple(loop.uv_center), loop.uv_radius, loop.vertices] for loop in report().loops] == told
+        assert told_of_circles() == told
         assert report().moved == ""
         bpy.ops.ed.redo()
-        assert [[tuple(loop.uv_center), loop.uv_radius, loop.vertices] for loop in report().loops] == moved
+        assert told_of_circles() == moved
     assert_report_is_true(bpy.context.view_layer.objects.active)
 
 

@@ -313,7 +313,7 @@ def test_parts_that_lose_too_much_are_not_done(koebe, monkeypatch):
 
     monkeypatch.setattr(koebe, "parts", losing)
     before = fingerprint.fingerprint()
-    with pytest.raises(RuntimeError, match="50 % of its area is lost.*Unwrap to Disk serves here"):
+    with pytest.raises(RuntimeError, match="50 % of its area is lost.*use Unwrap to Disk"):
         bpy.ops.uv.koebe_parts()
     assert fingerprint.differences(before, fingerprint.fingerprint()) == ["file: report"]
     assert islands()[0].offer == "uniformize" and not islands()[0].mapped

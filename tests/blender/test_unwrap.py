@@ -114,3 +114,14 @@ def test_the_redo_panel_has_eight_rows_at_most(addon):
     assert {*unwrap.ROWS} == {*unwrap.MAPS, "AUTO"}
     for shape, rows in unwrap.ROWS.items():
         assert len(rows) < 8 and {*rows} < names, shape
+
+
+@pytest.mark.alike
+def test_the_redo_panel_is_short_and_its_labels_have_room(addon):
+    """At most eight rows; beside a field there is room for fourteen letters in every version, for checkboxes more."""
+    unwrap, run = (addon(f"operators.{name}") for name in ("unwrap", "run_operator"))
+    for shape, rows in unwrap.ROWS.items():
+        assert len(("shape", *rows)) <= 8, shape
+        for name in rows:
+            label = run.LABELS.get(name, run.ROWS[name].blender["label"])
+            assert len(label) <= (20 if run.ROWS[name].kind == "flag" else 14), label

@@ -194,7 +194,7 @@ def map_or_refuse(obj, job, assert_is_right):
     for one in outcome.mapped:
         assert_is_right(outcome, one)
     for one in outcome.failed:
-        assert "nobody foresaw" not in str(one.error)
+        assert "an unexpected error" not in str(one.error)
     if outcome.mapped:
         job.write()
         assert outcome.line() and json.dumps(job.entries(outcome))

@@ -51,7 +51,8 @@ def pixel(window, u, v):
 def drag(window, start, end, release=True):
     """Press, move in steps, and let go."""
     window.move(*start)
-    xdotool("mousedown", 1, "sleep", "0.6")
+    xdotool("mousedown", 1)
+    window.settle()  # Blender takes for the place of a click where the pointer is when it gets to it
     for step in range(1, 9):
         xdotool("mousemove", *(int(a + (b - a) * step / 8) for a, b in zip(start, end)), "sleep", "0.1")
     window.settle()

@@ -123,3 +123,24 @@ def test_a_tube_unrolled(window, open_sample):
     window.picture("14_unrolled")
     assert window.ask(ISLANDS) == [["vase", True, 2]]
     assert window.ask("bpy.context.window_manager.koebe_uv.islands[0].loops[1].uv_radius") == 0  # no circle any more
+
+
+def test_the_preferences_show_the_add_on(window, open_sample):
+    open_sample("suzanne_mask")
+    window.run("""
+import addon_utils
+bpy.context.preferences.active_section = 'ADDONS'
+bpy.context.window_manager.addon_search = 'Koebe'
+window = bpy.context.window_manager.windows[0]
+area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
+area.type = 'PREFERENCES'
+(module,) = (module for module in addon_utils.modules() if module.__name__.endswith('koebe_uv'))
+with bpy.context.temp_override(window=window, area=area):
+    bpy.ops.preferences.addon_expand(module=module.__name__)
+""")
+    window.settle()
+    window.picture("15_preferences")
+    window.run("window = bpy.context.window_manager.windows[0]\n"
+               "next(area for area in window.screen.areas if area.type == 'PREFERENCES').type = 'VIEW_3D'")  # fmt: skip
+    window.settle()
+    assert window.ask("'koebe_uv' in bpy.context.preferences.addons[-1].module")

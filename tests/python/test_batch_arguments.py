@@ -142,7 +142,7 @@ def test_parts_keep_their_angles_unless_even_is_given(addon):
     (["--even", "0.5", "--symmetry", "auto"], "--even: it does not work with Symmetry.*take --even 0"),
     (["--even", "0.5", "--center", "3"], "--even: it does not work with Centre.*take --even 0"),
     (["--domain", "ring", "--even", "0.5", "--holes", "radial"], "--even: .* slits.*take --holes circles"),
-    (["--domain", "sphere", "--even", "0.5"], "--even is not of --domain sphere"),
+    (["--domain", "sphere", "--even", "0.5"], "--even does not work with --domain sphere"),
     (["--even", "1.5"], "--even: 1.5 is not a number"),
 ], ids=str)  # fmt: skip
 def test_what_even_excludes(addon, words, reason):

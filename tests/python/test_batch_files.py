@@ -157,7 +157,7 @@ def test_a_path_longer_than_blender_keeps_is_refused(files, stop, folder):
     while len(str(deep)) < 1100:
         deep = deep / ("d" * 100)
     deep.mkdir(parents=True)
-    with pytest.raises(stop, match="as long as this"):
+    with pytest.raises(stop, match="too long for Blender"):
         files.Target(str(deep / "a.blend"))
 
 

@@ -31,7 +31,7 @@ def test_what_can_be_unrolled_gets_its_true_lengths(bend):
     layout = flat.flat_layout(surface, uv)
     assert np.abs(layout.points.max(axis=0) - [6.0, 3.0]).max() < 1e-5
     assert layout.is_true and layout.lengths == pytest.approx((1.0, 1.0), abs=1e-5)
-    assert layout.describe() == "true to scale: lengths are 100 % to 100 % of those on the surface (9 of 10 edges)"
+    assert layout.describe() == "true to scale: lengths are 100 % to 100 % of lengths on the surface (9 of 10 edges)"
     (piece,) = layout.pieces
     assert len(piece.outline) == 18 and piece.holes == []
     assert len(layout.edges) == 6 * 2 + 5 * 3
