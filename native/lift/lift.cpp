@@ -4,13 +4,17 @@
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
+#include "io/file_bytes.h"
 #include "lift/flat_domain.h"
 #include "lift/patterns.h"
+#include "lift/placed_drawing.h"
 #include "lift/raised.h"
 #include "lift/solid.h"
+#include "lift/svg_drawing.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 namespace koebe {
@@ -24,6 +28,11 @@ struct KeptSheet {
     std::vector<Complex> uv;
     std::vector<Index> original, patch;
 };
+
+bool in_pattern(const Overlay& overlay, Index face)
+{
+    return overlay.region[face] >= 0 && !overlay.outlines[overlay.region[face]].hole;
+}
 
 /// The faces to keep, and their vertices in their order.
 KeptSheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Index original_count)
@@ -39,7 +48,7 @@ KeptSheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Inde
             corners.push_back(overlay.triangles(f, k));
             sheet.uv.push_back(overlay.uv[3 * f + k]);
         }
-        sheet.patch.push_back(overlay.region[f] >= 0 ? 1 : 0);
+        sheet.patch.push_back(in_pattern(overlay, f) ? 1 : 0);
     }
     std::vector<Index> used;
     for (Index v = 0; v < count; ++v) {
@@ -69,9 +78,8 @@ void require_foretold(const Surface& before, const KeptSheet& sheet, Index holes
                           " holes in place of " + std::to_string(holes));
 }
 
-void add_warnings(const MapReport& map, LiftResult& result)
+void warn_of_left_out(LiftResult& result)
 {
-    result.warnings = map.warnings;
     if (const LeftOut& left = result.left_out; left.all() > 0) {
         std::string reasons;
         const auto add = [&](Index number, const std::string& reason) {
@@ -80,6 +88,7 @@ void add_warnings(const MapReport& map, LiftResult& result)
         add(left.at_border, "at a hole, a rim or a cut");
         add(left.too_fine, "too small for 32-bit UVs");
         add(left.crossing, "that meet another");
+        add(left.open, "that do not close");
         result.warnings.push_back(
             {WarningKind::left_out,
              counted(static_cast<std::size_t>(left.all()), "outline") + " of the pattern left out: " + reasons,
@@ -152,30 +161,81 @@ void finish_solid(const KeptSheet& sheet, const LiftOptions& options, LiftResult
             throw SolverError("the solid is not closed", ElementKind::faces, {face_of(h)});
 }
 
+/// What a pattern's file holds; nothing for a built-in pattern.
+std::optional<SvgDrawing> read_drawing(const std::string& pattern, const LiftOptions& options)
+{
+    if (!is_pattern_file(pattern)) {
+        if (options.turn != 0.0) throw InputError("a turn is for drawings");
+        return {};
+    }
+    if (options.bridge) throw InputError("a bridge is for the built-in patterns: a drawing has its own");
+    return parse_svg(io::read_bytes(pattern));
+}
+
+std::vector<DrawnOutline> built_in_outlines(const FlatSheet& sheet, const std::string& name, const LiftOptions& options,
+                                            LiftResult& result)
+{
+    const PatternOptions chosen = pattern_options(sheet, options);
+    result.size = chosen.size;
+    result.bridge = chosen.bridge;
+    DrawnPattern pattern = built_in_pattern(sheet, name, chosen);
+    result.bend = pattern.bend;
+    return std::move(pattern.outlines);
+}
+
+/// The outlines of a drawing, and warnings about it.
+std::vector<DrawnOutline> outlines_of(const SvgDrawing& drawing, const FlatSheet& sheet, const LiftOptions& options,
+                                      LiftResult& result)
+{
+    PlacedDrawing placed = placed_drawing(sheet, drawing,
+                                          {.in_disk = options.shape == LiftShape::disk,
+                                           .size = options.size,
+                                           .repeats = options.repeats,
+                                           .turn = options.turn,
+                                           .cut_out = options.perforate});
+    result.size = placed.size;
+    result.islands = placed.islands;
+    if (placed.islands > 0)
+        result.warnings.push_back({WarningKind::left_out,
+                                   counted(static_cast<std::size_t>(placed.islands), "island") +
+                                       " inside outlines would hang on nothing, and fell out with them",
+                                   std::move(placed.island_faces),
+                                   "Draw bridges, as a stencil has, or raise the drawing"});
+    if (!drawing.not_drawn.empty()) {
+        std::string names;
+        for (const std::string& one : drawing.not_drawn) names += (names.empty() ? "<" : ", <") + one + ">";
+        result.warnings.push_back({WarningKind::not_kept,
+                                   "the drawing's " + names + " is not drawn",
+                                   {},
+                                   "Convert text and clones to paths first"});
+    }
+    return std::move(placed.outlines);
+}
+
 LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const std::string& name,
                      const LiftOptions& options, ExecutionContext& context)
 {
     const Stopwatch clock;
     if (options.perforate == options.height.has_value()) throw InputError("either perforate, or give a height");
+    const std::optional<SvgDrawing> drawing = read_drawing(name, options);
     FlatDomain domain = flat_domain(vertices, triangles, options, context);
     context.checkpoint();
     LiftResult result;
-    const PatternOptions chosen = pattern_options(domain.sheet, options);
     result.shape = options.shape;
-    result.pattern = name;
-    result.size = chosen.size;
-    result.bridge = chosen.bridge;
+    result.pattern = drawing ? std::filesystem::path(name).filename().string() : name;
     result.converged = domain.map.converged;
     result.distortion = domain.map.distortion;
     result.seconds = domain.map.seconds;
+    result.warnings = domain.map.warnings;
 
-    DrawnPattern pattern = built_in_pattern(domain.sheet, name, chosen);
+    std::vector<DrawnOutline> outlines = drawing ? outlines_of(*drawing, domain.sheet, options, result)
+                                                 : built_in_outlines(domain.sheet, name, options, result);
     context.checkpoint();
-    result.bend = pattern.bend;
-    const Overlay overlay = draw_outlines(domain.sheet, std::move(pattern.outlines));
+    const Overlay overlay = draw_outlines(domain.sheet, std::move(outlines));
     context.checkpoint();
     result.left_out = overlay.left_out;
-    result.outlines = static_cast<Index>(overlay.outlines.size());
+    if (drawing) result.left_out.open = drawing->open;
+    result.outlines = static_cast<Index>(std::ranges::count(overlay.outlines, false, &DrawnOutline::hole));
     if (result.outlines == 0)
         throw InputError("no outline of the pattern fits the surface: give another size (left out at a hole, a rim or "
                          "a cut: " +
@@ -190,7 +250,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
         finish_solid(sheet, options, result);
     else
         finish_sheet(sheet, options, result);
-    add_warnings(domain.map, result);
+    warn_of_left_out(result);
     result.vertex_count = static_cast<Index>(result.vertices.rows());
     result.face_count = static_cast<Index>(result.triangles.rows());
     result.peak_memory_mb = peak_memory_mb();
