@@ -4,17 +4,21 @@
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
+#include "io/extension.h"
 #include "io/file_bytes.h"
 #include "lift/flat_domain.h"
+#include "lift/grey_image.h"
 #include "lift/patterns.h"
 #include "lift/placed_drawing.h"
 #include "lift/raised.h"
+#include "lift/relief.h"
 #include "lift/solid.h"
 #include "lift/svg_drawing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -122,9 +126,8 @@ Triangles without_walls(const RaisedSheet& raised)
     return raised.triangles.topRows(raised.triangles.rows() - static_cast<Eigen::Index>(walls));
 }
 
-void finish_sheet(const KeptSheet& sheet, const LiftOptions& options, LiftResult& result)
+void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions& options, LiftResult& result)
 {
-    RaisedSheet raised = raised_sheet(sheet, options.height);
     result.vertices = sheet.vertices(raised.source, Eigen::all);
     result.original.assign(raised.source.size(), -1);
     for (std::size_t v = 0; v < raised.source.size(); ++v)
@@ -139,12 +142,11 @@ void finish_sheet(const KeptSheet& sheet, const LiftOptions& options, LiftResult
     result.patch = std::move(raised.patch);
 }
 
-void finish_solid(const KeptSheet& sheet, const LiftOptions& options, LiftResult& result)
+void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftOptions& options, LiftResult& result)
 {
     const double half = 0.5 * *options.thickness;
     if (options.height.value_or(0.0) <= -2.0 * half)
         throw InputError("the pattern is sunk through the solid: the height must be above minus the thickness");
-    const RaisedSheet raised = raised_sheet(sheet, options.height);
     const Vertices outside =
         moved_along(sheet.vertices(raised.source, Eigen::all), sheet.normals(raised.source, Eigen::all),
                     (raised.height.array() + half).matrix(), without_walls(raised));
@@ -162,14 +164,48 @@ void finish_solid(const KeptSheet& sheet, const LiftOptions& options, LiftResult
 }
 
 /// What a pattern's file holds; nothing for a built-in pattern.
-std::optional<SvgDrawing> read_drawing(const std::string& pattern, const LiftOptions& options)
+struct PatternFile {
+    std::optional<SvgDrawing> drawing;
+    std::optional<GreyImage> image;
+};
+
+PatternFile read_pattern(const std::string& pattern, const LiftOptions& options)
 {
-    if (!is_pattern_file(pattern)) {
-        if (options.turn != 0.0) throw InputError("a turn is for drawings");
-        return {};
-    }
-    if (options.bridge) throw InputError("a bridge is for the built-in patterns: a drawing has its own");
-    return parse_svg(io::read_bytes(pattern));
+    const bool is_file = is_pattern_file(pattern), is_image = is_file && io::lower_extension(pattern) == ".png";
+    if (options.turn != 0.0 && (!is_file || is_image)) throw InputError("a turn is for drawings");
+    if (!is_file) return {};
+    if (options.bridge) throw InputError("a bridge is for the built-in patterns: a file has its own");
+    if (!is_image) return {.drawing = parse_svg(io::read_bytes(pattern)), .image = {}};
+    if (!options.height) throw InputError("an image is a relief: give the height of white");
+    if (options.shape == LiftShape::parts) throw InputError("an image is for disks, rings and tori: parts have cuts");
+    if (options.repeats > 1 && options.shape == LiftShape::disk)
+        throw InputError("repeats of an image are for rings and tori: a disk does not repeat");
+    return {.drawing = {}, .image = parse_png(io::read_bytes(pattern))};
+}
+
+/// The sheet in faces as fine as the image, and its heights.
+RaisedSheet image_relief(const FlatSheet& domain, const GreyImage& image, const LiftOptions& options, KeptSheet& sheet,
+                         LiftResult& result)
+{
+    const ImagePlace place{std::max(1, options.repeats)};
+    const double edge = pixel_edge(domain, image, place);
+    result.size = options.size.value_or(edge * domain.mean_scale);
+    FineSheet fine = refined_sheet(domain, edge, options.size);
+    RaisedSheet raised;
+    raised.height = *options.height * image_values(domain, fine, image, place);
+    raised.triangles = fine.triangles;
+    raised.uv = fine.uv;
+    raised.patch.assign(fine.triangles.rows(), 0);
+    raised.source.resize(fine.vertices.rows());
+    std::iota(raised.source.begin(), raised.source.end(), 0);
+    sheet.original = raised.source;
+    std::fill(sheet.original.begin() + domain.vertices.rows(), sheet.original.end(), -1);
+    sheet.patch = raised.patch;
+    sheet.vertices = std::move(fine.vertices);
+    sheet.normals = std::move(fine.normals);
+    sheet.triangles = std::move(fine.triangles);
+    sheet.uv = std::move(fine.uv);
+    return raised;
 }
 
 std::vector<DrawnOutline> built_in_outlines(const FlatSheet& sheet, const std::string& name, const LiftOptions& options,
@@ -181,6 +217,25 @@ std::vector<DrawnOutline> built_in_outlines(const FlatSheet& sheet, const std::s
     DrawnPattern pattern = built_in_pattern(sheet, name, chosen);
     result.bend = pattern.bend;
     return std::move(pattern.outlines);
+}
+
+/// The sheet with the pattern's outlines in it, and those raised or cut out.
+RaisedSheet outlined_sheet(const FlatDomain& domain, std::vector<DrawnOutline> outlines, int open,
+                           const LiftOptions& options, KeptSheet& sheet, LiftResult& result)
+{
+    const Overlay overlay = draw_outlines(domain.sheet, std::move(outlines));
+    result.left_out = overlay.left_out;
+    result.left_out.open = open;
+    result.outlines = static_cast<Index>(std::ranges::count(overlay.outlines, false, &DrawnOutline::hole));
+    if (result.outlines == 0)
+        throw InputError("no outline of the pattern fits the surface: give another size (left out at a hole, a rim or "
+                         "a cut: " +
+                         std::to_string(result.left_out.at_border) + ")");
+    std::vector<char> keep(overlay.region.size(), 1);
+    if (options.perforate)
+        for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = overlay.region[f] < 0;
+    sheet = kept_faces(overlay, keep, static_cast<Index>(domain.sheet.vertices.rows()));
+    return raised_sheet(sheet, options.height);
 }
 
 /// The outlines of a drawing, and warnings about it.
@@ -217,39 +272,34 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
 {
     const Stopwatch clock;
     if (options.perforate == options.height.has_value()) throw InputError("either perforate, or give a height");
-    const std::optional<SvgDrawing> drawing = read_drawing(name, options);
+    const PatternFile file = read_pattern(name, options);
     FlatDomain domain = flat_domain(vertices, triangles, options, context);
     context.checkpoint();
     LiftResult result;
     result.shape = options.shape;
-    result.pattern = drawing ? std::filesystem::path(name).filename().string() : name;
+    result.pattern = is_pattern_file(name) ? std::filesystem::path(name).filename().string() : name;
     result.converged = domain.map.converged;
     result.distortion = domain.map.distortion;
     result.seconds = domain.map.seconds;
     result.warnings = domain.map.warnings;
 
-    std::vector<DrawnOutline> outlines = drawing ? outlines_of(*drawing, domain.sheet, options, result)
-                                                 : built_in_outlines(domain.sheet, name, options, result);
+    KeptSheet sheet;
+    RaisedSheet raised;
+    if (file.image) {
+        raised = image_relief(domain.sheet, *file.image, options, sheet, result);
+    } else {
+        std::vector<DrawnOutline> outlines = file.drawing ? outlines_of(*file.drawing, domain.sheet, options, result)
+                                                          : built_in_outlines(domain.sheet, name, options, result);
+        context.checkpoint();
+        raised =
+            outlined_sheet(domain, std::move(outlines), file.drawing ? file.drawing->open : 0, options, sheet, result);
+    }
     context.checkpoint();
-    const Overlay overlay = draw_outlines(domain.sheet, std::move(outlines));
-    context.checkpoint();
-    result.left_out = overlay.left_out;
-    if (drawing) result.left_out.open = drawing->open;
-    result.outlines = static_cast<Index>(std::ranges::count(overlay.outlines, false, &DrawnOutline::hole));
-    if (result.outlines == 0)
-        throw InputError("no outline of the pattern fits the surface: give another size (left out at a hole, a rim or "
-                         "a cut: " +
-                         std::to_string(result.left_out.at_border) + ")");
-
-    std::vector<char> keep(overlay.region.size(), 1);
-    if (options.perforate)
-        for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = overlay.region[f] < 0;
-    const KeptSheet sheet = kept_faces(overlay, keep, static_cast<Index>(vertices.rows()));
     require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
     if (options.thickness)
-        finish_solid(sheet, options, result);
+        finish_solid(sheet, raised, options, result);
     else
-        finish_sheet(sheet, options, result);
+        finish_sheet(sheet, std::move(raised), options, result);
     warn_of_left_out(result);
     result.vertex_count = static_cast<Index>(result.vertices.rows());
     result.face_count = static_cast<Index>(result.triangles.rows());

@@ -71,7 +71,7 @@ struct LiftResult : MapReport {
 /// solid's. A hole in an outline of a drawing stays on the ground when the outline is raised, and falls out with it
 /// when it is cut out; a warning tells. Outlines that meet a hole, a rim or each other are left out, and a warning
 /// tells how many.
-/// @param pattern a built-in one (patterns.h), or the name of an SVG file (placed_drawing.h)
+/// @param pattern a built-in one (patterns.h), or the name of an SVG (placed_drawing.h) or PNG file (relief.h)
 /// @throws FileError; InputError, TopologyError, SolverError, Cancelled: as the map, and where the result would not be
 /// as promised: one hole for each outline, no flipped face, a closed solid
 KOEBE_API LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,

@@ -46,14 +46,18 @@ const std::vector<std::string>& pattern_names()
     return names;
 }
 
-bool is_pattern_file(const std::string& pattern) { return io::lower_extension(pattern) == ".svg"; }
+bool is_pattern_file(const std::string& pattern)
+{
+    const std::string extension = io::lower_extension(pattern);
+    return extension == ".svg" || extension == ".png";
+}
 
 DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
 {
     if (std::ranges::find(pattern_names(), name) == pattern_names().end()) {
         std::string all;
         for (const std::string& one : pattern_names()) all += (all.empty() ? "" : ", ") + one;
-        throw InputError("there is no pattern '" + name + "': the patterns are " + all + ", or an SVG file");
+        throw InputError("there is no pattern '" + name + "': the patterns are " + all + ", or an SVG or PNG file");
     }
     if (!(options.bridge < 0.5 * options.size)) throw InputError("the bridge must be less than half of the size");
     const bool at_sites = name == "circles" || name == "voronoi";

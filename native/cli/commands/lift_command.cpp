@@ -54,8 +54,9 @@ int run_lift(const LiftRequest& request)
     };
     kind.report = [](const LiftResult& result) { return to_json(result); };
     kind.first_words = [&](const LiftResult& result) {
-        return counted(static_cast<std::size_t>(result.outlines), "outline") +
-               (request.chosen.perforate ? " cut out, " : " raised, ") +
+        return (result.outlines == 0 ? "relief, "  // of an image
+                                     : counted(static_cast<std::size_t>(result.outlines), "outline") +
+                                           (request.chosen.perforate ? " cut out, " : " raised, ")) +
                counted(static_cast<std::size_t>(result.face_count), "face") + ", " +
                (result.uv.rows() == 0 ? "closed" : counted(static_cast<std::size_t>(result.loops_after), "loop"));
     };
@@ -66,7 +67,7 @@ std::string pattern_help()
 {
     std::string names;
     for (const std::string& name : pattern_names()) names += (names.empty() ? "" : ", ") + name;
-    return names + ", or an SVG file";
+    return names + ", or an SVG or PNG file";
 }
 
 std::string not_a_pattern(const std::string& pattern)

@@ -77,7 +77,8 @@ def lift(
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     pattern      circles or voronoi, which are even on the surface; hexagons, triangles, diamonds or stripes, whose
-                 lattices are even in the domain; or the name of an SVG file, whose closed paths are the outlines
+                 lattices are even in the domain; or the name of an SVG file, whose closed paths are the outlines,
+                 or of a PNG file: a relief with `height` where it is white
     {options}
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. Where it
