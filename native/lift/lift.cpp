@@ -31,6 +31,7 @@ struct KeptSheet {
     Triangles triangles;
     std::vector<Complex> uv;
     std::vector<Index> original, patch;
+    std::vector<Index> face;  // the surface's face of each
 };
 
 bool in_pattern(const Overlay& overlay, Index face)
@@ -53,6 +54,7 @@ KeptSheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Inde
             sheet.uv.push_back(overlay.uv[3 * f + k]);
         }
         sheet.patch.push_back(in_pattern(overlay, f) ? 1 : 0);
+        sheet.face.push_back(overlay.face[f]);
     }
     std::vector<Index> used;
     for (Index v = 0; v < count; ++v) {
@@ -126,6 +128,21 @@ Triangles without_walls(const RaisedSheet& raised)
     return raised.triangles.topRows(raised.triangles.rows() - static_cast<Eigen::Index>(walls));
 }
 
+/// As moved_along, with the surface's faces in the error.
+Vertices moved_sheet(const Vertices& vertices, const Vertices& normals, const VectorXd& by, const Triangles& triangles,
+                     const std::vector<Index>& face)
+{
+    try {
+        return moved_along(vertices, normals, by, triangles);
+    } catch (const InputError& error) {
+        std::vector<Index> faces;
+        for (const Index f : error.elements()) faces.push_back(face[f]);
+        std::ranges::sort(faces);
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        throw InputError(error.what(), ElementKind::faces, std::move(faces));
+    }
+}
+
 void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions& options, LiftResult& result)
 {
     result.vertices = sheet.vertices(raised.source, Eigen::all);
@@ -133,8 +150,8 @@ void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions&
     for (std::size_t v = 0; v < raised.source.size(); ++v)
         if (raised.height[static_cast<Eigen::Index>(v)] == 0.0) result.original[v] = sheet.original[raised.source[v]];
     if (options.height)
-        result.vertices = moved_along(result.vertices, sheet.normals(raised.source, Eigen::all), raised.height,
-                                      without_walls(raised));
+        result.vertices = moved_sheet(result.vertices, sheet.normals(raised.source, Eigen::all), raised.height,
+                                      without_walls(raised), sheet.face);
     result.triangles = std::move(raised.triangles);
     result.uv.resize(static_cast<Eigen::Index>(raised.uv.size()), 2);
     for (std::size_t c = 0; c < raised.uv.size(); ++c)
@@ -148,10 +165,10 @@ void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftO
     if (options.height.value_or(0.0) <= -2.0 * half)
         throw InputError("the pattern is sunk through the solid: the height must be above minus the thickness");
     const Vertices outside =
-        moved_along(sheet.vertices(raised.source, Eigen::all), sheet.normals(raised.source, Eigen::all),
-                    (raised.height.array() + half).matrix(), without_walls(raised));
-    const Vertices inside =
-        moved_along(sheet.vertices, sheet.normals, VectorXd::Constant(sheet.vertices.rows(), -half), sheet.triangles);
+        moved_sheet(sheet.vertices(raised.source, Eigen::all), sheet.normals(raised.source, Eigen::all),
+                    (raised.height.array() + half).matrix(), without_walls(raised), sheet.face);
+    const Vertices inside = moved_sheet(sheet.vertices, sheet.normals, VectorXd::Constant(sheet.vertices.rows(), -half),
+                                        sheet.triangles, sheet.face);
     Solid solid = closed_solid(outside, raised.triangles, inside, sheet.triangles);
     result.vertices = std::move(solid.vertices);
     result.triangles = std::move(solid.triangles);
@@ -160,7 +177,7 @@ void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftO
     const std::vector<Index> twin = pair_halfedges(result.triangles, static_cast<Index>(result.vertices.rows()));
     for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
         if (twin[h] == no_twin || origin(result.triangles, h) != target(result.triangles, twin[h]))
-            throw SolverError("the solid is not closed", ElementKind::faces, {face_of(h)});
+            throw SolverError("the solid is not closed");
 }
 
 /// What a pattern's file holds; nothing for a built-in pattern.
@@ -201,6 +218,7 @@ RaisedSheet image_relief(const FlatSheet& domain, const GreyImage& image, const 
     sheet.original = raised.source;
     std::fill(sheet.original.begin() + domain.vertices.rows(), sheet.original.end(), -1);
     sheet.patch = raised.patch;
+    sheet.face = std::move(fine.face);
     sheet.vertices = std::move(fine.vertices);
     sheet.normals = std::move(fine.normals);
     sheet.triangles = std::move(fine.triangles);

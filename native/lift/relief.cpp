@@ -28,6 +28,7 @@ public:
         }
         corners_.assign(sheet.triangles.data(), sheet.triangles.data() + sheet.triangles.size());
         uv_ = sheet.uv;
+        for (Index f = 0; f < static_cast<Index>(sheet.triangles.rows()); ++f) face_.push_back(f);
     }
 
     FineSheet run()
@@ -45,6 +46,7 @@ public:
         }
         fine.triangles = as_triangles();
         fine.uv = std::move(uv_);
+        fine.face = std::move(face_);
         return fine;
     }
 
@@ -124,6 +126,7 @@ private:
     {
         std::vector<Index> corners;
         std::vector<Complex> uv;
+        std::vector<Index> face;
         using Corner = std::pair<Index, Complex>;
         const auto add = [&](const Corner& a, const Corner& b, const Corner& c) {
             for (const Corner& corner : {a, b, c}) {
@@ -132,11 +135,14 @@ private:
             }
         };
         for (Index f = 0; f < static_cast<Index>(corners_.size() / 3); ++f) {
+            const std::size_t before = corners.size();
+            const auto note = [&] { face.resize(face.size() + (corners.size() - before) / 3, face_[f]); };
             const Index first = longest_edge(f), second = next_halfedge(first), third = next_halfedge(second);
             const auto at = [&](Index h) { return Corner{corners_[h], uv_[h]}; };
             const auto half = [&](Index h) { return Corner{middle[h], middle_in_uv(h)}; };
             if (middle[first] < 0) {
                 add(at(first), at(second), at(third));
+                note();
                 continue;
             }
             const Corner m = half(first);
@@ -152,9 +158,11 @@ private:
             } else {
                 add(m, at(third), at(first));
             }
+            note();
         }
         corners_ = std::move(corners);
         uv_ = std::move(uv);
+        face_ = std::move(face);
     }
 
     void require_stored() const
@@ -178,7 +186,7 @@ private:
     double longest_uv_;
     std::optional<double> longest_;
     std::vector<Eigen::RowVector3d> points_, normals_;
-    std::vector<Index> corners_;
+    std::vector<Index> corners_, face_;
     std::vector<Complex> uv_;
 };
 

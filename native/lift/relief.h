@@ -14,6 +14,7 @@ struct FineSheet {
     Vertices vertices, normals;
     Triangles triangles;
     std::vector<Complex> uv;  ///< (3F)
+    std::vector<Index> face;  ///< (F) the sheet's face of each
 };
 
 /// Halves edges until each is at most `longest_uv` in the UVs, or `longest` on the surface if that is given.

@@ -104,6 +104,18 @@ def test_a_solid_relief_is_closed(lifted):
     assert result.closed and (faces == 2).all() and (directed == 1).all() and euler(result.triangles) == 0
 
 
+@pytest.mark.parametrize("file", ["circles", "image"])
+def test_faces_that_would_turn_over_are_the_surfaces(lifted, file):
+    vertices, faces = tube()
+    with pytest.raises(koebe.InputError, match="would turn over") as caught:
+        if file == "image":
+            lifted(png(np.full((2, 2), 255, np.uint8)), height=-1.5, size=0.05)
+        else:
+            koebe.lift(vertices, faces, file, shape="ring", height=-1.5, size=0.4)
+    named = np.array(caught.value.elements)
+    assert 0 <= named.min() and named.max() < len(faces) and (np.diff(named) > 0).all()
+
+
 def test_what_an_image_cannot_be(lifted):
     image = png(np.zeros((4, 4), np.uint8))
     for options, message in (
