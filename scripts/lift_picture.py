@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/lift.md: a ring with a seamless lattice of hexagons, and a lampshade of Voronoi cells.
+"""The picture of docs/lift.md: a ring with a lattice of hexagons, a lampshade of Voronoi cells, a vase with text.
 
     blender -b --factory-startup --python-exit-code 1 -P scripts/lift_picture.py -- docs/images/lift.jpg [SAMPLES]
 
-Both are closed solids that the command `koebe lift` makes; the environment variable KOEBE_COMMAND may name another one.
+All are closed solids that the command `koebe lift` makes; the environment variable KOEBE_COMMAND may name another one.
 """
 
 import os
@@ -22,7 +22,8 @@ sys.dont_write_bytecode = True
 import studio  # noqa: E402
 
 COMMAND = os.environ.get("KOEBE_COMMAND", str(Path(__file__).resolve().parent.parent / "build" / "koebe"))
-SIZE = (1000, 500)
+SIZE = (1280, 500)
+VASE_TURN = 1.45  # radians, so that the text faces the camera
 SHARP = 0.6  # radians between two faces at an edge that is not smooth
 
 
@@ -46,6 +47,30 @@ def finger_ring(height, angle):
 def lampshade(height, angle):
     radius = 5.6 + 2.3 * np.sin(np.pi * (0.12 + 0.78 * height)) - 1.2 * height
     return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), 15.0 * height])
+
+
+def vase(height, angle):
+    """A vase in centimetres."""
+    radius = 4.2 + 2.6 * np.sin(np.pi * (0.1 + 1.02 * height**0.9)) + 1.1 * height**6
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), 19.0 * height])
+
+
+def write_text(file, text):
+    """The outlines of a text as an SVG drawing."""
+    font = bpy.data.curves.new("text", "FONT")
+    font.body = text
+    obj = bpy.data.objects.new("text", font)
+    bpy.context.scene.collection.objects.link(obj)
+    path = ""
+    for spline in obj.to_curve(bpy.context.evaluated_depsgraph_get()).splines:
+        points = list(spline.bezier_points)
+        path += "M{0.x} {1}".format(points[0].co, -points[0].co.y)
+        for a, b in zip(points, points[1:] + points[:1]):
+            path += "C" + " ".join(f"{p.x} {-p.y}" for p in (a.handle_right, b.handle_left, b.co))
+        path += "Z"
+    bpy.data.objects.remove(obj)
+    text = f'<svg xmlns="http://www.w3.org/2000/svg"><path fill-rule="evenodd" d="{path}"/></svg>'
+    Path(file).write_text(text, encoding="ascii")
 
 
 def lifted(points, faces, *options):
@@ -103,8 +128,14 @@ def main():
                   "--bridge", "0.45", "--thickness", "1.1")  # fmt: skip
     shade = lifted(*tube(90, 220, lampshade), "voronoi", "--shape", "ring", "--perforate", "--size", "2.4",
                    "--bridge", "0.5", "--thickness", "0.45")  # fmt: skip
-    add("ring", ring, metal("gold", (0.9, 0.6, 0.22, 1.0), 0.22, 1.0), (-1.2, 0.0, 0.88), (0.62, -0.3, 0.0), 0.105)
-    add("shade", shade, metal("clay", (0.62, 0.55, 0.47, 1.0), 0.6, 0.0), (1.2, 0.1, 0.0), (0.0, 0.0, 0.0), 0.135)
+    with tempfile.TemporaryDirectory() as folder:
+        drawing = Path(folder) / "text.svg"
+        write_text(drawing, "Koebe")
+        text = lifted(*tube(240, 300, vase), drawing, "--shape", "ring", "--size", "13", "--height", "0.25",
+                      "--thickness", "0.5")  # fmt: skip
+    add("ring", ring, metal("gold", (0.9, 0.6, 0.22, 1.0), 0.22, 1.0), (-2.15, 0.0, 0.88), (0.62, -0.3, 0.0), 0.105)
+    add("shade", shade, metal("clay", (0.62, 0.55, 0.47, 1.0), 0.6, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.0), 0.135)
+    add("vase", text, metal("glaze", (0.05, 0.2, 0.3, 1.0), 0.25, 0.0), (2.1, 0.1, 0.0), (0.0, 0.0, VASE_TURN), 0.105)
     bpy.ops.mesh.primitive_plane_add(size=60.0)
     bpy.context.object.data.materials.append(studio.plain_material(studio.BACKDROP))
     add_lamp((-3.0, -3.5, 5.0), 170.0, 2.5)
@@ -112,12 +143,12 @@ def main():
     glow = bpy.data.lights.new("glow", "POINT")
     glow.energy, glow.color, glow.shadow_soft_size = 16.0, (1.0, 0.72, 0.4), 0.12
     lamp = bpy.data.objects.new("glow", glow)
-    lamp.location = (1.2, 0.1, 1.0)
+    lamp.location = (0.0, 0.1, 1.0)
     scene.collection.objects.link(lamp)
     studio.surround(scene, (0.9, 0.93, 1.0, 1.0), 0.42)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.data.lens = 62.0
-    camera.location = (0.05, -8.6, 3.2)
+    camera.data.lens = 50.0
+    camera.location = (0.05, -10.2, 3.6)
     camera.rotation_euler = (Vector((0.05, 0.0, 0.98)) - camera.location).to_track_quat("-Z", "Y").to_euler()
     scene.collection.objects.link(camera)
     scene.camera = camera

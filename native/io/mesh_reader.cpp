@@ -1,17 +1,12 @@
 #include "io/mesh_reader.h"
 
 #include "execution/thread_share.h"
-#include "io/descriptor.h"
 #include "io/extension.h"
-#include "io/file_error.h"
+#include "io/file_bytes.h"
 #include "io/format_readers.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <string>
 
 namespace koebe {
@@ -30,30 +25,6 @@ Reader reader_for(const std::string& filed)
     if (extension == ".ply") return io::read_ply;
     if (extension == ".stl") return io::read_stl;
     throw InputError("format not supported: '" + extension + "'; supported are OBJ, OFF, PLY, STL");
-}
-
-std::string read_bytes(const fs::path& path)
-{
-    const auto fail = [&path] { throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")"); };
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(io::open_to_read(path), std::fclose);
-    if (!file) fail();
-    if (fs::is_character_file(path) || fs::is_block_file(path))  // these may have no end
-        throw FileError("cannot read " + path.string() + " (it is a device)");
-    std::string bytes;
-    std::error_code no_size;  // a pipe has no size
-    const auto size = fs::file_size(path, no_size);
-    std::size_t wanted = no_size ? 0 : static_cast<std::size_t>(size) + 1;
-    for (std::size_t filled = 0;;) {
-        wanted = std::max(wanted, filled + (std::size_t{1} << 16));
-        bytes.resize(wanted);
-        const std::size_t got = std::fread(bytes.data() + filled, 1, wanted - filled, file.get());
-        filled += got;
-        if (filled < wanted) {
-            if (std::ferror(file.get())) fail();
-            bytes.resize(filled);
-            return bytes;
-        }
-    }
 }
 
 std::vector<Index> not_finite(const Vertices& vertices)
@@ -95,7 +66,7 @@ MeshFile read_mesh_file(const std::filesystem::path& path)
 {
     MeshFile file{{}, io::lower_extension(path)};
     reader_for(file.extension);  // throws for unknown formats, before reading
-    file.bytes = read_bytes(path);
+    file.bytes = io::read_bytes(path);
     if (file.bytes.starts_with(byte_order_mark)) file.bytes.erase(0, byte_order_mark.size());
     return file;
 }

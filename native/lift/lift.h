@@ -21,11 +21,12 @@ KOEBE_API const char* to_string(LiftShape shape) noexcept;
 /// Lengths are in the unit of the vertices.
 struct LiftOptions {
     LiftShape shape = LiftShape::disk;
-    std::optional<double> even = {};       ///< of the map, from 0 to 1; none: 0, but parts choose theirs
-    std::optional<double> size = {};       ///< of a cell of the pattern; none: about twelve across the surface
+    std::optional<double> even = {};       ///< of the map, from 0 to 1; none: 0, and for parts as they choose
+    std::optional<double> size = {};       ///< of a cell; none: about twelve across. Of a drawing its width
     std::optional<double> bridge = {};     ///< between two outlines; none: a fifth of the size
-    int repeats = 0;                       ///< of a lattice round a ring; 0: it follows from the size
+    int repeats = 0;                       ///< round a ring; 0: of a lattice as the size asks for, of a drawing 1
     int seed = 1;                          ///< of circles and Voronoi cells
+    double turn = 0.0;                     ///< of a drawing, degrees counter-clockwise
     bool perforate = false;                ///< cut the outlines out
     std::optional<double> height = {};     ///< raise them; below 0: sink them
     std::optional<double> thickness = {};  ///< of a closed solid; none: the surface stays a sheet
@@ -39,6 +40,7 @@ struct LiftOptions {
         visit("bridge", &LiftOptions::bridge);
         visit("repeats", &LiftOptions::repeats);
         visit("seed", &LiftOptions::seed);
+        visit("turn", &LiftOptions::turn);
         visit("perforate", &LiftOptions::perforate);
         visit("height", &LiftOptions::height);
         visit("thickness", &LiftOptions::thickness);
@@ -56,7 +58,8 @@ struct LiftResult : MapReport {
     std::string pattern;
     double size = 0.0, bridge = 0.0;  ///< as used
     double bend = 1.0;                ///< of a lattice that fits a torus (LaidLattice)
-    Index outlines = 0;               ///< on the surface
+    Index outlines = 0;               ///< on the surface, each with its holes
+    Index islands = 0;                ///< holes in outlines that are cut out: what was inside has fallen out too
     LeftOut left_out;
     int loops_before = 0, loops_after = 0;  ///< of the sheet
     int euler_before = 0, euler_after = 0;  ///< of the sheet
@@ -64,9 +67,12 @@ struct LiftResult : MapReport {
 
 /// Maps the surface to the domain, draws the pattern's outlines there, and brings them onto the surface: as holes, as a
 /// relief, and if asked for as a closed solid. A relief and a solid move vertices of the surface. Otherwise they stay
-/// where they are. Outlines that meet a hole, a rim or each other are left out, and a warning tells how many.
-/// @throws InputError, TopologyError, SolverError, Cancelled: as the map, and where the result would not be as
-/// promised: one hole for each outline, no flipped face, a closed solid
+/// where they are. A hole in an outline of a drawing stays on the ground if the outline is raised, and falls out with it
+/// if it is cut out; a warning tells. Outlines that meet a hole, a rim or each other are left out, and a warning tells
+/// how many.
+/// @param pattern a built-in one (patterns.h), or the name of an SVG (placed_drawing.h) or PNG file (relief.h)
+/// @throws FileError; InputError, TopologyError, SolverError, Cancelled: as the map, and where the result would not be
+/// as promised: one hole for each outline, no flipped face, a closed solid
 KOEBE_API LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,
                           const LiftOptions& options, ExecutionContext& context);
 

@@ -12,6 +12,7 @@ struct DrawnOutline {
     std::vector<Complex> points;  ///< in the chart of `face`
     Index face = -1;              ///< of a sheet: holds the first point
     Index group = -1;             ///< outlines of one group are lifted together or not at all
+    bool hole = false;            ///< in an outline of its group: the faces inside it are the ground again
 };
 
 }  // namespace koebe

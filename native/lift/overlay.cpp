@@ -218,18 +218,37 @@ private:
             begin[at->second].push_back(h);
             ++found[at->second];
         }
+        std::vector<Index> euler(begin.size(), 1);
         for (Index o = 0; o < static_cast<Index>(begin.size()); ++o) {
-            if (found[o] != result.loops[o].size()) {
+            if (found[o] != result.loops[o].size())
                 blame(o, Fault::crossing);  // a chord runs through another outline's point
-                continue;
-            }
-            flood(o, begin[o], twin, outline_at, result);
+            else
+                euler[o] = flood(o, begin[o], twin, outline_at, result);
         }
+        check_nesting(begin, twin, std::move(euler), result);
     }
 
-    /// Numbers the faces inside an outline, and checks that they are a disk.
-    void flood(Index o, const std::vector<Index>& begin, const std::vector<Index>& twin,
-               const std::unordered_map<std::uint64_t, Index>& outline_at, Overlay& result)
+    /// Checks that each outline's faces are a disk, less what the outlines inside take out of it.
+    void check_nesting(const std::vector<std::vector<Index>>& begin, const std::vector<Index>& twin,
+                       std::vector<Index> euler, const Overlay& result)
+    {
+        for (Index o = 0; o < static_cast<Index>(begin.size()); ++o) {
+            if (begin[o].empty()) continue;
+            const auto outside = [&](Index h) { return twin[h] == no_twin ? -1 : result.region[face_of(twin[h])]; };
+            const Index around = outside(begin[o].front());
+            const bool in_outline = around >= 0 && !outlines_[around].hole;
+            if (outlines_[o].hole != in_outline ||
+                std::ranges::any_of(begin[o], [&](Index h) { return outside(h) != around; }))
+                blame(o, Fault::crossing);
+            if (around >= 0) ++euler[around];
+        }
+        for (Index o = 0; o < static_cast<Index>(euler.size()); ++o)
+            if (euler[o] != 1) blame(o, Fault::border);
+    }
+
+    /// Numbers the faces inside an outline. @return their Euler characteristic
+    Index flood(Index o, const std::vector<Index>& begin, const std::vector<Index>& twin,
+                const std::unordered_map<std::uint64_t, Index>& outline_at, Overlay& result)
     {
         std::vector<Index> front, faces;
         const auto visit = [&](Index f) {
@@ -263,8 +282,8 @@ private:
         }
         for (const Index h : begin)  // the other side must be outside
             if (twin[h] == no_twin || result.region[face_of(twin[h])] == o) at_border = true;
-        const Index euler = static_cast<Index>(vertices.size()) - edges / 2 + static_cast<Index>(faces.size());
-        if (at_border || euler != 1) blame(o, Fault::border);
+        if (at_border) blame(o, Fault::border);
+        return static_cast<Index>(vertices.size()) - edges / 2 + static_cast<Index>(faces.size());
     }
 
     const FlatSheet& sheet_;

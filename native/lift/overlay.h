@@ -8,14 +8,15 @@
 
 namespace koebe {
 
-/// Why outlines were left out.
+/// Why outlines were left out. An outline counts with its holes.
 struct LeftOut {
     Index at_border = 0;            ///< they meet or enclose a hole or a rim, or meet a cut that is no period
     Index too_fine = 0;             ///< 32-bit UVs cannot hold them, or they meet themselves
     Index crossing = 0;             ///< they meet another outline
+    Index open = 0;                 ///< curves of a drawing that do not close
     std::vector<Index> faces = {};  ///< where they begin: of the surface, ascending
 
-    Index all() const { return at_border + too_fine + crossing; }
+    Index all() const { return at_border + too_fine + crossing + open; }
 };
 
 /// The vertices of the sheet come first, unchanged; those of the outlines follow.
@@ -32,8 +33,9 @@ struct Overlay {
 
 /// Cuts faces along the outlines by constrained Delaunay triangulations in their charts with exact predicates. Vertices
 /// of the outlines have barycentric coordinates on the surface. Outlines that cannot be drawn are left out, with their
-/// group, and counted. In the result no two outlines meet, each bounds a disk, and every
-/// new face is upright in 32-bit UVs.
+/// group, and counted. In the result no two outlines meet. Each bounds a disk, less the
+/// outlines inside: those inside an outline are holes, those inside a hole are none. Every new face is upright in
+/// 32-bit UVs.
 Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines);
 
 }  // namespace koebe

@@ -22,6 +22,9 @@ struct PatternOptions {
 /// lie in lattices that are even in the domain, and go on over the cut of a ring or a torus.
 KOEBE_API const std::vector<std::string>& pattern_names();
 
+/// Whether a pattern is the name of a file: by its extension.
+KOEBE_API bool is_pattern_file(const std::string& pattern);
+
 struct DrawnPattern {
     std::vector<DrawnOutline> outlines;
     double bend = 1.0;  ///< of the lattice, so that it fits a torus (LaidLattice)

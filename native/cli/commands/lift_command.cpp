@@ -10,7 +10,10 @@
 #include "lift/patterns.h"
 #include "report/lift_json.h"
 
+#include <algorithm>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace koebe::cli {
 namespace {
@@ -51,8 +54,9 @@ int run_lift(const LiftRequest& request)
     };
     kind.report = [](const LiftResult& result) { return to_json(result); };
     kind.first_words = [&](const LiftResult& result) {
-        return counted(static_cast<std::size_t>(result.outlines), "outline") +
-               (request.chosen.perforate ? " cut out, " : " raised, ") +
+        return (result.outlines == 0 ? "relief, "  // of an image
+                                     : counted(static_cast<std::size_t>(result.outlines), "outline") +
+                                           (request.chosen.perforate ? " cut out, " : " raised, ")) +
                counted(static_cast<std::size_t>(result.face_count), "face") + ", " +
                (result.uv.rows() == 0 ? "closed" : counted(static_cast<std::size_t>(result.loops_after), "loop"));
     };
@@ -63,7 +67,13 @@ std::string pattern_help()
 {
     std::string names;
     for (const std::string& name : pattern_names()) names += (names.empty() ? "" : ", ") + name;
-    return names;
+    return names + ", or an SVG or PNG file";
+}
+
+std::string not_a_pattern(const std::string& pattern)
+{
+    if (is_pattern_file(pattern) || std::ranges::find(pattern_names(), pattern) != pattern_names().end()) return {};
+    return "the patterns are " + pattern_help();
 }
 
 }  // namespace
@@ -73,7 +83,9 @@ Subcommand add_lift(CLI::App& app)
     auto request = std::make_shared<LiftRequest>();
     CLI::App* options = app.add_subcommand("lift", "a flat pattern on a surface: as holes, as a relief, as a solid");
     options->add_option("SURFACE", request->input, "surface: OBJ, OFF, PLY or STL")->required();
-    options->add_option("PATTERN", request->pattern, pattern_help())->required()->check(CLI::IsMember(pattern_names()));
+    options->add_option("PATTERN", request->pattern, pattern_help())
+        ->required()
+        ->check(CLI::Validator(not_a_pattern, ""));
     options
         ->add_option("OUT", request->output,
                      "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL")
@@ -83,7 +95,9 @@ Subcommand add_lift(CLI::App& app)
     options->callback([request] {
         request->stl = io::lower_extension(request->output) == ".stl";
         if (!request->stl) request->format = required_format(request->output);
-        require_different_files(map_files(*request), {request->input}, !request->quiet);
+        std::vector<std::string> inputs{request->input};
+        if (is_pattern_file(request->pattern)) inputs.push_back(request->pattern);
+        require_different_files(map_files(*request), inputs, !request->quiet);
         request->entries["options"] = option_report("lift", request->chosen);
     });
     return {options, [request] { return run_lift(*request); }};

@@ -1,6 +1,7 @@
 """Brings flat patterns onto surfaces."""
 
 import copy
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,7 +27,8 @@ class LiftResult:
     shape, pattern, size, bridge    as asked for or chosen; lengths in the unit of the vertices
     bend         above 1: a lattice is stretched by this much, so that it fits a torus
     outlines     on the surface
-    left_out     dict of counts, why outlines were left out: at_border, too_fine, crossing
+    islands      holes in outlines that are cut out: what was inside has fallen out too
+    left_out     dict of counts, why outlines were left out: at_border, too_fine, crossing, open
     loops, euler    dicts before and after: boundary loops and Euler characteristic of the sheet
     closed       whether it is a solid
     converged    of the map
@@ -35,6 +37,7 @@ class LiftResult:
 
     pattern: str
     outlines: int
+    islands: int
     left_out: dict[str, int]
     loops: dict[str, int]
     euler: dict[str, int]
@@ -64,12 +67,18 @@ class LiftResult:
 
 
 @takes("lift", LiftOptions, progress=None, cancel=None)
-def lift(vertices: Any, triangles: Any = None, pattern: str = "circles", **given: "Unpack[LiftOptions]") -> LiftResult:
+def lift(
+    vertices: Any,
+    triangles: Any = None,
+    pattern: "str | os.PathLike[str]" = "circles",
+    **given: "Unpack[LiftOptions]",
+) -> LiftResult:
     """Bring a flat pattern onto a surface, through a map of the surface: as holes, as a relief, as a closed solid.
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     pattern      circles or voronoi, which are even on the surface; hexagons, triangles, diamonds or stripes, whose
-                 lattices are even in the domain
+                 lattices are even in the domain; or the name of an SVG file, whose closed paths are the outlines,
+                 or of a PNG file: a relief with `height` where it is white
     {options}
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. Where it
@@ -79,7 +88,7 @@ def lift(vertices: Any, triangles: Any = None, pattern: str = "circles", **given
     options, said = filled("lift", _koebe.LiftOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles)
-    if not isinstance(pattern, str):
-        raise TypeError(f"pattern must be a text, not {pattern!r}")
-    native = _koebe.lift(source.vertices, source.triangles, pattern, options, progress, cancel)
+    if not isinstance(pattern, str | os.PathLike):
+        raise TypeError(f"pattern must be a name or a file's path, not {pattern!r}")
+    native = _koebe.lift(source.vertices, source.triangles, os.fspath(pattern), options, progress, cancel)
     return LiftResult({**native.report(), "options": said}, native)

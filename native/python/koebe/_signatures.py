@@ -121,6 +121,7 @@ class LiftOptions(RunOptions, total=False):
     bridge: float | None
     repeats: int
     seed: int
+    turn: float
     perforate: bool
     height: float | None
     thickness: float | None

@@ -1,0 +1,200 @@
+#include "lift/placed_drawing.h"
+
+#include "core/errors.h"
+#include "lift/outline_places.h"
+#include "planar/filled_paths.h"
+#include "planar/planar_predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double room_taken = 0.9;  // of the room, without a size
+constexpr std::size_t most_corners = 200000;
+constexpr double of_drawing = 1e-3, of_mean_edge = 0.05, least_of_drawing = 2e-5;  // tolerances of curves
+constexpr int sides = 64;  // at least, so that an outline is led through vertices that lie near
+
+struct UvBox {
+    Complex low, high;
+    Complex size() const { return high - low; }
+};
+
+UvBox box_around(const std::vector<Complex>& points)
+{
+    UvBox box{points.front(), points.front()};
+    for (const Complex z : points) {
+        box.low = {std::min(box.low.real(), z.real()), std::min(box.low.imag(), z.imag())};
+        box.high = {std::max(box.high.real(), z.real()), std::max(box.high.imag(), z.imag())};
+    }
+    return box;
+}
+
+double mean_uv_edge(const FlatSheet& sheet)
+{
+    double sum = 0.0;
+    for (Index h = 0; h < static_cast<Index>(sheet.uv.size()); ++h)
+        sum += distance(sheet.uv[h], sheet.uv[3 * (h / 3) + (h + 1) % 3]);
+    return sum / static_cast<double>(sheet.uv.size());
+}
+
+/// The paths turned, with the box's middle at 0 and its width 1.
+SvgDrawing in_unit_width(SvgDrawing drawing, double degrees)
+{
+    const double angle = degrees / 180.0 * std::numbers::pi;
+    Complex turn = std::polar(1.0, angle);
+    if (degrees == std::round(degrees / 90.0) * 90.0)  // to the last bit
+        turn = {std::round(turn.real()), std::round(turn.imag())};
+    const double largest = std::max((drawing.high - drawing.low).real(), (drawing.high - drawing.low).imag());
+    const Complex middle = 0.5 * drawing.low + 0.5 * drawing.high;
+    std::vector<Complex> all;
+    for (SvgPath& path : drawing.paths)
+        for (auto& curve : path.curves) {
+            for (Complex& z : curve) z = turn * ((z - middle) / largest);
+            SvgPath one;
+            one.curves.push_back(curve);
+            for (const auto& polygon : flattened(one, of_drawing))
+                all.insert(all.end(), polygon.begin(), polygon.end());
+        }
+    const UvBox box = box_around(all);
+    if (!(box.size().real() > 0.0 && box.size().imag() > 0.0))
+        throw InputError("the drawing has no width or no height, or is too large");
+    const double width = box.size().real();
+    const Complex centre = 0.5 * (box.low + box.high);
+    for (SvgPath& path : drawing.paths)
+        for (auto& curve : path.curves)
+            for (Complex& z : curve) z = (z - centre) / width;
+    drawing.low = (box.low - centre) / width;
+    drawing.high = (box.high - centre) / width;
+    return drawing;
+}
+
+/// The width in UVs.
+double width_of(const FlatSheet& sheet, double aspect, Complex room, const DrawingPlace& place)
+{
+    if (place.in_disk && !place.size) return room_taken * room.real() / std::hypot(1.0, aspect);
+    const double width =
+        place.size ? *place.size / sheet.mean_scale : room_taken * std::min(room.real(), room.imag() / aspect);
+    if (place.repeats > 1 && width > room.real())
+        throw InputError("the drawings are wider than their share of the period: they have room up to a size of " +
+                         std::to_string(room.real() * sheet.mean_scale));
+    return width;
+}
+
+/// The boundaries of the united paths, their long sides divided.
+std::vector<FilledBoundary> drawn_boundaries(const SvgDrawing& drawing, double tolerance)
+{
+    std::vector<FilledPath> paths;
+    std::size_t corners = 0;
+    for (const SvgPath& path : drawing.paths) {
+        paths.push_back({path.even_odd, flattened(path, tolerance)});
+        for (const auto& ring : paths.back().rings) corners += ring.size();
+        if (corners > most_corners)
+            throw InputError("the drawing has over " + std::to_string(most_corners) + " corners: simplify its paths");
+    }
+    std::vector<FilledBoundary> boundaries = united_paths(paths);
+    for (FilledBoundary& boundary : boundaries) {
+        const std::vector<Complex> points = std::move(boundary.points);
+        double length = 0.0;
+        for (std::size_t i = 0; i < points.size(); ++i) length += distance(points[i], points[(i + 1) % points.size()]);
+        boundary.points.clear();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Complex a = points[i], b = points[(i + 1) % points.size()];
+            const int parts = std::max(1, static_cast<int>(std::ceil(sides * distance(a, b) / length)));
+            for (int k = 0; k < parts; ++k) boundary.points.push_back(a + (b - a) * (static_cast<double>(k) / parts));
+        }
+        if (boundary.hole) std::ranges::reverse(boundary.points);  // outlines are counter-clockwise
+    }
+    return boundaries;
+}
+
+bool runs_round(const std::vector<Complex>& polygon, Complex z)
+{
+    bool inside = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Complex a = polygon[i] - z, b = polygon[(i + 1) % polygon.size()] - z;
+        if ((a.imag() > 0.0) != (b.imag() > 0.0) && (cross(a, b) > 0.0) == (b.imag() > a.imag())) inside = !inside;
+    }
+    return inside;
+}
+
+/// Takes out areas that lie in a hole of another one.
+void drop_areas_in_holes(std::vector<FilledBoundary>& boundaries)
+{
+    std::vector<std::pair<UvBox, std::vector<Complex>>> holes;
+    for (const FilledBoundary& boundary : boundaries)
+        if (boundary.hole) holes.emplace_back(box_around(boundary.points), boundary.points);
+    std::vector<char> inner(boundaries.size(), 0);
+    for (const FilledBoundary& boundary : boundaries) {
+        if (boundary.hole) continue;
+        const Complex z = boundary.points.front();
+        for (const auto& [box, polygon] : holes)
+            if (z.real() >= box.low.real() && z.real() <= box.high.real() && z.imag() >= box.low.imag() &&
+                z.imag() <= box.high.imag() && runs_round(polygon, z))
+                inner[boundary.area] = 1;
+    }
+    std::erase_if(boundaries, [&](const FilledBoundary& boundary) { return inner[boundary.area] != 0; });
+}
+
+/// Takes out the holes, and notes where they begin.
+void drop_holes(PlacedDrawing& placed)
+{
+    for (const DrawnOutline& outline : placed.outlines) {
+        if (!outline.hole) continue;
+        ++placed.islands;
+        if (outline.face >= 0) placed.island_faces.push_back(outline.face);
+    }
+    std::erase_if(placed.outlines, [](const DrawnOutline& outline) { return outline.hole; });
+    std::vector<Index>& faces = placed.island_faces;
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+}
+
+}  // namespace
+
+PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& given, const DrawingPlace& place)
+{
+    const int repeats = std::max(1, place.repeats);
+    if (repeats > 1 && sheet.periods.empty())
+        throw InputError("repeats of a drawing are for rings and tori: another domain does not repeat");
+    const SvgDrawing drawing = in_unit_width(given, place.turn);
+    const UvBox domain = box_around(sheet.uv);
+    Complex room = domain.size();
+    if (!sheet.periods.empty()) room = {std::abs(sheet.periods[0]) / repeats, room.imag()};
+    const double width = width_of(sheet, drawing.high.imag() - drawing.low.imag(), room, place);
+    const double tolerance = std::clamp(of_mean_edge * mean_uv_edge(sheet) / width, least_of_drawing, of_drawing);
+    std::vector<FilledBoundary> boundaries = drawn_boundaries(drawing, tolerance);
+    if (place.cut_out) drop_areas_in_holes(boundaries);
+    if (boundaries.size() * static_cast<std::size_t>(repeats) > most_corners)
+        throw InputError("the repeated drawing has over " + std::to_string(most_corners) + " outlines");
+
+    PlacedDrawing placed;
+    placed.size = width * sheet.mean_scale;
+    const Complex middle = 0.5 * (domain.low + domain.high);
+    Index group = 0;
+    for (int copy = 0; copy < repeats; ++copy) {
+        const Complex centre =
+            middle + (sheet.periods.empty() ? 0.0 : sheet.periods[0] * (static_cast<double>(copy) / repeats));
+        Index areas = 0;
+        for (const FilledBoundary& boundary : boundaries) {
+            DrawnOutline outline;
+            for (const Complex z : boundary.points) outline.points.push_back(centre + width * z);
+            const Complex shift = first_copy(sheet.periods, outline.points[0]) - outline.points[0];
+            for (Complex& z : outline.points) z += shift;
+            outline.group = group + boundary.area;
+            outline.hole = boundary.hole;
+            areas = std::max(areas, boundary.area + 1);
+            placed.outlines.push_back(std::move(outline));
+        }
+        group += areas;
+    }
+    locate_outlines(sheet, placed.outlines);
+    if (place.cut_out) drop_holes(placed);
+    return placed;
+}
+
+}  // namespace koebe

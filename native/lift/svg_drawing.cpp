@@ -1,0 +1,344 @@
+#include "lift/svg_drawing.h"
+
+#include "core/errors.h"
+
+// svgpp's arcs seem uninitialized to gcc.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <boost/mpl/insert.hpp>
+#include <boost/mpl/set.hpp>
+#include <rapidxml_ns/rapidxml_ns.hpp>
+#include <svgpp/policy/xml/rapidxml_ns.hpp>
+// first, before svgpp
+#include <svgpp/svgpp.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+using XmlNode = rapidxml_ns::xml_node<>;
+
+constexpr int deepest = 100;                  // elements inside each other
+constexpr std::size_t most_pieces = 1000000;  // curve segments
+constexpr double closed_within = 1e-9;        // of a curve's size, between its ends
+
+/// What the elements of the drawing add to.
+struct DrawingSink {
+    SvgDrawing drawing;
+    std::size_t pieces = 0;
+};
+
+/// The state inside an element; a child begins with a copy. svgpp calls its functions by these names.
+class SvgElement {
+public:
+    explicit SvgElement(DrawingSink& sink) : sink_(&sink) {}
+
+    void transform_matrix(const boost::array<double, 6>& m)
+    {
+        const std::array<double, 6> outer = transform_;
+        for (int k = 0; k < 3; ++k) {
+            const double x = m[2 * k], y = m[2 * k + 1];
+            transform_[2 * k] = outer[0] * x + outer[2] * y + (k == 2 ? outer[4] : 0.0);
+            transform_[2 * k + 1] = outer[1] * x + outer[3] * y + (k == 2 ? outer[5] : 0.0);
+        }
+    }
+
+    void set(svgpp::tag::attribute::fill_rule, svgpp::tag::value::evenodd) { even_odd_ = true; }
+    void set(svgpp::tag::attribute::fill_rule, svgpp::tag::value::nonzero) { even_odd_ = false; }
+    void set(svgpp::tag::attribute::fill_rule, svgpp::tag::value::inherit) {}
+    template <class Value>
+    void set(svgpp::tag::attribute::display, Value)
+    {
+        hidden_ = hidden_ || std::is_same_v<Value, svgpp::tag::value::none>;
+    }
+
+    /// Takes the curves over. By now all attributes are known: they may come in any order.
+    void on_exit_element()
+    {
+        if (hidden_) return;
+        sink_->drawing.open += open_;
+        for (std::vector<Complex>& curve : path_.curves)
+            for (Complex& z : curve) z = moved(z);
+        path_.even_odd = even_odd_;
+        if (!path_.curves.empty()) sink_->drawing.paths.push_back(std::move(path_));
+        path_ = {};
+    }
+
+    void path_move_to(double x, double y, svgpp::tag::coordinate::absolute)
+    {
+        end_curve(false);
+        curve_.assign(1, {x, y});
+    }
+
+    void path_line_to(double x, double y, svgpp::tag::coordinate::absolute) { line_to({x, y}); }
+
+    void path_cubic_bezier_to(double x1, double y1, double x2, double y2, double x, double y,
+                              svgpp::tag::coordinate::absolute)
+    {
+        add({Complex(x1, y1), Complex(x2, y2), Complex(x, y)});
+    }
+
+    void path_close_subpath()
+    {
+        if (curve_.empty()) return;
+        const Complex first = curve_.front();
+        end_curve(true);
+        curve_.assign(1, first);
+    }
+
+    void path_exit()
+    {
+        end_curve(false);
+        curve_.clear();
+    }
+
+private:
+    Complex moved(Complex given) const
+    {
+        const double x = given.real(), y = given.imag();
+        const Complex z{transform_[0] * x + transform_[2] * y + transform_[4],
+                        -(transform_[1] * x + transform_[3] * y + transform_[5])};
+        if (!std::isfinite(z.real()) || !std::isfinite(z.imag()))
+            throw InputError("a number of the SVG is not finite, or too large");
+        return z;
+    }
+
+    void line_to(Complex z)
+    {
+        if (!curve_.empty()) add({curve_.back() + (z - curve_.back()) / 3.0, z + (curve_.back() - z) / 3.0, z});
+    }
+
+    void add(std::array<Complex, 3> piece)
+    {
+        if (curve_.empty()) return;
+        if (++sink_->pieces > most_pieces) throw InputError("the SVG has over a million curve segments");
+        curve_.insert(curve_.end(), piece.begin(), piece.end());
+    }
+
+    void end_curve(bool close)
+    {
+        if (curve_.size() < 2) return;
+        double size = 0.0;
+        for (const Complex z : curve_) size = std::max(size, std::abs(z - curve_.front()));
+        if (size == 0.0) return;
+        const bool closes = std::abs(curve_.back() - curve_.front()) <= closed_within * size;
+        if (!close && !closes) {
+            ++open_;
+            return;
+        }
+        if (!closes) line_to(curve_.front());
+        curve_.back() = curve_.front();
+        path_.curves.push_back(std::move(curve_));
+    }
+
+    DrawingSink* sink_;
+    std::array<double, 6> transform_{1.0, 0.0, 0.0, 1.0, 0.0, 0.0};
+    bool even_odd_ = false, hidden_ = false;
+    int open_ = 0;
+    std::vector<Complex> curve_;
+    SvgPath path_;
+};
+
+struct SvgElementFactories {
+    template <class Parent, class Tag>
+    struct apply {
+        using type = svgpp::factory::context::on_stack<SvgElement>;
+    };
+};
+
+/// Passes over what has no outlines; a damaged attribute of a shape is an error.
+struct SvgErrors : svgpp::policy::error::raise_exception<SvgElement> {
+    template <class... Any>
+    static bool unknown_element(const SvgElement&, Any&&...)
+    {
+        return true;
+    }
+    template <class... Any>
+    static bool unknown_attribute(const SvgElement&, Any&&...)
+    {
+        return true;
+    }
+    template <class... Any>
+    static bool unexpected_attribute(const SvgElement&, Any&&...)
+    {
+        return true;
+    }
+    template <class... Any>
+    static bool unexpected_element(const SvgElement&, Any&&...)
+    {
+        return true;
+    }
+    template <class... Any>
+    static bool required_attribute_not_found(const SvgElement&, Any&&...)
+    {
+        return true;
+    }
+};
+
+namespace element = svgpp::tag::element;
+namespace attribute = svgpp::tag::attribute;
+
+using SvgElements = boost::mpl::set<element::svg, element::g, element::a, element::path, element::rect, element::circle,
+                                    element::ellipse, element::polyline, element::polygon>::type;
+using SvgAttributes = boost::mpl::insert<
+    boost::mpl::insert<boost::mpl::insert<svgpp::traits::shapes_attributes_by_element, attribute::transform>::type,
+                       attribute::fill_rule>::type,
+    attribute::display>::type;
+
+using SvgTraversal =
+    svgpp::document_traversal<svgpp::processed_elements<SvgElements>, svgpp::processed_attributes<SvgAttributes>,
+                              svgpp::context_factories<SvgElementFactories>, svgpp::error_policy<SvgErrors>,
+                              svgpp::path_policy<svgpp::policy::path::minimal>>;
+
+/// Refuses deep nesting before the parser, which calls itself for each level.
+void require_shallow(std::string_view text)
+{
+    const auto after = [&](std::size_t at, std::string_view end) {
+        const std::size_t found = text.find(end, at);
+        return found == text.npos ? text.size() : found + end.size();
+    };
+    int depth = 0;
+    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+        const std::string_view rest = text.substr(at);
+        if (rest.starts_with("<!--")) {
+            at = after(at + 4, "-->");
+        } else if (rest.starts_with("<![CDATA[")) {
+            at = after(at, "]]>");
+        } else if (rest.starts_with("<?")) {
+            at = after(at, "?>");
+        } else if (rest.starts_with("</")) {
+            --depth;
+            at += 2;
+        } else if (rest.starts_with("<!")) {
+            at += 2;
+        } else {
+            char quote = 0;
+            for (++at; at < text.size() && (quote != 0 || text[at] != '>'); ++at)
+                if (quote != 0 ? text[at] == quote : text[at] == '"' || text[at] == '\'')
+                    quote = quote != 0 ? 0 : text[at];
+            if (at < text.size() && text[at - 1] != '/' && ++depth > deepest)
+                throw InputError("elements of the SVG are nested more than " + std::to_string(deepest) + " deep");
+        }
+    }
+}
+
+const XmlNode* next_in_document(const XmlNode* node, const XmlNode* root)
+{
+    if (node->first_node()) return node->first_node();
+    while (node != root && !node->next_sibling()) node = node->parent();
+    return node == root ? nullptr : node->next_sibling();
+}
+
+std::vector<std::string> not_drawn_in(const XmlNode* root)
+{
+    std::set<std::string> names;
+    for (const XmlNode* node = root; node; node = next_in_document(node, root))
+        if (const std::string name(node->local_name(), node->local_name_size());
+            name == "text" || name == "use" || name == "image")
+            names.insert(name);
+    return {names.begin(), names.end()};
+}
+
+void measure_box(SvgDrawing& drawing)
+{
+    drawing.low = drawing.high = drawing.paths.front().curves.front().front();
+    for (const SvgPath& path : drawing.paths)
+        for (const auto& curve : path.curves)
+            for (const Complex z : curve) {
+                drawing.low = {std::min(drawing.low.real(), z.real()), std::min(drawing.low.imag(), z.imag())};
+                drawing.high = {std::max(drawing.high.real(), z.real()), std::max(drawing.high.imag(), z.imag())};
+            }
+    const Complex size = drawing.high - drawing.low;
+    if (!(std::isfinite(size.real()) && std::isfinite(size.imag()) && size.real() > 0.0 && size.imag() > 0.0))
+        throw InputError("the drawing has no width or no height, or is too large");
+}
+
+std::string listed(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+/// The start of a text that may hold any bytes.
+std::string printable(const std::string& text)
+{
+    std::string start = text.substr(0, 200);
+    for (char& c : start)
+        if (c < ' ' || c > '~') c = '?';
+    return start;
+}
+
+SvgDrawing traversed(std::string& bytes)
+{
+    rapidxml_ns::xml_document<> document;
+    document.parse<rapidxml_ns::parse_no_string_terminators>(bytes.data());
+    const XmlNode* root = document.first_node();
+    while (root && root->type() != rapidxml_ns::node_element) root = root->next_sibling();
+    if (!root || std::string_view(root->local_name(), root->local_name_size()) != "svg")
+        throw InputError("the file holds no svg element");
+    DrawingSink sink;
+    SvgElement outermost(sink);
+    SvgTraversal::load_document(root, outermost);
+    sink.drawing.not_drawn = not_drawn_in(root);
+    return std::move(sink.drawing);
+}
+
+}  // namespace
+
+SvgDrawing parse_svg(std::string bytes)
+{
+    if (std::memchr(bytes.data(), 0, bytes.size()))
+        throw InputError("the SVG holds a zero byte: it is no text in UTF-8");
+    require_shallow(bytes);
+    SvgDrawing drawing;
+    try {
+        drawing = traversed(bytes);
+    } catch (const KoebeError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const rapidxml_ns::parse_error& error) {
+        throw InputError(std::string("the SVG is damaged: ") + error.what() + " at byte " +
+                         std::to_string(error.where<char>() - bytes.data()));
+    } catch (const std::exception& error) {
+        throw InputError("the SVG is damaged: " + printable(error.what()));
+    }
+    if (drawing.paths.empty())
+        throw InputError("the SVG has no closed path" +
+                         (drawing.not_drawn.empty() ? std::string() : "; it has " + listed(drawing.not_drawn)) +
+                         ": convert text, strokes and clones to paths first");
+    measure_box(drawing);
+    return drawing;
+}
+
+std::vector<std::vector<Complex>> flattened(const SvgPath& path, double tolerance)
+{
+    constexpr double most = 1000.0;  // points of one segment
+    std::vector<std::vector<Complex>> polygons;
+    for (const std::vector<Complex>& curve : path.curves) {
+        std::vector<Complex>& polygon = polygons.emplace_back();
+        for (std::size_t i = 0; i + 3 < curve.size(); i += 3) {
+            const Complex a = curve[i], b = curve[i + 1], c = curve[i + 2], d = curve[i + 3];
+            const double bend = std::max(std::abs(a - 2.0 * b + c), std::abs(b - 2.0 * c + d));
+            const double count = std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance)), 1.0, most);
+            for (double k = 0.0; k < count; ++k) {
+                const double t = k / count, s = 1.0 - t;
+                polygon.push_back(s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d);
+            }
+        }
+    }
+    return polygons;
+}
+
+}  // namespace koebe

@@ -1,0 +1,36 @@
+// Reads the shapes of an SVG file (W3C, SVG 1.1 Second Edition), by svgpp and RapidXML.
+#pragma once
+
+#include "core/api.h"
+#include "core/types.h"
+
+#include <string>
+#include <vector>
+
+namespace koebe {
+
+/// A path, rectangle, circle, ellipse or polygon of a drawing. The y axis points up.
+struct SvgPath {
+    bool even_odd = false;  ///< fill rule; else nonzero
+    /// Closed curves of cubic Bezier segments: a point, then three for each segment. The last one is the first again.
+    std::vector<std::vector<Complex>> curves;
+};
+
+struct SvgDrawing {
+    std::vector<SvgPath> paths;
+    int open = 0;                           ///< curves that do not close, left out
+    std::vector<std::string> not_drawn;     ///< names of elements without outlines here: text, use, image
+    Complex low{0.0, 0.0}, high{0.0, 0.0};  ///< corners of the box around all control points
+};
+
+/// Transforms are applied. Colours, strokes, clips and styles are ignored: each closed curve is an outline. Elements
+/// with display="none" and the contents of <defs>, <symbol> and the like are not drawn.
+/// @param bytes of the file
+/// @throws InputError it is not an SVG, or damaged; a number is not finite; elements are nested more than a hundred
+/// deep; there are over a million curve segments; there is no closed curve
+KOEBE_API SvgDrawing parse_svg(std::string bytes);
+
+/// The curves as polygons that lie at most a tolerance from them, without the point that closes them.
+std::vector<std::vector<Complex>> flattened(const SvgPath& path, double tolerance);
+
+}  // namespace koebe

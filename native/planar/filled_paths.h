@@ -1,0 +1,28 @@
+// Closed curves of the plane, filled by a rule and united.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// Closed polygons that are filled together.
+struct FilledPath {
+    bool even_odd = false;  ///< rule by the number of windings: odd ones are inside; else all but 0
+    std::vector<std::vector<Complex>> rings;
+};
+
+/// A boundary of the filled area, with this area on its left: counter-clockwise outside, clockwise round a hole.
+struct FilledBoundary {
+    std::vector<Complex> points;
+    bool hole = false;
+    Index area = -1;  ///< connected areas are numbered; each has one boundary that is no hole
+};
+
+/// The union of filled paths. Polygons may cross themselves and each other: crossings are computed exactly, in a
+/// constrained triangulation (CGAL), and rounded to floats at the end.
+/// @param paths finite
+std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths);
+
+}  // namespace koebe
