@@ -23,11 +23,13 @@ constexpr double unfolded_share = 1.0 / 32;                 // faces that fold i
 constexpr int unfoldings_of_a_path = 10;                    // of a path
 constexpr int trials_of_a_path = 300;                       // steps of a path, including those that fail
 constexpr int newton_between = 4, newton_at_the_end = 200;  // Newton steps
-constexpr double bend_settled = 1e-8;                       // relative decrease of the energy
-constexpr double least_share_of_area = 1e-3;                // of a face, over the mean
-constexpr double thinnest_face = 1e-11;                     // of a face that counts, over its longest edge
-constexpr double thin_ring = 1.2;           // ratio of radii below which a ring is not scaled by a power
-constexpr double stored_rounding = 1.5e-7;  // twice the area that a face can lose as stored, over its longest edge
+constexpr double conformal_enough = 1e-5;     // of the energy: nothing below counts for relative decreases
+constexpr double bend_settled = 1e-6;         // relative decrease of the energy
+constexpr double least_share_of_area = 1e-3;  // of a face, over the mean
+constexpr double thinnest_face = 1e-11;       // of a face that counts, over its longest edge
+constexpr double nothing = 1e-13;             // disk units: a way that is rounding
+constexpr double thin_ring = 1.2;             // ratio of radii below which a ring is not scaled by a power
+constexpr double stored_rounding = 1.5e-7;    // twice the area that a face can lose as stored, over its longest edge
 constexpr double extremal_powers[] = {2.0, 4.0, 8.0, 16.0};  // of the energy's terms, for an extremal map
 constexpr double extremal_slack = 1e-3;
 
@@ -79,6 +81,7 @@ private:
         const Triangles& triangles = input_.triangles;
         problem_.mobility.assign(static_cast<std::size_t>(input_.start.rows()), BendMobility::free);
         problem_.circles.resize(problem_.mobility.size());
+        problem_.bends = true;
         for (std::size_t k = 0; k < input_.loops.size(); ++k) {
             const TemplateRim& rim = input_.rims[k];
             for (const Index v : input_.loops[k]) {
@@ -117,23 +120,27 @@ private:
         }
     }
 
-    /// Scales the ring around each hole, so that the hole gets its new radius about the old centre.
-    PlanarPoints with_radii(const PlanarPoints& now, const std::vector<Circle>& from,
-                            const std::vector<Circle>& to) const
+    /// Scales, turns and moves the ring around each hole, so that the hole gets its new circle and all else stays.
+    /// Along a radius s the scale and the turn go with log s, and the way with s.
+    PlanarPoints with_rings_moved(const PlanarPoints& now, const std::vector<Circle>& from,
+                                  const std::vector<Circle>& to, double share) const
     {
         PlanarPoints result = now;
         for (std::size_t k = 1; k < from.size(); ++k) {
-            const Complex c = from[k].center;
+            const Complex c = from[k].center, way = to[k].center - c;
             const double r = from[k].radius;
             double reach = 1.0 - std::abs(c);
             for (std::size_t j = 1; j < from.size(); ++j)
                 if (j != k) reach = std::min(reach, r + 0.5 * (std::abs(from[j].center - c) - from[j].radius - r));
-            if (to[k].radius == r || reach < thin_ring * r || to[k].radius * thin_ring > reach) continue;
-            const double power = std::log(to[k].radius / reach) / std::log(r / reach);
+            if (reach < thin_ring * r || to[k].radius * thin_ring > reach) continue;
+            const double depth = std::log(r / reach);
+            const Complex power(std::log(to[k].radius / reach) / depth - 1.0, share * turns_[k] / depth);
             for (Eigen::Index v = 0; v < now.rows(); ++v) {
                 const Complex arm = place_of(now, v) - c;
                 const double length = std::abs(arm);
-                if (length < reach && length > 0.0) put_at(result, v, c + arm * std::pow(length / reach, power - 1.0));
+                if (!(length < reach && length > 0.0)) continue;
+                const double moves = std::min((reach - length) / (reach - r), 1.0);
+                put_at(result, v, c + moves * way + arm * std::exp(power * std::log(length / reach)));
             }
         }
         return result;
@@ -141,19 +148,20 @@ private:
 
     /// Moves rims from circles to circles, and the inside by the harmonic displacement.
     /// @param share of the turns
-    PlanarPoints step_to(PlanarPoints now, std::vector<Circle> from, const std::vector<Circle>& to, double share,
-                         bool by_powers) const
+    PlanarPoints step_to(PlanarPoints now, const std::vector<Circle>& from, const std::vector<Circle>& to, double share,
+                         bool by_rings) const
     {
-        if (by_powers) now = with_radii(now, from, to);
-        VectorXcd way(static_cast<Eigen::Index>(rim_.size()));
+        VectorXcd there(static_cast<Eigen::Index>(rim_.size()));
         for (std::size_t i = 0; i < rim_.size(); ++i) {
             const Circle& circle = to[loop_of_[i]];
-            const Complex here = place_of(now, rim_[i]), arm = here - from[loop_of_[i]].center;
-            const Complex there =
+            const Complex arm = place_of(now, rim_[i]) - from[loop_of_[i]].center;
+            there[static_cast<Eigen::Index>(i)] =
                 circle.center + circle.radius / std::abs(arm) * arm * std::polar(1.0, share * turns_[loop_of_[i]]);
-            way[static_cast<Eigen::Index>(i)] = there - here;
         }
-        if (way.cwiseAbs().maxCoeff() > 0.0) {
+        if (by_rings) now = with_rings_moved(now, from, to, share);
+        VectorXcd way = there;
+        for (std::size_t i = 0; i < rim_.size(); ++i) way[static_cast<Eigen::Index>(i)] -= place_of(now, rim_[i]);
+        if (way.size() > 0 && way.cwiseAbs().maxCoeff() > nothing) {
             const VectorXcd moved = harmonic_map(input_.triangles, edge_lengths(now, input_.triangles),
                                                  static_cast<Index>(now.rows()), rim_, way);
             now.col(0) += moved.real();
@@ -193,7 +201,7 @@ private:
         return {.max_iterations = steps,
                 .area_weight = 0.0,
                 .settled = bend_settled,
-                .least = 2.0 * problem_.weight.sum(),
+                .least = 2.0 * (1.0 - conformal_enough) * problem_.weight.sum(),
                 .strict = true};
     }
 
@@ -226,10 +234,10 @@ private:
     std::optional<PlanarPoints> tried(const PlanarPoints& now, double reached, double share, bool may_unfold)
     {
         const std::vector<Circle> from = path_.at(reached), to = path_.at(reached + share);
-        for (const bool by_powers : {true, false}) {
-            PlanarPoints next = step_to(now, from, to, share, by_powers);
+        for (const bool by_rings : {true, false}) {
+            PlanarPoints next = step_to(now, from, to, share, by_rings);
             if (is_one_to_one(next, to)) return next;
-            if (by_powers || !next.allFinite()) continue;
+            if (by_rings || !next.allFinite()) continue;
             if (may_unfold && minimize(next, to, {}).foldover_free) return next;
             blame(next);
         }
@@ -290,19 +298,19 @@ private:
     void finish(bool extremal, BendingResult& result)
     {
         const std::vector<Circle> circles = path_.at(1.0);
-        FoldoverResult done = minimize(result.uv, circles, gentle(newton_at_the_end));
+        minimize(result.uv, circles, gentle(newton_at_the_end));
         set_floors(result.uv);
-        done = minimize(result.uv, circles, gentle(newton_at_the_end));
+        const FoldoverResult done = minimize(result.uv, circles, gentle(newton_at_the_end));
+        result.settled = done.iterations < newton_at_the_end;
         if (extremal)
             for (const double power : extremal_powers) {
                 FoldoverOptions options = gentle(newton_at_the_end);
                 options.least = 0.0;
                 options.power = power;
                 options.slack = extremal_slack;
-                done = minimize(result.uv, circles, options);
+                minimize(result.uv, circles, options);
             }
         put_on(circles, result.uv);
-        result.settled = done.iterations < newton_at_the_end;
         result.newton_steps = newton_steps_;
     }
 

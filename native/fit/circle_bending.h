@@ -28,12 +28,13 @@ struct BendingResult {
     std::vector<Index> blocked;  ///< then the loops at the faces that would turn over; or none
     PlanarPoints uv;             ///< (V, 2)
     int steps = 0, newton_steps = 0;
-    bool settled = false;  ///< whether the last minimization ended by itself
+    bool settled = false;  ///< whether the minimization ended by itself
 };
 
-/// Takes the circles along the path in steps. In a step each ring around a hole is scaled by a power of the distance
-/// from the centre, which is the map of least |mu| between two rings. The inside follows moved centres and turned rims
-/// by the harmonic displacement of the present domain. A step that turns a face over is halved. Each step ends with
+/// Takes the circles along the path in steps. In a step the ring around each hole moves, and is scaled and turned by a
+/// power of the distance from the centre: the map of least |mu| between two rings. Where circles are too near each
+/// other for rings, the inside follows by the harmonic displacement of the present domain. A step that turns a face
+/// over is halved. Each step ends with
 /// Newton steps that turn no face over (minimize_foldover_free), rim vertices sliding. At the end they minimize
 /// sum a_f (K_f + 1 / K_f - 2) = sum a_f 4 |mu_f|^2 / (1 - |mu_f|^2): a_f is a face's area on the surface, K_f its
 /// dilatation (Hormann and Greiner 2000).

@@ -316,7 +316,11 @@ private:
             result_.straight = bent.straight;
             result_.bending_steps = bent.map.steps;
             result_.newton_steps = bent.map.newton_steps;
-            result_.converged = result_.converged && bent.map.settled;
+            if (!bent.map.settled) {
+                result_.converged = false;
+                result_.warnings.push_back(
+                    {WarningKind::not_converged, "the fit ended before its |mu| was least; the map is one to one"});
+            }
         }
         map.circles = goal.circles;
         require_faultless(whole_, start.match, map, context);
