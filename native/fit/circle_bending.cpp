@@ -27,6 +27,7 @@ constexpr double conformal_enough = 1e-5;     // of the energy: nothing below co
 constexpr double bend_settled = 1e-6;         // relative decrease of the energy
 constexpr double least_share_of_area = 1e-3;  // of a face, over the mean
 constexpr double thinnest_face = 1e-11;       // of a face that counts, over its longest edge
+constexpr double fan_weight = 0.1;            // of the faces at a rim
 constexpr double nothing = 1e-13;             // disk units: a way that is rounding
 constexpr double thin_ring = 1.2;             // ratio of radii below which a ring is not scaled by a power
 constexpr double stored_rounding = 1.5e-7;    // twice the area that a face can lose as stored, over its longest edge
@@ -79,7 +80,9 @@ private:
     void set_problem()
     {
         const Triangles& triangles = input_.triangles;
-        problem_.mobility.assign(static_cast<std::size_t>(input_.start.rows()), BendMobility::free);
+        const std::size_t count = static_cast<std::size_t>(input_.start.rows());
+        problem_.mobility.assign(count, BendMobility::free);
+        problem_.mobility.resize(count + input_.loops.size(), BendMobility::held);
         problem_.circles.resize(problem_.mobility.size());
         problem_.bends = true;
         for (std::size_t k = 0; k < input_.loops.size(); ++k) {
@@ -103,10 +106,43 @@ private:
             problem_.reference.push_back(shape);
         }
         problem_.triangles = triangles(whole, Eigen::all);
+        start_ = input_.start;
+        start_.conservativeResize(start_.rows() + static_cast<Eigen::Index>(input_.loops.size()), 2);
+        put_on(path_.at(0.0), start_);
         problem_.weight = input_.weight(whole);
         const double mean = whole.empty() ? 1.0 : problem_.weight.mean();
         problem_.weight = (problem_.weight / mean).cwiseMax(least_share_of_area);
+        const double total = problem_.weight.sum();
+        for (std::size_t k = 0; k < input_.loops.size(); ++k) add_fan(k, total);
         problem_.floor = VectorXd::Zero(problem_.triangles.rows());
+    }
+
+    /// Adds triangles from a circle's centre to the edges of its rim. They keep the vertices from gathering on an arc:
+    /// then the polygon of a few vertices would no longer be round.
+    /// @param total the weight of all faces
+    void add_fan(std::size_t k, double total)
+    {
+        std::vector<Index> rim;
+        for (std::size_t i = 0; i < rim_.size(); ++i)
+            if (loop_of_[i] == k) rim.push_back(rim_[i]);
+        if (rim.size() < 3) return;
+        const double weight = fan_weight * total / static_cast<double>(rim.size());
+        for (std::size_t i = 0; i < rim.size(); ++i) {
+            const Index here = rim[i], next = rim[(i + 1) % rim.size()];
+            const Eigen::Index f = problem_.triangles.rows();
+            problem_.triangles.conservativeResize(f + 1, 3);
+            problem_.triangles.row(f) << static_cast<Index>(input_.start.rows()) + static_cast<Index>(k),
+                k == 0 ? here : next, k == 0 ? next : here;
+            const Eigen::Matrix2d shape = edges_of(problem_.triangles, start_, f);
+            const double longest = longest_edge_of(shape);
+            if (!(shape.determinant() > thinnest_face * longest * longest)) {  // half the circle, or nothing of it
+                problem_.triangles.conservativeResize(f, 3);
+                continue;
+            }
+            problem_.reference.push_back(shape);
+            problem_.weight.conservativeResize(f + 1);
+            problem_.weight[f] = weight;
+        }
     }
 
     /// How far each rim turns on the whole way: a pinned vertex takes the shorter way round.
@@ -171,11 +207,13 @@ private:
         return now;
     }
 
-    /// Puts the rims exactly onto circles.
+    /// Puts the rims exactly onto circles, and the middles of fans to their centres.
     void put_on(const std::vector<Circle>& circles, PlanarPoints& uv) const
     {
         for (std::size_t i = 0; i < rim_.size(); ++i)
             put_at(uv, rim_[i], Track{.circle = circles[loop_of_[i]]}.nearest(place_of(uv, rim_[i])));
+        for (std::size_t k = 0; k < circles.size(); ++k)
+            put_at(uv, input_.start.rows() + static_cast<Eigen::Index>(k), circles[k].center);
     }
 
     void set_circles(const std::vector<Circle>& circles)
@@ -246,7 +284,7 @@ private:
 
     bool go(int unfoldings, BendingResult& result)
     {
-        PlanarPoints now = input_.start;
+        PlanarPoints now = start_;
         double reached = 0.0, step = first_share;
         for (int trial = 0; trial < trials_of_a_path && reached < 1.0; ++trial) {
             context_.advance(reached);
@@ -311,6 +349,7 @@ private:
                 minimize(result.uv, circles, options);
             }
         put_on(circles, result.uv);
+        result.uv.conservativeResize(input_.start.rows(), 2);
         result.newton_steps = newton_steps_;
     }
 
@@ -318,6 +357,7 @@ private:
     const CirclePath& path_;
     ExecutionContext& context_;
     FoldoverProblem problem_;
+    PlanarPoints start_;                // (V + loops, 2) with the circles' centres
     std::vector<Index> rim_;            // vertices on circles, loop by loop
     std::vector<std::size_t> loop_of_;  // of each of these
     std::vector<double> turns_;         // of the loops, radians

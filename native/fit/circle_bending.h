@@ -34,10 +34,11 @@ struct BendingResult {
 /// Takes the circles along the path in steps. In a step the ring around each hole moves, and is scaled and turned by a
 /// power of the distance from the centre: the map of least |mu| between two rings. Where circles are too near each
 /// other for rings, the inside follows by the harmonic displacement of the present domain. A step that turns a face
-/// over is halved. Each step ends with
-/// Newton steps that turn no face over (minimize_foldover_free), rim vertices sliding. At the end they minimize
-/// sum a_f (K_f + 1 / K_f - 2) = sum a_f 4 |mu_f|^2 / (1 - |mu_f|^2): a_f is a face's area on the surface, K_f its
-/// dilatation (Hormann and Greiner 2000).
+/// over is halved. Each step ends with Newton steps that turn no face over (minimize_foldover_free), rim vertices
+/// sliding. At the end they minimize sum a_f (K_f + 1 / K_f - 2) = sum a_f 4 |mu_f|^2 / (1 - |mu_f|^2): a_f is a face's
+/// area on the surface, K_f its dilatation (Hormann and Greiner 2000). To the sum are added triangles between each
+/// circle's centre and its rim, with a tenth of the weight of the faces at the rim. So every rim runs round the centre
+/// of its circle.
 /// @param extremal minimizes a high power of this instead, so that the largest |mu| is least
 /// @throws Cancelled
 BendingResult bend_along(const BendingInput& input, const CirclePath& path, bool extremal, ExecutionContext& context);

@@ -13,6 +13,7 @@
 #include "pipeline/map_report.h"
 #include "pipeline/map_warnings.h"
 #include "pipeline/uniformize.h"
+#include "planar/boundary_crossings.h"
 #include "quality/map_clock.h"
 #include "quality/take_verdict.h"
 #include "surface/laplacian.h"
@@ -228,6 +229,19 @@ bool are_same(const std::vector<Circle>& a, const std::vector<Circle>& b, double
     return true;
 }
 
+/// The loops whose polygons have lost half of their share of the circle's area: vertices have gathered on an arc.
+std::vector<Index> gathered_rims(const MapInput& whole, const TemplateStart& start, const CircleMap& map)
+{
+    std::vector<Index> loops;
+    const auto share = [](const VertexLoop& loop, const PlanarPoints& uv, const Circle& circle) {
+        return std::abs(enclosed_area(loop, uv)) / (circle.radius * circle.radius);
+    };
+    for (std::size_t k = 0; k < whole.loops.size(); ++k)
+        if (share(whole.loops[k], map.uv, map.circles[k]) < 0.5 * share(whole.loops[k], start.uv, start.circles[k]))
+            loops.push_back(static_cast<Index>(k));
+    return loops;
+}
+
 /// Turns back faces that are flipped only as stored.
 /// @throws SolverError the map has a fault
 void require_faultless(const MapInput& whole, const std::vector<int>& match, CircleMap& map, ExecutionContext& context)
@@ -324,6 +338,8 @@ private:
         }
         map.circles = goal.circles;
         require_faultless(whole_, start.match, map, context);
+        if (const std::vector<Index> gathered = gathered_rims(whole_, start, map); !gathered.empty())
+            refuse("rims gather on an arc of their circles", template_circles(gathered, start.match));
     }
 
     void report(const TemplateStart& start, bool own, CircleMap& map, ExecutionContext& context)
