@@ -35,7 +35,8 @@ def ball(level):
     corners = [(s * a, t * b, 0.0) for a, b in ((1.0, g),) for s in (1, -1) for t in (1, -1)]
     points = np.array([np.roll(c, k) for c in corners for k in range(3)])
     near = np.linalg.norm(points[:, None] - points[None], axis=2) < 2.1
-    faces = [(a, b, c) for a in range(12) for b in range(a) for c in range(b) if near[a, b] and near[b, c] and near[a, c]]
+    triples = ((a, b, c) for a in range(12) for b in range(a) for c in range(b))
+    faces = [(a, b, c) for a, b, c in triples if near[a, b] and near[b, c] and near[a, c]]
     faces = [f if np.linalg.det(points[list(f)]) > 0 else f[::-1] for f in faces]
     points, faces = points / np.linalg.norm(points[0]), np.array(faces)
     for _ in range(level):
@@ -66,7 +67,8 @@ def atrium(level=4):
         points[loop] = np.cos(radius + edge / 2) * axis + np.sin(radius + edge / 2) * side
         for ring in range(1, max(1, round(length / edge)) + 1):
             rim = points[loop] + edge * axis
-            rim -= 0.3 * edge / ring * (rim - rim.mean(axis=0)) / np.linalg.norm(rim - rim.mean(axis=0), axis=1)[:, None]
+            arm = rim - rim.mean(axis=0)
+            rim -= 0.3 * edge / ring * arm / np.linalg.norm(arm, axis=1)[:, None]
             fresh = len(points) + np.arange(len(loop))
             points = np.concatenate([points, rim])
             after, ahead = np.roll(loop, -1), np.roll(fresh, -1)

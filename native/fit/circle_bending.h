@@ -37,8 +37,8 @@ struct BendingResult {
 /// over is halved. Each step ends with Newton steps that turn no face over (minimize_foldover_free), rim vertices
 /// sliding. At the end they minimize sum a_f (K_f + 1 / K_f - 2) = sum a_f 4 |mu_f|^2 / (1 - |mu_f|^2): a_f is a face's
 /// area on the surface, K_f its dilatation (Hormann and Greiner 2000). To the sum are added triangles between each
-/// circle's centre and its rim, with a tenth of the weight of the faces at the rim. So every rim runs round the centre
-/// of its circle.
+/// circle's centre and its rim, for each rim with the weight of all faces. Without them the vertices of a rim would
+/// gather on an arc, and its polygon would not be round.
 /// @param extremal minimizes a high power of this instead, so that the largest |mu| is least
 /// @throws Cancelled
 BendingResult bend_along(const BendingInput& input, const CirclePath& path, bool extremal, ExecutionContext& context);

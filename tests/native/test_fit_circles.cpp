@@ -5,6 +5,7 @@
 #include "core/errors.h"
 #include "fit/circle_path.h"
 #include "pipeline/uniformize.h"
+#include "planar/boundary_crossings.h"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,8 @@ void expect_kept(const FitResult& result, const std::vector<Circle>& wanted)
     EXPECT_LT(result.of_faces.max, 1.0);
     ASSERT_EQ(result.loops.size(), wanted.size() + 1);
     for (std::size_t k = 0; k < wanted.size(); ++k) {
+        const double area = -enclosed_area(result.loops[k + 1].vertices, result.uv);
+        EXPECT_GT(area, 0.7 * std::numbers::pi * wanted[k].radius * wanted[k].radius);
         EXPECT_EQ(result.loops[k + 1].circle.center, wanted[k].center);
         EXPECT_EQ(result.loops[k + 1].circle.radius, wanted[k].radius);
         for (const Index v : result.loops[k + 1].vertices)

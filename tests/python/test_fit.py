@@ -58,6 +58,14 @@ def test_rims_lie_on_the_circles_and_no_face_turns_over():
     assert areas(stored, PLATE[1]).min() > 0
 
 
+def test_holes_are_round():
+    # Vertices that gather on an arc would close a hole, and its rim would still lie on the circle.
+    for loop, radius in zip(FIT.loops, FIT.radii, strict=True):
+        x, y = FIT.uv[loop].T
+        area = abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
+        assert area > 0.8 * np.pi * radius**2
+
+
 def test_mu_is_that_of_the_map():
     assert np.allclose(FIT.mu, mu_of(*PLATE, FIT.uv), atol=1e-6)
     assert FIT.fit["mu"]["max"] == pytest.approx(FIT.mu.max())
@@ -100,7 +108,7 @@ def test_the_unit_circle_may_come_first():
 
 def test_the_loop_that_is_left_over_is_the_outer_one():
     ranks = FIT.ranks.tolist()
-    inside_out = koebe.fit_circles(PLATE, SPOTS, [0.3, 0.3, 0.3], loops=[ranks[0], *ranks[2:]])
+    inside_out = koebe.fit_circles(PLATE, SPOTS, [0.1, 0.1, 0.1], loops=[ranks[0], *ranks[2:]])
     assert inside_out.flipped == 0 and inside_out.outer_loop == ranks[1]
     assert inside_out.ranks.tolist() == [ranks[1], ranks[0], *ranks[2:]]
 
@@ -123,11 +131,11 @@ def test_fits_to_one_template_correspond():
     field = np.column_stack([finer[0], np.ones(len(finer[0]))])
     again = there.carry(back.carry(field))
     assert np.linalg.norm(again[:, :3] - finer[0], axis=1).mean() < 0.01
-    assert np.allclose(there.points, finer[0], atol=0.1)
+    assert np.linalg.norm(there.points - finer[0], axis=1).mean() < 0.03
 
 
 def test_no_module_but_saved_and_loaded(tmp_path):
-    with pytest.raises(koebe.InputError, match="own"):
+    with pytest.raises(koebe.InputError, match="no conformal module"):
         koebe.conformal_module(FIT)
     FIT.save(tmp_path / "fit.npz")
     again = koebe.load(tmp_path / "fit.npz")
@@ -138,7 +146,7 @@ def test_no_module_but_saved_and_loaded(tmp_path):
 @pytest.mark.parametrize(
     "centers, radii, words",
     [
-        (SPOTS, [0.5, 0.5, 0.1], "meet"),
+        (0.5 * SPOTS, [0.3, 0.3, 0.1], "meet"),
         (SPOTS, [0.6, 0.1, 0.1], "not inside the unit circle"),
         (SPOTS, [0.1, 0.1, 0.0], "radius"),
         (SPOTS[:2], [0.1, 0.1], "2 circles, and the surface has 3 holes"),
@@ -150,12 +158,16 @@ def test_infeasible_templates(centers, radii, words):
         koebe.fit_circles(PLATE, centers, radii)
 
 
-def test_a_template_too_hard_for_the_mesh_is_an_error():
-    # Sixteen vertices on each rim and no vertex between the holes: circles this near cannot have upright faces between.
-    coarse = plate(2)
-    with pytest.raises(koebe.SolverError, match="no one-to-one map to the template") as error:
-        koebe.fit_circles(coarse, [[0, 0], [0.62, 0], [-0.62, 0]], [0.3099, 0.3099, 0.3099])
-    assert error.value.elements
+@pytest.mark.parametrize("gap", [0.1, 0.01, 1e-3, 1e-5])
+def test_hard_templates_have_no_flips_or_are_a_typed_error(gap):
+    # Three circles in a row, on a mesh with few vertices between the holes.
+    radius = (1.0 - 2 * gap) / 3
+    try:
+        fit = koebe.fit_circles(plate(2), [[0, 0], [2 * radius + gap, 0], [-2 * radius - gap, 0]], [radius - gap] * 3)
+    except koebe.SolverError as error:
+        assert "no one-to-one map to the template was found" in str(error)
+    else:
+        assert fit.flipped == 0 and areas(np.float32(0.5 + 0.5 * fit.uv).astype(float), fit.surface[1]).min() > 0
 
 
 def written(tmp_path, template):
@@ -176,7 +188,12 @@ def test_the_command_gives_the_same_map(tmp_path):
     assert run.returncode == 0, run.stderr
     assert "3 circles, |mu|" in run.stdout and "0 flipped" in run.stdout
     made = json.loads(report.read_text())
-    assert made["fit"] == pytest.approx(FIT.fit) and [c.get("name") for c in made["loops"]] == [None, "a", "b", "c"]
+    assert made["fit"]["mu"] == pytest.approx(FIT.fit["mu"]) and [c.get("name") for c in made["loops"]] == [
+        None,
+        "a",
+        "b",
+        "c",
+    ]
     uv = np.array([line.split()[1:] for line in out.read_text().splitlines() if line.startswith("vt")], float)
     assert np.allclose(2 * uv - 1, FIT.uv, atol=1e-7) and svg.read_text().startswith("<")
 

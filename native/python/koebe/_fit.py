@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 
 class Distortion(TypedDict):
-    """|mu| over the faces: mean and l2 (root of the mean square) by area on the surface, max, and the largest dilatation
-    (1 + |mu|) / (1 - |mu|)."""
+    """|mu| over the faces: mean and l2 (root of the mean square) by area on the surface, max, and the largest
+    dilatation (1 + |mu|) / (1 - |mu|)."""
 
     mean: float
     max: float
